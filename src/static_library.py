@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""static_library.py OUTPUT INPUT OBJCOPY -- COMPILER…: a static library of one object, in which the names that the shared library
-hides are local: they clash with no name of a program."""
+"""static_library.py OUTPUT INPUT OBJCOPY -- COMPILER…: makes a static library of one object. Names that the shared library hides are
+local in this object, so they cannot conflict with names of a program."""
 import os
 import subprocess
 import sys

@@ -16,7 +16,7 @@
 #include "settings_file.h"
 #include "settings_json.h"
 
-// Scans a command line for --json and -o -, so that an error while reading it is reported where the user expects it.
+// Scans a command line for --json and -o -, so that an error in the command line is reported where the user expects it.
 static struct options scan_report_options(int count, char **words)
 {
     struct options options = {0};
@@ -98,7 +98,8 @@ static int execute(const struct command *command, int operands, char **words, st
     return code;
 }
 
-// Parses the options, unless the command takes its words verbatim. Returns the number of operands, or −1 and an error.
+// Parses the options, unless the command receives its words verbatim. Returns the number of operands, or −1 and an
+// error.
 static int parse(const struct command *command, int count, char **words, struct options *options, lam_error *error)
 {
     bool help = count && (strcmp(words[0], "-h") == 0 || strcmp(words[0], "--help") == 0);

@@ -78,8 +78,8 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
     return true;
 }
 
-// Gets the given contract or, if no contract is given, the one that contains the shaders' names. `*out` is NULL if
-// there is none. Returns false and fills `error` on failure.
+// Gets the given contract or, if no contract is given, the contract that contains the shaders' names. `*out` is NULL if
+// there is no such contract. Returns false and fills `error` on failure.
 static bool choose_contract(struct run *r, const struct contract **out, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -271,7 +271,7 @@ static void forget_scenes(struct run *r)
     r->drawn = (struct draw_result){0};
 }
 
-// Draws the shaders with an inferred contract, and compares them.
+// Draws with the shaders and an inferred contract, and compares the pictures.
 static bool try_inferred(struct run *r, const struct contract *contract, enum fit_outcome *outcome, char *reason,
                          size_t capacity, lam_error *error)
 {

@@ -13,7 +13,7 @@
 
 // Limits the time of a search to some seconds, with a software driver on one processor (docs/check.md).
 static const uint64_t default_max_pictures = 10000;
-static const double max_dark = 2.0 / 255; // the largest value in a picture that counts as black
+static const double max_dark = 2.0 / 255; // the largest value in a picture that is treated as black
 // the largest remaining share of the difference for which the report lists the found mistakes
 static const double max_left = 0.25;
 
@@ -66,8 +66,8 @@ static uint64_t count_not_numbers(const float *pixels, size_t count)
 
 static float decode(float encoded) { return (float)srgb_linear((double)encoded); }
 
-// Returns whether the shader encodes its colours as sRGB, like shaders of `lambent shader`: its text then contains the
-// constant 12.92 of the encoding. The pictures of such a shader are decoded before they are compared.
+// Returns whether the shader encodes its colours as sRGB, like the shaders that `lambent shader` prints. The source of
+// such a shader contains the constant 12.92 of the encoding. Its pictures are decoded before they are compared.
 static bool is_encoded(const struct run *r)
 {
     return r->interface.contract->printed && declarations_uses(&r->interface.fragment, "12.92");
@@ -158,8 +158,8 @@ static bool is_dark(const struct scene_comparison *scene, const float *picture)
     return true;
 }
 
-// A black picture of a black scene proves nothing. It scores no points if the shader fails in another scene, and a
-// shader with only such scenes gets no verdict.
+// A black picture of a black scene proves nothing. A black scene scores no points if the shader fails in another scene.
+// A shader with only black scenes gets no verdict.
 static bool weigh_darkness(struct run *r, lam_error *error)
 {
     bool lit = false;
@@ -176,8 +176,8 @@ static bool weigh_darkness(struct run *r, lam_error *error)
                 r->interface.contract->name);
 }
 
-// Returns whether a search for faults is useful. It is useless for nearly empty pictures. Scenes with many NaN values
-// are excluded, because NaN counts as black and would look like a fault that darkens.
+// Returns whether a search for faults is useful. A search is useless for nearly empty pictures. Scenes with many NaN
+// values are excluded, because NaN is treated as black and would look like a fault that darkens the picture.
 static bool is_searchable(struct run *r, bool writes)
 {
     double clear = 0;
@@ -224,7 +224,7 @@ static bool accept_styles(struct run *r, struct fault_search *s, bool writes, la
     return true;
 }
 
-// Returns the ids of the other faults with the same pictures, separated by blanks, or NULL if there are none.
+// Returns the ids of the other faults that result in the same pictures, separated by blanks, or NULL if there are none.
 static const char *also_text(struct run *r, const struct found_fault *found)
 {
     char text[200] = "";
@@ -291,7 +291,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         usable += !r->scenes[i].spoilt;
     }
     s.before /= usable;
-    for (int i = 0; i < r->scene_count; i++) // because some scenes show more features than they test
+    for (int i = 0; i < r->scene_count; i++) // because some scenes show other features besides the tested one
         s.needs |=
             (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
             (r->interface.contract->has_attenuation && (r->interface.supports & NEED_POINT) ? NEED_ATTENUATION : 0);

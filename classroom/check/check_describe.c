@@ -1,5 +1,5 @@
 // check_describe.c: describes in one sentence a difference that no known mistake explains, and finds the line of a
-// mistake that only the source text shows.
+// mistake that is visible only in the source.
 #include "check_run.h"
 
 #include <string.h>

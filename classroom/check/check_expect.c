@@ -127,7 +127,7 @@ static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comp
     return ok;
 }
 
-// A possible expectation, given by bits of enum expectation and by numbers.
+// A possible expectation: bits of enum expectation, and the values of numbers.
 struct candidate {
     unsigned expectation;
     struct contract_defaults numbers;
@@ -160,18 +160,18 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
     return true;
 }
 
-// The exercise may use a number instead of a name. If the text does not show which of its numbers is meant, all numbers
+// The exercise may use a number instead of a name. If it is not clear which number in the source is meant, all numbers
 // are tried on the first scene, which shows every term. Stores in `best` the values for which the shader is correct. If
 // no values are correct, the shader contains a mistake, and the closest values prove little. In that case the
-// contract's number is kept if the text contains this number or contains no other number. No number of the text is used
-// twice.
+// contract's number is kept if the source contains this number or contains no other number. No number in the source is
+// used twice.
 enum { MAX_OPEN = 4, MAX_TRIES = 512 };
 static const double same_pictures = 1e-5; // mean difference
 
 struct open_number {
     enum uniform_semantic semantic;
     double values[MAX_NUMBERS][3];
-    int count, own; // 1 + the index of the contract's own value; 0 means the text does not contain it
+    int count, own; // 1 + the index of the contract's own value; 0 means the source does not contain it
 };
 
 // Finds the numbers with an open value, and counts the combinations of values.
@@ -197,8 +197,8 @@ static int find_open(struct shader_interface *interface, struct open_number open
     return tries;
 }
 
-// Returns whether `b` uses the same number of the text as `a`. Both lists are the text's numbers, or its vectors, in
-// order.
+// Returns whether `b` uses the same number in the source as `a`. Both lists contain the source's numbers, or its
+// vectors, in order.
 static bool is_taken(const struct open_number *a, int value_a, const struct open_number *b, int value_b)
 {
     return value_a && value_b && a->count == b->count && value_a == value_b &&
@@ -274,7 +274,7 @@ bool check_draw_references(struct run *r, lam_error *error)
         ok = fit_numbers(r, device, choices, count, &best, error);
         numbers = best.mean < before;
     }
-    if (ok && !best.fits) // because the last combination need not be the best one
+    if (ok && !best.fits) // because the last combination may not be the best combination
         ok = try_candidate(r, device, r->scene_count, &best, error);
     lam_device_free(device);
     render_cache_keep_shader(r->params->cache, r->shader);

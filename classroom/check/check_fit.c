@@ -124,7 +124,7 @@ static bool measure(struct fit *f, int scene_count, struct interpretation *g, la
     return true;
 }
 
-// Measures an interpretation in all scenes, if it fits the first ones.
+// Measures an interpretation in all scenes if the interpretation fits the first scenes.
 static bool try_interpretation(struct fit *f, struct interpretation *g, lam_error *error)
 {
     int first = f->r->scene_count < FIRST_SCENES ? f->r->scene_count : FIRST_SCENES;
@@ -141,8 +141,8 @@ static bool has_bit(const struct fault *row, enum fault_bit bit)
     return false;
 }
 
-// Adds each fault to each interpretation until one explains every scene. `nearest` receives the MAX_NEAREST best
-// combinations.
+// Adds each fault to each interpretation until a combination explains every scene. `nearest` receives the MAX_NEAREST
+// best combinations.
 static bool add_faults(struct fit *f, const struct interpretation *interpretations, int count,
                        struct interpretation nearest[MAX_NEAREST], struct interpretation *best, lam_error *error)
 {
@@ -175,7 +175,7 @@ static bool add_faults(struct fit *f, const struct interpretation *interpretatio
 }
 
 // Finds the first fault that explains every scene with one of the interpretations or, if there is none, two faults. If
-// it finds any, `best` fits.
+// the search is successful, `best` fits.
 static bool find_faults(struct fit *f, const struct interpretation *interpretations, int count,
                         struct interpretation *best, lam_error *error)
 {
@@ -249,7 +249,7 @@ static int by_mean(const void *a, const void *b)
 }
 
 // Lists the interpretations to combine with faults: those that differ from the closest interpretation only in the
-// highlight and its forms. If the text contains reflect(), the highlight is Phong's.
+// highlight and its forms. If the source contains reflect(), it has a Phong highlight.
 static int choose_bases(const struct run *r, struct interpretation *interpretations, int count,
                         const struct interpretation *best)
 {

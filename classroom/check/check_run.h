@@ -24,23 +24,23 @@ struct run {
     double tolerance;
     lam_light_frame frame; // the space of the first light
     lam_reflection reflection;
-    char *vertex;    // the vertex shader, generated if the caller gives none
-    lam_bytes bytes; // the drawing process's message; `drawn` points into it
+    char *vertex;    // the vertex shader, which is generated if the caller provides none
+    lam_bytes bytes; // the drawing process's message, into which `drawn` points
     struct draw_result drawn;
     struct scene_comparison *scenes;
     int scene_count;
     unsigned expectation;        // bits of enum expectation
     float *numbers;              // scratch memory for the samples of a picture
-    struct fault_shader *shader; // draws references that the CPU device cannot compute; NULL if not open
+    struct fault_shader *shader; // draws references that the CPU device cannot compute; NULL before its first use
 };
 
-// Draws the references of `scenes` for the first expectation that the pictures meet or, if they meet none, for the
-// closest expectation.
+// Draws the references of `scenes` for the first expectation that the pictures meet. If the pictures meet no
+// expectation, the closest expectation is used.
 bool check_draw_references(struct run *run, lam_error *error);
 
-// The steps of a comparison. The first makes the scenes of `drawn`. The second gets the share of the compared pixels
-// that are unwritten (or not numbers). The third measures the difference between each scene and its reference, and sets
-// the verdict.
+// The steps of a comparison. check_make_scenes makes the scenes of `drawn`. check_missing_share returns the share of
+// the compared pixels that are unwritten or, with `not_numbers`, NaN or infinite. check_measure measures the difference
+// between each scene and its reference, and sets the verdict.
 bool check_make_scenes(struct run *run, unsigned scenes, lam_error *error);
 double check_missing_share(const struct scene_comparison *scene, bool not_numbers);
 void check_measure(struct run *run, bool writes);

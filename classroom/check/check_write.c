@@ -14,7 +14,7 @@
 #include "json_parse.h"
 #include "prefix.h"
 
-// The advice on correcting an entry of a role. It is "" if only the entry's role can be wrong.
+// The advice on correcting an entry of a role. The advice is "" if only the entry's role can be wrong.
 static const struct {
     const char *role, *correct;
 } corrections[] = {
@@ -124,7 +124,7 @@ static void put_line(struct text *t, int indent, const char *key, const json_t *
     put(t, last ? "\n" : ",\n", last ? 1 : 2);
 }
 
-// Writes an object or a list on several lines, with one member per line.
+// Writes an object or an array on several lines, with one member per line.
 static void put_members(struct text *t, const char *key, const json_t *value, bool last)
 {
     bool list = json_is_array(value);

@@ -1,4 +1,4 @@
-// interpretations.c: lists the possible interpretations of a shader from the words of its text.
+// interpretations.c: lists the possible interpretations of a shader from the words in its source.
 #include "interpretations.h"
 
 #include <ctype.h>
@@ -81,7 +81,7 @@ static float find_factor(const struct declarations *d)
     return 0;
 }
 
-// Finds the numbers of the text that may be the exponent.
+// Finds the numbers in the source that may be the exponent.
 static int find_exponents(const struct run *r, float out[MAX_EXPONENTS])
 {
     const struct declarations *d = r->interface.vertex_lit ? &r->interface.vertex : &r->interface.fragment;
@@ -230,7 +230,8 @@ bool interpretations_allow_fault(const struct fault *row)
            !row->maps;
 }
 
-// Returns whether word `i` calls a function that the text does not define and that the interpretations do not explain.
+// Returns whether word `i` calls a function that the source does not define and that the interpretations do not
+// explain.
 static bool calls_other(const struct declarations *d, int i)
 {
     static const char *const known =
@@ -240,7 +241,7 @@ static bool calls_other(const struct declarations *d, int i)
     char padded[70];
     snprintf(padded, sizeof padded, " %s ", name);
     bool other = word_is_name(name) && word_is(d, i + 1, "(") && !strstr(known, padded);
-    for (int k = 1; k < d->word_count && other; k++) // where a function is defined, its name follows a type
+    for (int k = 1; k < d->word_count && other; k++) // in the definition of a function, the name follows a type
         other = !word_is(d, k, name) || d->words[k].depth > 0 || !isalpha((unsigned char)d->words[k - 1].text[0]);
     return other;
 }

@@ -21,19 +21,19 @@ struct interpretation {
     bool fits;
 };
 
-// Lists all interpretations of a correct shader that the text allows. Returns their number.
+// Lists all interpretations of the source as a correct shader. Returns their number.
 int interpretations_list(const struct run *run, struct interpretation out[MAX_INTERPRETATIONS]);
 
-// Returns whether a fault of the table is visible in such a shader. Faults of colours and strengths are not visible,
-// because they are part of the factors.
+// Returns whether a fault of the table is visible in a shader with its own strengths and colours. Faults of colours and
+// strengths are not visible, because they are part of the factors.
 bool interpretations_allow_fault(const struct fault *row);
 
-// Returns whether a word occurs in one of the texts.
+// Returns whether a word occurs in one of the two sources.
 bool interpretations_use(const struct run *run, const char *word);
 
-// Returns whether the texts use only words of an ambient, a diffuse and a specular term: If so, and no interpretation
-// explains the pictures, the shader is wrong. Steps, cones, distances, rims and similar features may be correct, but
-// the check does not understand them.
+// Returns whether the sources contain only words that occur in an ambient, a diffuse or a specular term. If so, and if
+// no interpretation explains the pictures, the shader is wrong. Steps, cones, distances, rims and similar features may
+// be correct, but the check does not understand them.
 bool interpretations_are_plain(const struct run *run);
 
 #endif

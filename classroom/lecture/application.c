@@ -1,5 +1,5 @@
-// application.c: makes the application stage in the lecture style: a C function that lights a vertex. The text comes
-// from application.c.in, with the scene's own lights, materials and matrices.
+// application.c: makes the application stage in the lecture style: a C function that lights a vertex. The function's
+// source comes from application.c.in, and contains the scene's own lights, materials and matrices.
 #include "lecture.h"
 
 #include "application.inc"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- functions that the text calls
+// --- functions that the source calls
 
 static const struct helper {
     const char *name, *text;
@@ -62,7 +62,7 @@ static void add_helpers(struct text *text, const char *body)
             text_add(text, helpers[i].text);
 }
 
-// --- numbers of the scene
+// --- values of the scene
 
 // Appends a number with the fewest digits from which a program reads the same float.
 static void add_number(struct text *text, float value)
@@ -180,7 +180,7 @@ static void add_draws(struct text *text, const struct frame *frame, const struct
     text_add(text, "};\n");
 }
 
-// --- the complete text
+// --- the complete source
 
 static void add_body(struct text *text, const struct glsl_facts *f, bool origin)
 {

@@ -1,6 +1,6 @@
-// lecture.h: makes shaders in the lecture style. Their code is simple, with at most about forty lines per stage, and
-// uses the names of lectures (N, L, V, R, H, T, ka, kd, ks). Uniforms and pictures are the same as in the full style.
-// The application stage is a C function. Known mistakes are edits of these shaders.
+// lecture.h: makes shaders in the lecture style. The code of these shaders is simple, with at most about forty lines
+// per stage, and uses the names of lectures (N, L, V, R, H, T, ka, kd, ks). Uniforms and pictures are the same as in
+// the full style. The application stage is a C function. Known mistakes are edits of these shaders.
 #ifndef LECTURE_H
 #define LECTURE_H
 
@@ -20,20 +20,20 @@ bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *
 char *lecture_application(const struct glsl_choices *choices, const struct frame *frame, const int *order,
                           const struct frame_draw_range *const *ranges, int count, lam_error *error);
 
-// --- parts of the text that GLSL and C share (lecture.c)
+// --- parts of the source that GLSL and C share (lecture.c)
 
-// Adds the flags that both texts use: the flags of every shader (known_facts), and the conditions on lines of the
+// Adds the flags that both sources use: the flags of every shader (known_facts), and the conditions on lines of the
 // lecture style.
 void lecture_add_flags(struct known_table *table, const struct glsl_facts *facts);
 // Appends the vector from the point to light i: `against` for directional lights, `towards` for the others.
 void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);
-// Appends the lines that set `spot`, the factor of a spotlight's cone, of the type `number`.
+// Appends the lines that set `spot`, the factor of a spotlight's cone, with the type `number`.
 void lecture_add_spots(struct text *text, const struct glsl_choices *choices, const char *number);
 
 // --- mistakes
 
-// Introduces the mistake choices->mistake into one of the texts. On success, all texts are freed and replaced by
-// copies. Returns false on failure: LAM_UNSUPPORTED if the mistake requires a feature that the texts lack, or
+// Introduces the mistake choices->mistake into one of the sources `texts`. On success, all sources are freed and
+// replaced by copies. Fails with LAM_UNSUPPORTED if the mistake requires a feature that the sources lack, or with
 // LAM_LIMIT.
 bool mistake_apply(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 

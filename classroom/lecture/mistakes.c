@@ -27,7 +27,7 @@ struct edit {
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];
-    const char *contains; // a text that the shader must contain, or NULL
+    const char *contains; // a string that the shader must contain, or NULL
     enum { ANY_LIGHTS, ONE_LIGHT, MORE_LIGHTS } lights;
 };
 
@@ -51,7 +51,7 @@ struct mistake {
 
 #define EDIT(before, after)   .edits[0] = {before, after}
 #define EDIT_2(before, after) .edits[1] = {before, after}
-// A mistake's first form, and its other forms. The edits come last, with members by name.
+// A mistake's first form, and its other forms. The last arguments are the edits, as designated initializers.
 #define MISTAKE(id, looks, needs, ...) {id, looks, needs, __VA_ARGS__}
 #define FORM(id, ...)                  {id, NULL, NULL, __VA_ARGS__}
 
@@ -243,7 +243,7 @@ int mistake_find(const char *id)
     return 0;
 }
 
-// Returns the row after the rows with the same id.
+// Returns the first row after `row` that has a different id.
 static int next_id(int row)
 {
     const char *id = mistakes[row].id;
@@ -314,7 +314,7 @@ static void free_texts(char **texts, int count)
         free(texts[i]);
 }
 
-// Applies one form to copies of the texts.
+// Applies one form to copies of the sources.
 static enum outcome apply_row(const struct mistake *m, int lights, char *const *texts, int count, char **out)
 {
     enum outcome outcome = APPLIED;

@@ -1,7 +1,7 @@
 // lambent/base.h: errors, control of long calls, small vectors, and the rules of the whole interface.
 //
-// C11; includes cleanly in C++17. Every call works on any thread with 256 kB of stack. The library prints nothing,
-// never exits, and keeps no global state.
+// The headers are C11, and C++17 programs can include them too. Every call works on any thread with 256 kB of stack.
+// The library prints nothing, never exits, and keeps no global state.
 //
 // Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. Names end with their unit:
 // _rad, _deg, _ms, _s, _px, _bytes. Lengths without a unit are in model units.
@@ -15,10 +15,10 @@
 //
 // Growth: a struct that may grow ends in LAM_RESERVED(n), n words of 8 bytes that must be zero. A later version
 // replaces some of these words with new fields. For each new field, zero means the default or "absent". Therefore the
-// size of a struct, the stride of an array of them, and the offset of each field never change within one soname: a
-// program works with both older and newer versions of the library. A call that takes a struct of parameters with a
-// reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled against a newer header and sets
-// a field that this library does not know. Structs without LAM_RESERVED never change.
+// size of a struct, the stride of an array of such structs, and the offset of each field never change within one
+// soname: a program works with both older and newer versions of the library. A call that takes a struct of parameters
+// with a reserved word that is not zero fails with LAM_BAD_ARGUMENT: the program was compiled against a newer header
+// and sets a field that this library does not know. Structs without LAM_RESERVED never change.
 #ifndef LAMBENT_BASE_H
 #define LAMBENT_BASE_H
 
@@ -75,7 +75,7 @@ typedef struct lam_cancel {
     int raised; // nonzero: raised
 } lam_cancel;
 
-// Raise and clear the flag. Both are safe from any thread and in a signal handler.
+// These functions raise and clear the flag. Any thread and any signal handler may call them.
 LAM_API void lam_cancel_raise(lam_cancel *cancel);
 LAM_API void lam_cancel_clear(lam_cancel *cancel);
 
@@ -113,7 +113,7 @@ typedef struct lam_control {
     // The largest number of bytes that the call may use at once. A call that needs more fails with LAM_LIMIT. 0: no
     // limit.
     uint64_t memory_limit_bytes;
-    // Called repeatedly, in the calling thread, with the fraction done, 0..1, and the name of the step ("read",
+    // Called repeatedly, on the calling thread, with the fraction done, 0..1, and the name of the step ("read",
     // "normals", "frame"). The function must not use the same device or scene. NULL: none.
     void (*progress)(void *user, double share, const char *step);
     void *user; // passed to `progress`
@@ -165,7 +165,7 @@ typedef struct lam_rgba {
 typedef enum lam_color_mode {
     // The library decodes the colours of files to linear light, and encodes 8-bit pictures.
     LAM_COLOR_SRGB = 0,
-    // No conversion: a picture stores the numbers of the equations.
+    // No conversion: a picture stores the values that the equations give.
     LAM_COLOR_RAW,
 } lam_color_mode;
 

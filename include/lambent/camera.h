@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-// A camera, right-handed: unrotated it looks along −z with +y up.
+// A camera, right-handed: without a rotation, it looks along −z with +y up.
 typedef struct lam_camera {
     lam_vec3 eye;    // position, world space
     lam_vec3 target; // a point in the middle of the picture, other than `eye`
@@ -76,14 +76,14 @@ LAM_API const char *lam_side_name(lam_side side);
 // Returns the side with this name, or LAM_SIDE_COUNT if there is none.
 LAM_API lam_side lam_side_find(const char *name);
 
-// Returns the view of a side, in perspective. Out of range: the three-quarter view.
+// Returns the view of a side, in perspective. If `side` is out of range, returns the three-quarter view.
 LAM_API lam_view lam_view_of_side(lam_side side);
 
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height
-// pixels and are centred in it. A camera fitted for one aspect ratio crops or shrinks the model in another. The view is
-// relative to the scene's up axis. A width or height below 1 counts as 1. `view` NULL: the three-quarter view. A scene
-// without triangles gets the default camera. If a view sets a field that this version does not know, the result is a
-// camera that every call rejects (base.h, "Growth").
+// pixels and are centred in it. A camera fitted for one aspect ratio crops or shrinks the model at another aspect
+// ratio. The view is relative to the scene's up axis. A width or height below 1 counts as 1. If `view` is NULL, the
+// three-quarter view is used. A scene without triangles gets the default camera. If a view sets a field that this
+// version does not know, the result is a camera that every call rejects (base.h, "Growth").
 LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
 
 // Fits one camera for all angles of a scene that rotates about an axis through `centre` (lam_scene_rotate), so that the
@@ -118,12 +118,12 @@ LAM_API lam_orbit lam_orbit_of(const lam_camera *camera, const lam_scene *scene)
 LAM_API lam_camera lam_orbit_camera(const lam_orbit *orbit);
 
 // Rotates the eye about the target to the right and up, by angles in radians. The elevation stops at −π/2 and π/2. To
-// turn the model with the mouse, a drag by dx, dy pixels (dy down) in a picture of `height` pixels is about −π dx /
-// height to the right and π dy / height up. Numbers that are not finite are ignored, here and below.
+// turn the model with the mouse, convert a drag by dx, dy pixels (dy down) in a picture of `height` pixels to about −π
+// dx / height to the right and π dy / height up. Numbers that are not finite are ignored, here and below.
 LAM_API void lam_orbit_turn(lam_orbit *orbit, double right_rad, double up_rad);
 
 // Moves eye and target in the plane of the picture, in heights of the picture at the target's distance: a drag by dx,
-// dy pixels is −dx / height to the right and dy / height up.
+// dy pixels corresponds to −dx / height to the right and dy / height up.
 LAM_API void lam_orbit_pan(lam_orbit *orbit, double right, double up);
 
 // Shows the target `factor` times as large: moves the eye closer, or narrows the view of an orthographic camera.
@@ -136,8 +136,8 @@ LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 //   up=x/y/z      default: the scene's up axis
 //   fovy=degrees  default: 30; or ortho=height, half the height of an orthographic view in model units
 //   near=d,far=d  default: fitted to the scene
-// such as "eye=2/1/4,fovy=40". `scene` NULL: target at the origin, y up. At most 1023 bytes. Fails with
-// LAM_BAD_ARGUMENT; the error states what was found and what was expected.
+// such as "eye=2/1/4,fovy=40". If `scene` is NULL, the target is the origin and y is up. The text has at most 1023
+// bytes. Fails with LAM_BAD_ARGUMENT; the error states what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
 // Returns the key of lam_camera_parse with this index (from 0), or NULL if the index is out of range.

@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-// An open font. Only one thread at a time may use it.
+// An open font. Only one thread at a time may use a font.
 typedef struct lam_font lam_font;
 
 // Opens a font file: TrueType, OpenType or any other format of FreeType. If `path` is NULL, opens the file that the

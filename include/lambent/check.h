@@ -1,6 +1,6 @@
 // lambent/check.h: checks the lighting of GLSL shaders. A check draws reference scenes with the shaders under test,
-// compares the pictures with the CPU device's, and names the known mistakes that explain a difference. For teachers and
-// students: docs/check.md.
+// compares the pictures with the pictures of the CPU device, and names the known mistakes that explain a difference.
+// For teachers and students: docs/check.md.
 //
 // These functions are in a separate library, liblambent-check (pkg-config lambent-check), which uses liblambent.
 #ifndef LAMBENT_CHECK_H
@@ -21,12 +21,12 @@ LAM_API const char *lam_check_contract_shipped(int index);
 // Returns the file of a built-in contract by its name. Returns NULL if there is none.
 LAM_API const char *lam_check_contract_text(const char *name);
 
-// Reads a contract. `file`: its name, for messages, or NULL if there is none. The caller frees the contract. Fails with
-// LAM_CANNOT_READ, with the position of the error, or LAM_LIMIT.
+// Reads a contract. `file` is the contract's file name, for messages, or NULL if there is none. The caller frees the
+// contract. Fails with LAM_CANNOT_READ, with the position of the error, or LAM_LIMIT.
 LAM_API lam_check_contract *lam_check_contract_read(const char *text, size_t size, const char *file, lam_error *error);
 LAM_API void lam_check_contract_free(lam_check_contract *contract); // NULL is allowed
 
-// Return the contract's name and its one-line title. Both strings belong to the contract.
+// These functions return the contract's name and its one-line title. Both strings belong to the contract.
 LAM_API const char *lam_check_contract_name(const lam_check_contract *contract);
 LAM_API const char *lam_check_contract_title(const lam_check_contract *contract);
 
@@ -60,22 +60,24 @@ typedef struct lam_check_role {
 // Gets row `row` of the roles, counted from 0. Returns false past the last one.
 LAM_API bool lam_check_role_row(int row, lam_check_role *role);
 
-// Return the id of a known mistake ("no-gate") and a sentence about the mistake. Return NULL past the last one.
+// These functions return the id of a known mistake ("no-gate") and a sentence about the mistake. They return NULL past
+// the last one.
 LAM_API const char *lam_check_mistake(int index);
 LAM_API const char *lam_check_mistake_explanation(int index);
 
-// Return the name of a reference scene, and the property that the scene tests. Return NULL past the last one.
+// These functions return the name of a reference scene, and the property that the scene tests. They return NULL past
+// the last one.
 LAM_API const char *lam_check_scene_name(int index);
 LAM_API const char *lam_check_scene_description(int index);
 
-// Draws a request made by lam_check_run. The call compiles and runs the shaders under test, which may crash the driver
-// or loop forever. Therefore, make this call in a separate process, and stop that process at a deadline. The caller
-// frees `result`. `gl_device`: as lam_gl_params.device; NULL: the first usable one. LAM_UNSUPPORTED: no OpenGL. A
-// shader that does not compile is not an error: the result records it.
+// Draws the pictures of a request from lam_check_run. The call compiles and runs the shaders under test, which may
+// crash the driver or loop forever. Therefore, make this call in a separate process, and stop that process at a
+// deadline. The caller frees `result`. `gl_device`: as lam_gl_params.device; NULL: the first usable one. Fails with
+// LAM_UNSUPPORTED if OpenGL is missing. A shader that does not compile is not an error: the result records it.
 LAM_API bool lam_check_draw(const void *request, size_t size, const char *gl_device, lam_bytes *result,
                             lam_error *error);
 
-// How a process that calls lam_check_draw ended.
+// The result of a process that calls lam_check_draw.
 typedef enum lam_check_draw_status {
     LAM_CHECK_DRAW_DONE = 0, // `result` contains the bytes from lam_check_draw
     LAM_CHECK_DRAW_FAILED,   // `error` says why
@@ -131,16 +133,16 @@ typedef struct lam_check_program {
     void *program;                         // NULL: the program does not compile or link
     lam_check_input *inputs;               // the inputs that the shaders read
     int input_count;                       // of `inputs`
-    bool refused_vertex, refused_fragment; // which of the shaders do not compile
-    char vertex_log[4096];                 // the compiler's messages; ""
+    bool refused_vertex, refused_fragment; // whether each shader failed to compile
+    char vertex_log[4096];                 // the compiler's messages; "" if there are none
     char fragment_log[4096];               // the same for the fragment shader
     char link_log[4096];                   // the linker's messages
     LAM_RESERVED(4);
 } lam_check_program;
 
-// Values of a uniform: `count` elements from `first` on. Each element has as many floats as its type has components,
-// matrices by columns. Integers and flags are given as whole numbers. A sampler gets the RGBA colour of a uniformly
-// coloured texture.
+// Values of a uniform: `count` elements from `first` on. Each element has as many floats as its type has components.
+// Matrices are in column-major order. Integers and flags are given as whole numbers. The value of a sampler is the RGBA
+// colour of a uniformly coloured texture.
 typedef struct lam_check_value {
     int input;            // index in `inputs`
     int first;            // index of the first element
@@ -185,9 +187,9 @@ typedef struct lam_check_drawing {
     int position, normal, tangent;
     const lam_check_value *values; // values of uniforms
     int value_count;               // of `values`
-    lam_check_cull cull;           // triangles that are left out
-    // For LAM_CHECK_LANGUAGE_COMPATIBILITY: gl_ModelViewMatrix and gl_ProjectionMatrix, by columns. If `position` or
-    // `normal` is -1, gl_Vertex or gl_Normal gets the values of the mesh.
+    lam_check_cull cull;           // triangles that are culled
+    // For LAM_CHECK_LANGUAGE_COMPATIBILITY: gl_ModelViewMatrix and gl_ProjectionMatrix, in column-major order. If
+    // `position` or `normal` is -1, gl_Vertex or gl_Normal gets the values of the mesh.
     float model_view[16], projection[16];
     const lam_check_stream *streams; // values of further attributes
     uint64_t stream_count;           // of `streams`
@@ -198,8 +200,8 @@ typedef struct lam_check_drawing {
 // in nested order.
 typedef struct lam_check_painter {
     void *user; // passed to `open`
-    // Makes a context for pictures of size² pixels and for programs in a language. `renderer` gets the name of the
-    // renderer. NULL: the call failed, and `error` is filled.
+    // Makes a context for pictures of size² pixels and for programs in this language. `renderer` receives the name of
+    // the renderer. NULL: the call failed, and `error` is filled.
     void *(*open)(void *user, lam_check_language language, int size, char renderer[128], lam_error *error);
     void (*close)(void *place); // frees the context, after `forget` for each of its programs
     // The caller can cache contexts: a context is put to rest after a check and woken for the next check, perhaps on
@@ -216,9 +218,9 @@ typedef struct lam_check_painter {
     // Draws to size² RGBA pixels, rows top-down. The pixels are floats as the program wrote them. If the device has no
     // float targets, they are bytes / 255; colours are then clamped, and NaN is not found.
     bool (*draw)(void *place, const lam_check_drawing *drawing, float *pixels, lam_error *error);
-    // The painter compiles only GLSL ES. The check translates desktop GLSL to it, line by line, as far as the two
-    // languages agree (docs/check.md). Pixels are not compared where the surface normal changes by more than 26 degrees
-    // to the next pixel, because such GPUs may round corners to 1/16 of a pixel.
+    // true: the painter compiles only GLSL ES. The check then translates desktop GLSL to GLSL ES, line by line, as far
+    // as the two languages agree (docs/check.md). Pixels are not compared where the surface normal changes by more than
+    // 26 degrees to the next pixel, because such GPUs may round corners to 1/16 of a pixel.
     bool es_only;
     LAM_RESERVED(4);
 } lam_check_painter;
@@ -244,7 +246,7 @@ typedef enum lam_check_term {
 typedef struct lam_check_params {
     const char *fragment;      // GLSL; required
     const char *fragment_name; // the file's name, for messages
-    // NULL: a correct vertex shader is generated that writes the inputs of the fragment shader.
+    // NULL: the check generates a correct vertex shader that writes the inputs of the fragment shader.
     const char *vertex;
     const char *vertex_name; // as fragment_name
     // The names that the shaders use. NULL: the built-in contract that fits their names.
@@ -282,7 +284,7 @@ typedef enum lam_check_verdict {
     LAM_CHECK_PASSES = 0, // every scene matches the reference
     LAM_CHECK_DIFFERS,    // at least one scene differs
     LAM_CHECK_REFUSED,    // a shader does not compile or link
-    LAM_CHECK_ENDLESS,    // drawing exceeded its time
+    LAM_CHECK_ENDLESS,    // drawing exceeded its time limit
     LAM_CHECK_CRASHES,    // drawing crashed the driver
     LAM_CHECK_NOT_NUMBER, // NaN or infinity in a picture
     LAM_CHECK_MEMORY,     // drawing exceeded its memory limit
@@ -313,7 +315,7 @@ typedef struct lam_check_finding {
     const char *mistake;     // the mistake's id
     const char *explanation; // one sentence
     char *correction;        // code to write instead, in the shader's own names
-    // This mistake and those before it explain every picture within the tolerance.
+    // This mistake and the findings before it explain every picture within the tolerance.
     bool certain;
     // Mean difference over all scenes without and with the mistake.
     double mean_before, mean_after;
@@ -327,14 +329,14 @@ typedef struct lam_check_finding {
 // The origin of a message.
 typedef enum lam_check_diagnostic_kind {
     LAM_CHECK_DIAGNOSTIC_COMPILER, // a message of the driver's compiler
-    LAM_CHECK_DIAGNOSTIC_HINT,     // an explanation of such a message, or something unusual
+    LAM_CHECK_DIAGNOSTIC_HINT,     // an explanation of such a message, or a remark
     LAM_CHECK_DIAGNOSTIC_UNKNOWN,  // a name that is missing in the contract
 } lam_check_diagnostic_kind;
 
 // A message about a shader.
 typedef struct lam_check_diagnostic {
     lam_check_diagnostic_kind kind; // its origin
-    const char *file;               // as given in lam_check_params; NULL: both or none
+    const char *file;               // as given in lam_check_params; NULL: both files or none
     int line;                       // 0: unknown
     char *text;                     // one sentence
     LAM_RESERVED(4);

@@ -27,7 +27,7 @@ typedef enum lam_cube_face {
 } lam_cube_face;
 
 // Makes an environment of six square pictures of one size, up to 8192 pixels on a side, which are copied. Each face
-// follows OpenGL's table of cube maps, its first row at t = 0. Seen from inside with y up, the four side faces are
+// follows OpenGL's table of cube maps, with its first row at t = 0. Seen from inside with y up, the four side faces are
 // upright and mirrored left to right.
 //
 // LAM_RGBA8 is decoded from sRGB, or used unchanged with LAM_COLOR_RAW; LAM_RGBA32F is linear. Transparent pixels are

@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-// The response of a physical material's layers to light 1 from one direction (docs/lighting/layers.md):
+// The response of a physical material's layers to light of strength 1 from one direction (docs/lighting/layers.md):
 //     D                     = (1 − share) sheen_left base_diffuse
 //     specular_term ÷ light = (1 − share) (sheen_left base + sheen) + coat
 // with the coat's share of lam_explained_layers.
@@ -152,13 +152,13 @@ typedef struct lam_explained_point {
     float environment_level;                   // prefiltered: 0 (a mirror) to 11 (roughness 1)
     float environment_scale, environment_bias; // of the split sum
     lam_rgb irradiance, prefiltered;           // incoming light, linear
-    lam_rgb environment_diffuse;               // its part of the diffuse term, with `reference` too
+    lam_rgb environment_diffuse;               // its part of the diffuse term, also with `reference`
     // The share of surrounding light that ambient occlusion lets through. It multiplies the ambient term and the
     // environment's light on physical materials; 1 without occlusion.
     float unoccluded;
     // The layers of a physical material; NULL: the material has none.
     const lam_explained_layers *layers;
-    // The environment's light in the specular term, with `reference` too; linear.
+    // The environment's light in the specular term, also with `reference`; linear.
     lam_rgb environment_specular;
     LAM_RESERVED(5);
 } lam_explained_point;
@@ -227,7 +227,7 @@ typedef struct lam_explained_matrices {
 
 // A triangle that is visible in the pixel.
 typedef struct lam_explained_fragment {
-    // Indices in the scene; `part` is −1 for a mesh without parts, and all three for the ground.
+    // Indices in the scene; `part` is −1 for a mesh without parts. For the ground, all three are −1.
     int object, mesh, part;
     // Their names; NULL: unnamed.
     const char *object_name, *mesh_name, *part_name;
@@ -253,8 +253,8 @@ typedef struct lam_explained_fragment {
     float transmittance[16];
     // Σ transmittance / samples of a pixel: the fragment's share of the pixel.
     float weight;
-    // The kind of primitive: 3 for triangles; 2 for lines and 1 for points, each drawn as two triangles, whose corners
-    // have the weights.
+    // The kind of primitive: 3 for triangles, 2 for lines, 1 for points. Lines and points are drawn as triangles; the
+    // weights then refer to the corners of such a triangle.
     int corners;
     // The maps that were used, in the order of the lookups.
     const lam_explained_map *maps;
@@ -292,8 +292,8 @@ typedef struct lam_explanation {
     bool distant_viewer;       // v = (0, 0, 1) for every point
     bool gl1;                  // as in lam_draw_params
     bool has_environment;      // whether the scene has an environment
-    // The triangles that the pixel shows, in the order of the nearest sample that shows them; translucent ones first,
-    // by depth.
+    // The triangles that the pixel shows, in the order of the nearest sample that shows them; translucent triangles
+    // first, by depth.
     const lam_explained_fragment *fragments;
     int fragment_count; // 0: only the background
 

@@ -37,8 +37,8 @@ LAM_API lam_export *lam_scene_export(const lam_scene *scene, const char *format,
                                      lam_error *error);
 LAM_API void lam_export_free(lam_export *result); // NULL is allowed
 
-// Return the name and the contents of the file with this index (from 0): first the model, then further files. The name
-// is NULL if the index is out of range. Both are valid until the result is freed.
+// These functions return the name and the contents of the file with this index (from 0): first the model, then further
+// files. The name is NULL if the index is out of range. Both are valid until the result is freed.
 LAM_API const char *lam_export_file_name(const lam_export *result, int index);
 LAM_API lam_bytes lam_export_file(const lam_export *result, int index);
 

@@ -48,7 +48,7 @@ typedef struct lam_gl_params {
     // cannot contain the mistake. NULL: none.
     const char *mistake;
     // The graphics card filters textures, with 8-bit texels if the picture has 8 bits. Drawing is then faster, but the
-    // picture may differ from the CPU device's picture by some hundredths of the range (docs/opengl.md). By default,
+    // picture may differ from the CPU device's picture by a few hundredths of the range (docs/opengl.md). By default,
     // the shader filters textures, as the CPU device does.
     bool hardware_filter;
     LAM_RESERVED(5);
@@ -68,14 +68,14 @@ typedef struct lam_gl_device {
     char path[64];     // EGL's name for it: "/dev/dri/card0", "software"
     char versions[64]; // supported versions: "OpenGL 3.3, OpenGL ES 3.0"
     bool software;     // whether the processor does the work
-    bool usable;       // whether it has at least one of the versions
+    bool usable;       // whether it supports at least one of the versions
     char reason[192];  // one sentence: the reason if it is not usable
     LAM_RESERVED(8);
 } lam_gl_device;
 
-// Finds the devices by starting each, which takes between a few and a few hundred milliseconds. Writes the first
-// `capacity` of them, hardware first, and returns the number of devices; −1 and LAM_UNSUPPORTED if OpenGL cannot be
-// loaded. `params` may be NULL; only its `library` is used.
+// Finds the devices by starting each of them. Starting a device can take from a few to a few hundred milliseconds.
+// Writes the first `capacity` of them, hardware first, and returns the number of devices; −1 and LAM_UNSUPPORTED if
+// OpenGL cannot be loaded. `params` may be NULL; only its `library` is used.
 LAM_API int lam_gl_devices(const lam_gl_params *params, lam_gl_device *devices, int capacity, lam_error *error);
 
 #ifdef __cplusplus

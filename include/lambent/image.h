@@ -49,7 +49,7 @@ LAM_API void lam_image_free(lam_image *image);
 
 // The compression of PNG files. The pixels are identical.
 typedef enum lam_compress {
-    // The default: some milliseconds for a million pixels. The bytes depend only on the picture.
+    // The default: a few milliseconds for a million pixels. The bytes depend only on the picture.
     LAM_COMPRESS_FAST,
     // About a third smaller and a hundred times slower than FAST. Uses libdeflate, which is loaded on demand
     // (LAM_UNSUPPORTED if it is not installed); the bytes depend on its version.
@@ -62,7 +62,7 @@ typedef struct lam_save_params {
     const lam_control *control;
     // Formats without alpha (PPM, JPEG) store the picture over this linear colour. Default: black.
     lam_rgb background;
-    // Number of threads that encode; 0: one for each processor. The bytes do not depend on it.
+    // Number of threads that encode; 0: one for each processor. The bytes do not depend on this number.
     int threads;
     // The numbers are not sRGB-encoded: PNG gets no sRGB chunk, and PPM and JPEG are composited without conversion.
     bool raw;
@@ -94,7 +94,7 @@ LAM_API bool lam_bytes_save_durably(const lam_bytes *bytes, const char *path, la
 // linear, bottom row first) or "exr" (from floats; 32 bits). "webp" and "exr" fail with LAM_UNSUPPORTED if libwebp or
 // OpenEXR is missing. The same picture always gives the same bytes; for "jpg", "webp" and "exr" they depend on the
 // version of the library. WebP allows at most 16383 pixels on a side (LAM_LIMIT). `params` may be NULL. Errors:
-// LAM_BAD_ARGUMENT (an 8-bit picture for a float format, or the reverse), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
+// LAM_BAD_ARGUMENT (an 8-bit picture for a float format, or vice versa), LAM_UNSUPPORTED (no such format), LAM_LIMIT.
 LAM_API bool lam_image_encode(const lam_image *image, const char *format, const lam_save_params *params, lam_bytes *out,
                               lam_error *error);
 
@@ -123,9 +123,10 @@ LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const cha
 // .webp. Another extension fails with LAM_UNSUPPORTED and a list of the writable formats.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Describe the picture format with this index (from 0): the name, which is also an extension ("png"); a second
-// extension, or NULL; and one line about the stored numbers ("8 bits, sRGB, with alpha"), or NULL if the format is only
-// read. Every format can be read. The strings are static. Return NULL if the index is out of range.
+// These functions describe the picture format with this index (from 0): the name, which is also an extension ("png"); a
+// second extension, or NULL; and one line about the stored numbers ("8 bits, sRGB, with alpha"), or NULL if the format
+// is only read. Every format can be read. The strings are static. The functions return NULL if the index is out of
+// range.
 LAM_API const char *lam_image_format_name(int format);
 LAM_API const char *lam_image_format_alias(int format);
 LAM_API const char *lam_image_format_written(int format);
@@ -141,7 +142,7 @@ LAM_API bool lam_image_load(lam_image *image, const char *path, const lam_contro
 
 // Reads a picture of any of these formats into LAM_RGBA32F, linear and premultiplied. PNG (all 16 bits if present),
 // JPEG, WebP, BMP, TGA and PPM are decoded from sRGB, or used unchanged, 0…1, with LAM_COLOR_RAW; PFM, EXR and Radiance
-// are already linear. In all other respects it works like lam_image_load.
+// are already linear. In all other respects the call works like lam_image_load.
 LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color_mode color, const lam_control *control,
                                    lam_error *error);
 
@@ -151,9 +152,9 @@ LAM_API bool lam_image_load_linear(lam_image *image, const char *path, lam_color
 // the file is read.
 LAM_API bool lam_image_is_from_lambent(const char *path);
 
-// The difference of two pictures of the same size and format, over red, green, blue and alpha (alpha is 1 in formats
-// without alpha). Differences are fractions of the full range (255 steps of a byte). The difference between a number
-// and NaN or infinity is infinite.
+// The difference between two pictures of the same size and format, over red, green, blue and alpha (alpha is 1 in
+// formats without alpha). Differences are fractions of the full range (255 steps of a byte). The difference between a
+// number and NaN or infinity is infinite.
 typedef struct lam_difference {
     // The largest, mean and root mean square difference of a channel.
     double maximum, mean, rmse;
@@ -164,14 +165,14 @@ typedef struct lam_difference {
     LAM_RESERVED(8);
 } lam_difference;
 
-// Measures the difference of two pictures. Fails with LAM_BAD_ARGUMENT if sizes or formats differ.
+// Measures the difference between two pictures. Fails with LAM_BAD_ARGUMENT if sizes or formats differ.
 LAM_API bool lam_image_compare(const lam_image *a, const lam_image *b, lam_difference *difference, lam_error *error);
 
-// Draws the differences of two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour channel is
-// `gain` times the larger of its own difference and alpha's difference, and alpha is 1. Black means equal. Bytes are
+// Draws the differences between two pictures of the same size and format, LAM_RGBA8 or LAM_RGBA32F: each colour channel
+// is `gain` times the larger of its own difference and alpha's difference, and alpha is 1. Black means equal. Bytes are
 // clamped at 255; floats are not clamped, and are infinite if lam_image_compare finds an infinite difference. `gain` is
-// finite and ≥ 0. The call makes `difference` without freeing its old contents; the caller frees it. A PNG of it stores
-// raw numbers (lam_save_params). Errors: LAM_BAD_ARGUMENT, LAM_LIMIT.
+// finite and ≥ 0. The call makes `difference` without freeing its old contents; the caller frees it. A PNG file of
+// `difference` stores raw numbers (lam_save_params). Errors: LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_image_difference(const lam_image *a, const lam_image *b, float gain, lam_image *difference,
                                   lam_error *error);
 

@@ -46,8 +46,8 @@ typedef enum lam_light_frame {
 
 // Attenuation with the distance d from the lit point to the light, in model units:
 //  1 / (constant + linear·d + quadratic·d²)
-// All three are ≥ 0. If all are zero, they mean 1, 0, 0. The numbers 0, 0, 1 give the inverse square law. If the sum is
-// 0, the light's terms are 0.
+// All three are ≥ 0. If all are zero, the default 1, 0, 0 applies. The numbers 0, 0, 1 give the inverse square law. If
+// the sum is 0, the light's terms are 0.
 typedef struct lam_attenuation {
     float constant, linear, quadratic;
 } lam_attenuation;
@@ -62,7 +62,8 @@ typedef struct lam_light {
     lam_vec3 position; // point, spot
     // Directional, spot: the direction of travel of the light, of any nonzero length.
     lam_vec3 direction;
-    // La, for all types but hemisphere. Neither attenuation nor the cone dims it, except with lam_draw_params.gl1.
+    // La, for all types except hemisphere. Neither attenuation nor the cone dims this colour, except with
+    // lam_draw_params.gl1.
     lam_rgb ambient;
     lam_rgb diffuse;             // Ld: point, directional, spot
     lam_rgb specular;            // Ls: point, directional, spot
@@ -116,8 +117,8 @@ typedef enum lam_rig {
     // models, occlusion applies in full to the key light.
     LAM_RIG_STUDIO,
     LAM_RIG_HEADLIGHT, // one directional light from the eye
-    // Key, fill and back light of a portrait, directional, fixed to the camera: diffuse and specular 0.8 from
-    // (−1, 1, 1), 0.4 from (1, 0.25, 1), 0.6 from (0.5, 1, −1); ambient 0.05.
+    // Directional key, fill and back lights as in portrait photography, fixed to the camera: diffuse and specular 0.8
+    // from (−1, 1, 1), 0.4 from (1, 0.25, 1), 0.6 from (0.5, 1, −1); ambient 0.05.
     LAM_RIG_THREE_POINT,
     // One point light in the direction (1, 2, 3) from the centre of the scene's sphere (lam_scene_sphere), rotated to
     // the scene's up axis and scaled by the radius: ambient 0.1, diffuse and specular 1, attenuation 1, 0, 0.

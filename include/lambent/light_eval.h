@@ -1,4 +1,4 @@
-// lambent/light_eval.h: the laws of light for single values, for plots and tables.
+// lambent/light_eval.h: computes attenuation, cones and highlights for single values, for plots and tables.
 //
 // The numbers are computed by the code that lights pixels, one value at a time.
 #ifndef LAMBENT_LIGHT_EVAL_H

@@ -115,7 +115,7 @@ typedef struct lam_material {
     //
     // The dielectric reflects f0 = min(((ior − 1)/(ior + 1))² ⊙ f0_color, 1) · specular_weight along the normal, and
     // specular_weight at grazing angles (KHR_materials_ior, KHR_materials_specular).
-    float ior;             // index of refraction, 1.5; 0: it reflects everything
+    float ior;             // index of refraction; default 1.5; 0: reflects all light
     float specular_weight; // 0..1; default 1
     lam_rgb f0_color;      // ≥ 0; default 1
     // A clear coat of index 1.5 over all other layers (KHR_materials_clearcoat).
@@ -148,7 +148,7 @@ typedef struct lam_material {
     LAM_RESERVED(64);
 } lam_material;
 
-// Returns the material of parts that name none: neutral light grey with a soft highlight.
+// Returns the material of parts that name no material: neutral light grey with a soft highlight.
 LAM_API lam_material lam_material_default(void);
 
 // Converts a metallic–roughness material for the classic models: kd = base (1 − metallic), ks = f0 (α + 8)/8 with f0 =

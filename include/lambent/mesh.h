@@ -16,7 +16,7 @@ typedef enum lam_colors_format {
     LAM_COLORS_LINEAR_F32, // 4 floats, linear
 } lam_colors_format;
 
-// How often an attribute has a value.
+// Whether an attribute has one value for each vertex or for each triangle.
 typedef enum lam_rate {
     LAM_PER_VERTEX = 0,   // one for each vertex, or by an index array
     LAM_PER_TRIANGLE = 1, // one for each triangle
@@ -36,10 +36,10 @@ typedef struct lam_part {
 //
 // At most one of triangle_count, line_count and point_count is not 0. Statements about triangles also apply to lines,
 // which have two corners, and to points, which have one. Corner c of line l has the number 2l + c, and point p has the
-// number p; index arrays have as many elements, and parts count lines or points. Lines are drawn
-// lam_draw_params.line_width pixels wide and points as squares of point_size; both face the eye and are visible from
-// all sides. Lines and points are lit if the mesh contains normals; the library never computes normals for lines and
-// points. Without normals, they show the diffuse colour and the emission, unlit.
+// number p; index arrays have one element for each such number, and parts count lines or points.
+// lam_draw_params.line_width and point_size set the width of lines and the size of points in pixels. Lines and points
+// face the eye and are visible from all sides. Lines and points are lit if the mesh contains normals; the library never
+// computes normals for lines and points. Without normals, they show the diffuse colour and the emission, unlit.
 //
 // Corner c of triangle t has the number i = 3t + c. Its position is element indices[i] of `positions`. Every other
 // attribute may have an index array of its own (3 per triangle), for files whose corners share positions but not
@@ -119,7 +119,8 @@ typedef struct lam_shape_params {
 // the cube from −1 to 1.
 LAM_API int lam_shape_count(void);
 
-// Return the name of a shape and one line about it. The strings are static. Return NULL if the index is out of range.
+// These functions return the name of a shape and one line about it. The strings are static. The functions return NULL
+// if the index is out of range.
 LAM_API const char *lam_shape_name(int shape);
 LAM_API const char *lam_shape_summary(int shape);
 
@@ -129,8 +130,8 @@ LAM_API int lam_shape_find(const char *name);
 // A point of a parametric surface.
 typedef struct lam_surface_point {
     lam_vec3 p; // position
-    // The partial derivatives, whose cross product ∂p/∂u × ∂p/∂v points outward. If one vanishes (at a pole), give the
-    // limit of its direction, or zero to use the neighbouring points.
+    // The partial derivatives, whose cross product ∂p/∂u × ∂p/∂v points outward. If a derivative is zero (at a pole),
+    // give the limit of its direction, or zero to use the neighbouring points.
     lam_vec3 dp_du, dp_dv;
 } lam_surface_point;
 
@@ -152,8 +153,8 @@ typedef struct lam_parametric {
 // A surface given by formulas in a text. docs/shapes.md describes the language. Normals come from the symbolic
 // derivatives.
 //
-// Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". Ends of a range that meet are
-// joined. If the surface has a crease along a grid line, the normals on both sides of it are separate.
+// Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". If the two ends of a range meet,
+// they are joined. If the surface has a crease along a grid line, the normals on both sides of it are separate.
 //
 // Implicit: "a = 2; x^2 + y^2 + z^2 - a^2", the points at which the expression is zero, or "x^2 + y^2 + z^2 = 4", the
 // points at which both sides are equal. The expression (left side minus right side) is negative inside.

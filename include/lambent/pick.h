@@ -31,11 +31,11 @@ typedef struct lam_picked {
 } lam_picked;
 
 // Finds the nearest surface under a pixel's centre by tracing one ray. The ray skips hidden (lam_scene_hide_object),
-// culled and fully transparent surfaces, surfaces outside the camera's planes, and the holes of masked surfaces. The
-// ray finds glass. Textures are read at their finest level. The call needs no device. The time grows with the number of
-// triangles of objects whose boxes the ray meets. Pass the picture's `camera` and `params`; params and `control` may be
-// NULL. Returns false on failure: LAM_BAD_ARGUMENT (the pixel is outside the picture, or as lam_draw), LAM_LIMIT,
-// LAM_CANCELLED.
+// culled and fully transparent surfaces, surfaces outside the camera's planes, and the holes of masked surfaces. Glass
+// counts as a surface. Textures are read at their finest level. The call needs no device. The time grows with the
+// number of triangles of objects whose boxes the ray meets. Pass the picture's `camera` and `params`; params and
+// `control` may be NULL. Returns false on failure: LAM_BAD_ARGUMENT (the pixel is outside the picture, or as lam_draw),
+// LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_pick(const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
                       const lam_pick_pixel *pixel, const lam_control *control, lam_picked *picked, lam_error *error);
 

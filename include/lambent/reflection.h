@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-// Reflection models (docs/lighting.md has their equations and sources).
+// Reflection models (docs/lighting.md lists their equations and sources).
 typedef enum lam_reflection {
     // Depends on the material: none if it is unlit, GGX if it is physical, otherwise Blinn–Phong.
     LAM_REFLECTION_AUTO = 0,
@@ -32,11 +32,11 @@ typedef struct lam_reflection_info {
     // unless the model is backlit.
     const char *diffuse;
     const char *base; // of the highlight: "max(n·h, 0)"; NULL: no highlight
-    // Whether it uses the mesh's tangents, or a direction field if there are none.
+    // Whether the model uses the mesh's tangents, or a direction field if there are none.
     bool tangents;
     // Whether light from behind the surface (n·l ≤ 0) contributes: always, or only for fibres.
     bool backlit, backlit_fibre;
-    // Whether it lights physical materials; the Fresnel factor then colours its highlight.
+    // Whether the model lights physical materials; the Fresnel factor then colours its highlight.
     bool microfacet;
     LAM_RESERVED(7);
 } lam_reflection_info;

@@ -11,7 +11,8 @@
 extern "C" {
 #endif
 
-// A scene. One call frees all of its memory. While nobody changes it, any number of threads may read and draw it.
+// A scene. lam_scene_free frees all of its memory. As long as no thread changes the scene, any number of threads may
+// read and draw it.
 typedef struct lam_scene lam_scene;
 
 typedef struct lam_material lam_material; // material.h
@@ -69,7 +70,7 @@ typedef struct lam_load_params {
     const char *format;
     lam_up up;            // the up axis
     lam_color_mode color; // encoding of the file's colours
-    // Scene files: true: `color` overrides the file's mode. false: the file's mode is used, or `color` if the file
+    // Scene files only. true: `color` overrides the file's mode. false: the file's mode is used, or `color` if the file
     // states no mode.
     bool override_color;
     lam_normals normals; // the source of normals
@@ -81,9 +82,9 @@ typedef struct lam_load_params {
     // each frame. Drawing a large model once is then faster. lam_mesh.normals stays NULL until lam_scene_make_normals
     // computes all normals. Scene files and other devices do not support this.
     bool normals_when_drawn;
-    // Scene files: true: models and pictures that they name may be in any folder. false: they must be in the scene
-    // file's folder or below, after following links. Files that models name stay in the model's folder (see
-    // `allowed_paths`).
+    // Scene files only. true: models and pictures that the scene file names may be in any folder. false: they must be
+    // in the scene file's folder or below, after following links. Files that models name stay in the model's folder
+    // (see `allowed_paths`).
     bool models_anywhere;
     // Opens the files that a model names. NULL: opens files beside the model; a model in memory then cannot name files.
     lam_open_fn *open;
@@ -95,8 +96,8 @@ typedef struct lam_load_params {
     // glTF: the material variant (KHR_materials_variants), by its name or its index (the first is 0). NULL: the
     // materials of the primitives themselves.
     const char *variant;
-    // glTF and 3MF: true: ignores required extensions that this version does not support, and primitive restart values
-    // among glTF's indices. false: fails with LAM_UNSUPPORTED or LAM_CANNOT_READ.
+    // glTF and 3MF only. true: ignores required extensions that this version does not support, and primitive restart
+    // values among glTF's indices. false: fails with LAM_UNSUPPORTED or LAM_CANNOT_READ.
     bool lenient;
     // glTF: the animation whose pose at `time_s` is shown, by its name or its index (the first is 0). NULL: the pose
     // without animation.
@@ -123,8 +124,9 @@ LAM_API lam_scene *lam_scene_load(const char *path, const lam_load_params *param
 LAM_API lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const char *name,
                                          const lam_load_params *params, const lam_control *control, lam_error *error);
 
-// Describe the readable model format with this index (from 0): the name ("obj"), and the file extensions, separated by
-// blanks ("obj"). The strings are static. Return NULL if the index is out of range.
+// These functions describe the readable model format with this index (from 0): the name ("obj"), and the file
+// extensions, separated by blanks ("obj"). The strings are static. The functions return NULL if the index is out of
+// range.
 LAM_API const char *lam_model_format_name(int format);
 LAM_API const char *lam_model_format_extensions(int format);
 
@@ -138,29 +140,29 @@ LAM_API bool lam_scene_make_normals(lam_scene *scene, lam_normals normals, doubl
 LAM_API lam_scene *lam_scene_make(lam_error *error);
 LAM_API void lam_scene_free(lam_scene *scene); // NULL is allowed
 
-// Add to a scene. Arrays and strings are copied. Each call returns the index of the added element, or −1 on failure:
-// LAM_BAD_ARGUMENT (an index out of range, a number out of range or not finite), LAM_LIMIT. A mesh without normals gets
-// smooth normals, with creases at 40°.
+// These functions add an item to a scene. Arrays and strings are copied. Each call returns the index of the added
+// element, or −1 on failure: LAM_BAD_ARGUMENT (an index out of range, a number out of range or not finite), LAM_LIMIT.
+// A mesh without normals gets smooth normals, with creases at 40°.
 LAM_API int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 LAM_API int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error);
 
-// Add computed meshes in the same way. The name of a shape is one of lam_shape_name(). `params` and `control` may be
-// NULL.
+// These functions add computed meshes in the same way. The name of a shape is one of lam_shape_name(). `params` and
+// `control` may be NULL.
 LAM_API int lam_scene_add_shape(lam_scene *scene, const char *shape, const lam_shape_params *params, lam_error *error);
 LAM_API int lam_scene_add_parametric(lam_scene *scene, const lam_parametric *surface, const lam_control *control,
                                      lam_error *error);
-// Errors in a formula name the column of its text.
+// Errors in a formula name the column in its text.
 LAM_API int lam_scene_add_formula(lam_scene *scene, const lam_formula *formula, const lam_control *control,
                                   lam_error *error);
 LAM_API int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface, const lam_control *control,
                                    lam_error *error);
 
-// Writes a mesh of triangles as a model file, completely or not at all, by the name's extension: .obj, .stl (binary) or
-// .ply (binary). The file contains normals and texture coordinates if the format supports them, but no materials and
-// colours. `up` is the up axis of the mesh (AUTO: y). OBJ and PLY have y up and STL has z up: the coordinates are
-// rotated, so that the file shows the same picture. Errors: LAM_BAD_ARGUMENT (no triangles), LAM_UNSUPPORTED (another
-// extension), LAM_CANNOT_WRITE, LAM_LIMIT.
+// Writes a mesh of triangles as a model file, completely or not at all. The extension of the file name selects the
+// format: .obj, .stl (binary) or .ply (binary). The file contains normals and texture coordinates if the format
+// supports them, but no materials or colours. `up` is the up axis of the mesh (AUTO: y). OBJ and PLY have y up and STL
+// has z up: the coordinates are rotated, so that the file shows the same picture. Errors: LAM_BAD_ARGUMENT (no
+// triangles), LAM_UNSUPPORTED (another extension), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error *error);
 // Returns the extension with this index (from 0) that lam_mesh_save supports, without the dot: "obj". Returns NULL past
 // the last one.
@@ -194,8 +196,8 @@ LAM_API lam_object lam_object_default(void);
 // Adds an object, with the same result and errors as the calls above.
 LAM_API int lam_scene_add_object(lam_scene *scene, const lam_object *object, lam_error *error);
 
-// Replace the item at `index` by a copy of the given one. Return false on failure: LAM_BAD_ARGUMENT (no such index, or
-// as in the calls that add), LAM_LIMIT.
+// These functions replace the item at `index` with a copy of the given item. They return false on failure:
+// LAM_BAD_ARGUMENT (no such index, or as in the calls that add), LAM_LIMIT.
 LAM_API bool lam_scene_set_material(lam_scene *scene, int index, const lam_material *material, lam_error *error);
 LAM_API bool lam_scene_set_object(lam_scene *scene, int index, const lam_object *object, lam_error *error);
 LAM_API bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *light, lam_error *error);
@@ -206,40 +208,40 @@ LAM_API bool lam_scene_set_light(lam_scene *scene, int index, const lam_light *l
 // and changes nothing: LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_scene_set_mesh(lam_scene *scene, int index, const lam_mesh *mesh, lam_error *error);
 
-// Hide or show an object, or all objects of a mesh. Pictures, boxes and cameras are the same as in a scene without the
-// hidden objects; a light in the frame of a hidden object stays there. Counts include hidden objects; scene files and
-// exported models omit them. An object is drawn if neither it nor its mesh is hidden. Return false on failure:
-// LAM_BAD_ARGUMENT (no such index).
+// These functions hide or show an object, or all objects of a mesh. Pictures, boxes and cameras are the same as in a
+// scene without the hidden objects; a light in the frame of a hidden object stays there. Counts include hidden objects;
+// scene files and exported models omit them. An object is drawn if neither the object nor its mesh is hidden. The
+// functions return false on failure: LAM_BAD_ARGUMENT (no such index).
 LAM_API bool lam_scene_hide_object(lam_scene *scene, int index, bool hidden, lam_error *error);
 LAM_API bool lam_scene_hide_mesh(lam_scene *scene, int index, bool hidden, lam_error *error);
 
-// Remove an object, or a mesh with all objects that show it. The indices of later objects or meshes decrease by one,
-// and the mesh indices of objects are updated. Return false on failure and change nothing: LAM_BAD_ARGUMENT (no such
-// index), LAM_LIMIT.
+// These functions remove an object, or a mesh with all objects that show it. The indices of later objects or meshes
+// decrease by one, and the mesh indices of objects are updated. On failure, the functions return false and change
+// nothing: LAM_BAD_ARGUMENT (no such index), LAM_LIMIT.
 LAM_API bool lam_scene_remove_object(lam_scene *scene, int index, lam_error *error);
 LAM_API bool lam_scene_remove_mesh(lam_scene *scene, int index, lam_error *error);
 
 // Removes all lights. The scene's ambient light (lam_scene_set_ambient) stays.
 LAM_API void lam_scene_clear_lights(lam_scene *scene);
 
-// Sets the material of a part of a mesh (−1: the default one) in all objects of the mesh. Returns false on failure:
-// LAM_BAD_ARGUMENT, LAM_LIMIT.
+// Sets the material of a part of a mesh (−1: the default material) in all objects of the mesh. Returns false on
+// failure: LAM_BAD_ARGUMENT, LAM_LIMIT.
 LAM_API bool lam_scene_set_part_material(lam_scene *scene, int mesh, uint32_t part, int material, lam_error *error);
 
-// Return the number of items of each kind.
+// These functions return the number of items of each kind.
 LAM_API int lam_scene_mesh_count(const lam_scene *scene);
 LAM_API int lam_scene_material_count(const lam_scene *scene);
 LAM_API int lam_scene_object_count(const lam_scene *scene);
 LAM_API int lam_scene_light_count(const lam_scene *scene);
 
-// Return an item of a scene. The pointer is valid until the scene is changed or freed. The result is NULL if the index
-// is out of range.
+// These functions return an item of a scene. The pointer is valid until the scene is changed or freed. The result is
+// NULL if the index is out of range.
 LAM_API const lam_mesh *lam_scene_mesh(const lam_scene *scene, int index);
 LAM_API const lam_material *lam_scene_material(const lam_scene *scene, int index);
 LAM_API const lam_object *lam_scene_object(const lam_scene *scene, int index);
 LAM_API const lam_light *lam_scene_light(const lam_scene *scene, int index);
 
-// Return the number of triangles, lines, points and vertices over all objects.
+// These functions return the number of triangles, lines, points and vertices over all objects.
 LAM_API uint64_t lam_scene_triangle_count(const lam_scene *scene);
 LAM_API uint64_t lam_scene_line_count(const lam_scene *scene);
 LAM_API uint64_t lam_scene_point_count(const lam_scene *scene);
@@ -280,8 +282,8 @@ typedef struct lam_file_image {
     const char *file; // as written; NULL: the picture is inside the model
     // "png", "jpeg": from the model or the file's extension; NULL: unknown.
     const char *format;
-    // The textures made of it, as colours and as numbers (lam_texture_values); NULL: no material uses it so, or it
-    // could not be read.
+    // The textures made from the picture, as colours and as numbers (lam_texture_values). NULL: no material uses the
+    // picture in this form, or the picture could not be read.
     const lam_texture *textures[2];
     LAM_RESERVED(4);
 } lam_file_image;
@@ -304,7 +306,7 @@ typedef struct lam_file_info {
     // In the order of "extensionsUsed", then of "extensionsRequired".
     const lam_file_extension *extensions;
     int extension_count; // elements of `extensions`
-    // Metres per unit of length in the file: 1 for glTF, 0.001 for millimetres; 0: the format does not say.
+    // Metres per unit of length in the file: 1 for glTF, 0.001 for millimetres; 0: the format does not state it.
     double unit_m;
     LAM_RESERVED(15);
 } lam_file_info;
@@ -332,11 +334,11 @@ LAM_API const char *lam_scene_file(const lam_scene *scene, int index);
 // Adds a warning, which is copied, unless the scene already has the same sentence. A scene keeps at most 64 warnings.
 LAM_API void lam_scene_add_warning(lam_scene *scene, const char *text);
 
-// Gets the box around the triangles of all objects, in world space. Returns false and all zero for a scene without
+// Gets the box around the triangles of all objects, in world space. Returns false and stores zeros for a scene without
 // triangles.
 LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec3 *maximum);
 
-// Return the number of cameras in the model's file, and the name of the camera with this index (from 0;
+// These functions return the number of cameras in the model's file, and the name of the camera with this index (from 0;
 // lam_scene_camera in camera.h). The name is NULL for an unnamed camera or an index out of range. Cameras keep the
 // positions of the file; lam_scene_transform does not move them.
 LAM_API int lam_scene_camera_count(const lam_scene *scene);
@@ -346,9 +348,9 @@ LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
 // camera with this index. Returns −1 if there is no such camera.
 LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
-// Get and set the up axis (LAM_UP_AUTO means y; a value out of range is ignored). The up axis rotates the fitted
-// camera, the rig and the environment, but never the coordinates. The front of the model, which faces the viewer at
-// azimuth 0, is +Z with x or y up and −Y with z up. A negative axis turns the picture upside down.
+// These functions get and set the up axis (LAM_UP_AUTO means y; a value out of range is ignored). The up axis rotates
+// the fitted camera, the rig and the environment, but never the coordinates. The front of the model, which faces the
+// viewer at azimuth 0, is +Z with x or y up and −Y with z up. A negative axis turns the picture upside down.
 LAM_API lam_up lam_scene_up(const lam_scene *scene);
 LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
 
@@ -382,15 +384,16 @@ LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool groun
 // be NULL. On failure some meshes may have tangents and others not. Errors: LAM_LIMIT, LAM_CANCELLED.
 LAM_API bool lam_scene_make_tangents(lam_scene *scene, const lam_control *control, lam_error *error);
 
-// Save the state of the scene, and restore it any number of times: its meshes, materials, objects, lights, ambient
-// light and up axis. Environment and warnings are not restored. Use these calls to draw several pictures of one model
-// with different options: the model is loaded once, and devices keep their data of the model. Elements added after the
-// mark use memory until the scene is freed. A second mark replaces the first. Return false on failure: LAM_BAD_ARGUMENT
-// (reset without a mark), LAM_LIMIT.
+// These functions save the state of the scene, and restore it any number of times: its meshes, materials, objects,
+// lights, ambient light and up axis. Environment and warnings are not restored. Use these calls to draw several
+// pictures of one model with different options: the model is loaded once, and devices keep their data of the model.
+// Elements added after the mark use memory until the scene is freed. A second mark replaces the first. The functions
+// return false on failure: LAM_BAD_ARGUMENT (reset without a mark), LAM_LIMIT.
 LAM_API bool lam_scene_mark(lam_scene *scene, lam_error *error);
 LAM_API bool lam_scene_reset(lam_scene *scene, lam_error *error);
 
-// Sets and gets the scene's ambient light (La_global), which is added to the light of ambient lights. Default: 0.
+// These functions set and get the scene's ambient light (La_global), which is added to the light of ambient lights.
+// Default: 0.
 LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);
 LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
 
@@ -405,12 +408,13 @@ LAM_API bool lam_scene_set_environment(lam_scene *scene, const lam_environment *
 // Returns the environment, or NULL if there is none.
 LAM_API const lam_environment *lam_scene_environment(const lam_scene *scene);
 
-// Sets the material of parts that name none; initially it is lam_material_default(). Returns false for the same reasons
-// as lam_scene_add_material.
+// Sets the material of parts that name no material. Initially, this is lam_material_default(). Returns false for the
+// same reasons as lam_scene_add_material.
 LAM_API bool lam_scene_set_default_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API const lam_material *lam_scene_default_material(const lam_scene *scene);
 
-// Gets the milliseconds that loading took: reading and parsing the file, and preparing the scene (normals, bounds).
+// Gets the time that loading took, in milliseconds: reading and parsing the file, and preparing the scene (normals,
+// bounds).
 LAM_API void lam_scene_times(const lam_scene *scene, double *read_ms, double *prepare_ms);
 
 #ifdef __cplusplus

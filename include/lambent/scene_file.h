@@ -24,7 +24,7 @@ enum {
 // The picture that a scene file describes: its size, camera and drawing settings. lam_scene contains the rest. Settings
 // that the file does not contain are zero.
 typedef struct lam_picture_settings {
-    unsigned present; // LAM_SETTING_…: the settings that the file has
+    unsigned present; // LAM_SETTING_…: the settings that the file contains
     // Bit i: the file contains lam_draw_setting(i), whose value is in `draw`.
     uint64_t draw_present;
     int width, height; // pixels
@@ -32,8 +32,8 @@ typedef struct lam_picture_settings {
     // The settings above that begin with "draw.", and the settings of draw_present. `rig` is LAM_RIG_NONE if
     // LAM_SETTING_LIGHTS is present.
     lam_draw_params draw;
-    // The environment in one of three forms; the others are NULL. Paths can be opened from the current folder, but the
-    // paths of a scene file in memory are unchanged. The strings live as long as the scene.
+    // The environment in one of three forms; the members of the other forms are NULL. Paths can be opened from the
+    // current folder, but the paths of a scene file in memory are unchanged. The strings live as long as the scene.
     const char *environment_faces[6]; // six pictures: +x −x +y −y +z −z
     const char *environment_picture;  // one picture: equirectangular or a cross
     const char *environment_built_in; // the name of a built-in environment
@@ -41,7 +41,8 @@ typedef struct lam_picture_settings {
     LAM_RESERVED(16);
 } lam_picture_settings;
 
-// Gets the settings of a scene that was loaded from a scene file. Returns false and all zero for any other scene.
+// Gets the settings of a scene that was loaded from a scene file. Returns false and sets all fields to zero for any
+// other scene.
 LAM_API bool lam_scene_picture_settings(const lam_scene *scene, lam_picture_settings *settings);
 
 // Writes a scene file from which lam_scene_load (with models_anywhere if a file is outside the folder of `path`) and

@@ -11,7 +11,7 @@ extern "C" {
 
 // The type of a setting's value, and its form in a scene file.
 typedef enum lam_setting_type {
-    LAM_SETTING_WORD, // an enumeration with the words of lam_setting.word
+    LAM_SETTING_WORD, // an enumeration; lam_setting.word returns its keywords
     LAM_SETTING_FLAG, // a bool
     // A bool that is false if the setting is true, which is the default.
     LAM_SETTING_NOT_FLAG,
@@ -21,7 +21,7 @@ typedef enum lam_setting_type {
     LAM_SETTING_RGBA,   // a lam_rgba
     // A float in radians; `min`, `max` and `standard` are in degrees, as in scene files.
     LAM_SETTING_ANGLE,
-    LAM_SETTING_WORDS, // an int of bits, each a word of lam_setting.word
+    LAM_SETTING_WORDS, // an int of bits; lam_setting.word returns their keywords
 } lam_setting_type;
 
 // A setting of lam_draw_params. A member of 0 means the default.
@@ -35,16 +35,17 @@ typedef struct lam_setting {
     bool zero; // WHOLE, NUMBER: 0 is allowed too, regardless of `min`
     // NUMBER: 0 in a file is stored as −1 in the member, because a member of 0 means the default.
     bool zero_is_negative;
-    // WORD and WORDS: returns the word with this index and its value, or NULL past the end. If several words have one
-    // value, the first is written. NOT_FLAG: returns the words of its option, with the member's values.
+    // WORD and WORDS: returns the keyword with this index and its value, or NULL past the end. If several keywords have
+    // the same value, scene files contain the first. NOT_FLAG: returns the keywords of its option, with the member's
+    // values.
     const char *(*word)(int index, int *value);
     const char *summary; // one sentence
     const char *member;  // its name in lam_draw_params
     // WHOLE, NUMBER and ANGLE: the allowed values, for error messages. WORD and WORDS: the enumeration (lam_…), or the
     // members that share an error.
     const char *expected;
-    // Returns one phrase about the word with this index, or NULL if only scene files have the word. The function is
-    // NULL if every word explains itself.
+    // Returns one phrase about the keyword with this index, or NULL if only scene files accept the keyword. The
+    // function is NULL if every keyword explains itself.
     const char *(*word_summary)(int index);
     LAM_RESERVED(5);
 } lam_setting;

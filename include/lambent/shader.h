@@ -111,7 +111,7 @@ typedef struct lam_shader_draw {
     // Front faces are clockwise in the window (glFrontFace), because of a mirroring transform.
     bool clockwise;
     lam_cull cull; // the object's cull mode
-    // To be blended over everything behind it, farthest triangles first.
+    // Blend this range over everything behind it, the farthest triangles first.
     bool translucent;
     // Whether the mesh has colours and tangents. If the shader has such an attribute but the mesh does not, set the
     // attribute to the constant 1, 1, 1, 1.

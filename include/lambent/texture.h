@@ -1,4 +1,4 @@
-// lambent/texture.h: textures, and the way a material reads them.
+// lambent/texture.h: textures, and how a material reads them.
 #ifndef LAMBENT_TEXTURE_H
 #define LAMBENT_TEXTURE_H
 
@@ -11,7 +11,7 @@ extern "C" {
 struct lam_image;
 
 // A picture with its mipmaps: RGBA, linear numbers, filtered as floats. A texture is immutable, so any number of
-// materials, scenes and threads may share it. Level 0 is the picture. Each next level has half the width and height,
+// materials, scenes and threads may share it. Level 0 is the picture. Each further level has half the width and height,
 // rounded down; its texels are the averages of the texels that they cover, in linear light and not rounded.
 typedef struct lam_texture lam_texture;
 
@@ -31,7 +31,8 @@ LAM_API lam_texture *lam_texture_make(const struct lam_image *image, lam_texture
 // Frees a texture. Scenes whose materials use the texture keep it. NULL is allowed.
 LAM_API void lam_texture_free(lam_texture *texture);
 
-// Return the size of a level in texels, or 0 if the level is out of range. Level 0 is the picture.
+// These functions return the width and the height of a level in texels, or 0 if the level is out of range. Level 0 is
+// the picture.
 LAM_API int lam_texture_width(const lam_texture *texture, int level);
 LAM_API int lam_texture_height(const lam_texture *texture, int level);
 LAM_API int lam_texture_levels(const lam_texture *texture);

@@ -1,7 +1,7 @@
-// lambent/words.h: materials and lights in text form: the values of the options of `lambent`.
+// lambent/words.h: parses materials and lights from text, in the form of the options of `lambent`.
 //
-// A text is at most 1023 bytes long. Errors are LAM_BAD_ARGUMENT, and the sentence states the text found and the
-// expected one. lam_color_parse (scene.h) and lam_camera_parse (camera.h) are similar.
+// A text is at most 1023 bytes long. Errors are LAM_BAD_ARGUMENT, and the sentence states the text that was found and
+// the text that was expected. lam_color_parse (scene.h) and lam_camera_parse (camera.h) are similar.
 #ifndef LAMBENT_WORDS_H
 #define LAMBENT_WORDS_H
 

@@ -119,7 +119,7 @@ static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buf
     return true;
 }
 
-// Draws the tile with the explained pixel once more, and records the pixel's values.
+// Draws the tile with the explained pixel again, and records the pixel's values.
 static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
 {
     const lam_explanation *out = recorder->out;
@@ -189,8 +189,8 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
-// The work limit treats smaller pictures as if they were this large, because they take little time with any number of
-// layers.
+// For the work limit, a smaller picture is treated like a picture of this size, because a small picture takes little
+// time with any number of layers.
 enum { WORK_PIXELS = 256 * 256 };
 
 static uint64_t work_limit(const lam_image *image, const struct call_control *call)

@@ -9,7 +9,7 @@
 
 // --- the arrays of a thread
 
-// Allocates sections of a block, aligned to 64 bytes. If `block` is NULL, it only computes the total size.
+// Allocates sections of a block, aligned to 64 bytes. If `block` is NULL, only the total size is computed.
 struct suballocator {
     char *block;
     size_t used;
@@ -220,7 +220,8 @@ static bool set_up_shading(struct cpu_frame *cpu, struct frame_memory *memory, l
 }
 
 // Lists the memory that can be reused while occlusion is computed. The memory of the picture can be reused, because
-// the picture has not been drawn yet. If fragments are stored, so can the memory of the transformed vertices.
+// the picture has not been drawn yet. If fragments are stored, the memory of the transformed vertices can be reused
+// too.
 static int lend_memory(const struct cpu_frame *cpu, const struct frame_memory *memory, struct scratch_memory lent[2])
 {
     const lam_image *image = cpu->target.image;

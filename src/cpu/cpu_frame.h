@@ -27,7 +27,7 @@
 // The state of one thread. The thread's bins are stored elsewhere (struct raster_frame), because all threads read them.
 struct thread_state {
     struct tile_samples samples;
-    struct fragments fragments; // fragments of translucent surfaces first, then of opaque ones
+    struct fragments fragments; // fragments of translucent surfaces first, then of opaque surfaces
     struct layer_rows layers;   // allocated only for frames with translucent surfaces, like the next member
     struct blend_scratch blend;
     struct shading shading;

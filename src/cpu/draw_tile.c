@@ -136,7 +136,7 @@ static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *threa
                             (char *)image_row(converted, tile->y * TILE + y) + left);
 }
 
-// A tile without glass is identical in the picture behind glass, so its sums are copied from there.
+// A tile without glass is identical in the picture behind glass, so the tile's sums are copied from that picture.
 static void take_behind(const struct behind *behind, struct thread_state *thread, const struct tile *tile)
 {
     for (int y = 0; y < tile->height; y++) {

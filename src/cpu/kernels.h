@@ -44,17 +44,19 @@ struct kernels {
     void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct chunk *chunk);
 
     // Clears the tile's samples, then draws the opaque triangles of all threads' bins. Each sample keeps the triangle
-    // with the nearest key; if keys are equal, the triangle with the lowest number. Counts the translucent triangles.
+    // with the nearest key. If keys are equal, the sample keeps the triangle with the lowest number. Counts the
+    // translucent triangles.
     void (*cover_tile)(const struct raster_frame *raster, struct tile_samples *samples, const struct tile *tile);
 
     // Lists the fragments of translucent triangles within `area` of the tile, except samples behind an opaque triangle.
-    // Fills in the rows id, pixel and sample, and the layer rows. Returns false if there are more than LAYERS_MAX.
+    // Fills in the rows id, pixel and sample, and the layer rows. Returns false if there are more than LAYERS_MAX
+    // fragments.
     bool (*translucent_fragments)(const struct raster_frame *raster, const struct tile_samples *samples,
                                   struct fragments *fragments, struct layer_rows *rows, const struct tile *tile,
                                   const struct rectangle *area);
 
-    // Removes the samples of masked surfaces whose opacity is below the cutoff from the rows of listed fragments, and
-    // sets rows->masked if there are such surfaces.
+    // Removes samples of masked surfaces from the rows of listed fragments if the opacity at the sample is below the
+    // cutoff. Sets rows->masked if a fragment belongs to a masked surface.
     void (*mask_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct layer_rows *rows,
                            struct shading *shading, const struct tile *tile);
 
@@ -64,8 +66,8 @@ struct kernels {
     uint64_t (*visibility_resolve)(const struct sample_pattern *pattern, const struct tile_samples *samples,
                                    struct fragments *fragments, const struct tile *tile);
 
-    // Stores the fragments from visibility_resolve in memory of the arena. The triangle numbers of the fragments are
-    // between store->lowest and `highest`. Returns false if memory runs out.
+    // Stores the fragments from visibility_resolve in memory allocated from the arena. The triangle numbers of the
+    // fragments are between store->lowest and `highest`. Returns false if memory runs out.
     bool (*save_fragments)(struct fragment_store *store, const struct fragments *fragments, int samples,
                            uint32_t highest, struct arena *arena);
     // Restores the rows id, pixel, weight and sample of the stored fragments.
@@ -93,7 +95,7 @@ struct kernels {
     void (*resolve_empty)(struct resolve_target *target);
 };
 
-// The shading of `scalar` with hooks that record the values of one pixel (record.inc).
+// The shading functions of the `scalar` version, with hooks that record the values of one pixel (record.inc).
 struct recording_kernels {
     // Records the explained pixel's fragments after they are shaded.
     void (*record_fragments)(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile);

@@ -17,7 +17,7 @@ static uint64_t own_memory(const lam_device *device)
 // Finds the edges that are drawn over the picture.
 static bool find_edges(lam_device *device, struct call_control *call, lam_error *error)
 {
-    // The largest number of rays traced at once, for each instruction set. The entry LAM_ISA_AUTO is for devices to
+    // The largest number of rays traced at a time, for each instruction set. The entry LAM_ISA_AUTO is for devices to
     // which instruction sets do not apply.
     static const int lanes[LAM_ISA_COUNT] = {
         [LAM_ISA_AUTO] = 16,   [LAM_ISA_SCALAR] = 1, [LAM_ISA_SSE4] = 4, [LAM_ISA_AVX2] = 8,

@@ -24,7 +24,7 @@ static void color_of_ids(const float v[3], uint8_t out[4])
 }
 
 // Returns 1 for the depth of the scene's nearest vertex, and 0 for its farthest vertex. If the depths differ by less
-// than their rounding error, the whole scene counts as nearest.
+// than their rounding error, the whole scene is treated as nearest.
 static float depth_code(const struct frame *frame, float depth)
 {
     float far = frame->depth_far, range = far - frame->depth_near;

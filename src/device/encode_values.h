@@ -15,7 +15,7 @@ void encode_empty(const struct frame *frame, lam_pixel_format format, void *to);
 // instead.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to);
 
-// Returns whether 8-bit pixels of this frame store numbers without the sRGB encoding.
+// Returns whether 8-bit pixels of this frame store values without the sRGB encoding.
 static inline bool values_are_raw(const struct frame *frame)
 {
     bool color = lam_output_is_light(frame->settings.output) || frame->settings.output == LAM_OUTPUT_BASE_COLOR;

@@ -1,4 +1,4 @@
-// explain.c: lam_explain: draws one tile with a recorder, and completes the recorded values.
+// explain.c: implements lam_explain: draws one tile with a recorder, and completes the recorded values.
 #include "device_type.h"
 #include "recorder.h"
 #include "scene_internal.h"

@@ -1,4 +1,4 @@
-// pick.c: lam_pick: traces one ray through the triangles of a frame.
+// pick.c: implements lam_pick: traces one ray through the triangles of a frame.
 #include "frame.h"
 #include "opacity.h"
 

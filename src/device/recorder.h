@@ -15,7 +15,7 @@ struct recorder {
     int capacity;
     bool failed; // out of memory
     int pixel;   // index of the pixel in its tile
-    // For each translucent fragment, 1 + its index in the explanation, or 0 if it belongs to another pixel.
+    // For each translucent fragment, 1 + its index in the explanation, or 0 if the fragment belongs to another pixel.
     uint32_t *layer_slots;
 
     lam_explained_fragment *fragment; // the fragment whose values are being recorded, or NULL

@@ -21,7 +21,7 @@ struct scratch {
     // A change of visibility along a line, between the fractions `from` and `to` of its length.
     struct change {
         double from, to;
-        uint8_t hidden; // at `from`
+        uint8_t hidden; // whether the line is hidden at `from`
     } changes[POINTS];
     struct edge_point middles[POINTS];
     uint8_t middle_hidden[POINTS];
@@ -69,7 +69,7 @@ static int plain_style(const struct edge_task *task, const struct mesh_edge *edg
     return task->view->frame->settings.wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;
 }
 
-// Returns the style of an edge, or −1 if it is not drawn, and gets the LAM_EDGES_… bits of a feature edge.
+// Returns the style of an edge, or −1 if the edge is not drawn. Gets the LAM_EDGES_… bits of a feature edge.
 static int style_of(const struct edge_task *task, const struct mesh_edge *edge, unsigned *kinds_of)
 {
     const lam_draw_params *settings = &task->view->frame->settings;
@@ -155,8 +155,8 @@ static double height_over(const struct edge_task *task, uint32_t corner, const s
     return (across < 0 ? -across : across) / line->length;
 }
 
-// If both triangles of a wireframe edge are narrower than FADE widths, the line is drawn thinner in proportion, down to
-// 1/FADE of its width. A fine mesh therefore looks evenly grey instead of black.
+// If both triangles of a wireframe edge are narrower than FADE line widths, the line is drawn proportionally thinner,
+// down to 1/FADE of its width. A fine mesh therefore looks evenly grey instead of black.
 enum { FADE = 5 };
 static double half_width(const struct edge_task *task, const struct mesh_edge *edge, const struct edge_line *line)
 {
@@ -168,7 +168,7 @@ static double half_width(const struct edge_task *task, const struct mesh_edge *e
     return (share < least ? least : share < 1 ? share : 1) * width / 2;
 }
 
-// Sets up the line of an edge, except for its points. Returns false if it is outside the picture.
+// Sets up the line of an edge, except for its points. Returns false if the edge is outside the picture.
 static bool set_line(const struct edge_task *task, const struct mesh_edge *edge, int style, struct edge_line *line)
 {
     const struct edge_view *view = task->view;
@@ -238,8 +238,8 @@ static bool add_part(struct edge_task *task, const struct edge_line *line, doubl
     return edge_stroke_add(task->strokes, stroke, task->view->loop->call);
 }
 
-// Adds dashes of 5 widths and gaps of 3, measured along the chain of the line. A width below one pixel counts as one
-// pixel.
+// Adds dashes of 5 widths and gaps of 3, measured along the chain of the line. A width below one pixel is treated as
+// one pixel.
 static bool add_dashes(struct edge_task *task, const struct edge_line *line, double from, double to)
 {
     if (line->reversed) {
@@ -268,7 +268,7 @@ static bool add_run(struct edge_task *task, const struct edge_line *line, double
     return task->view->frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || add_dashes(task, line, from, to);
 }
 
-// Bisects the intervals in which visibility changes, for all lines at once.
+// Bisects the intervals in which visibility changes, for all lines together.
 static void narrow_changes(struct edge_task *task, struct scratch *s, uint32_t count)
 {
     for (int round = 0; round < HALVINGS; round++) {
@@ -367,7 +367,8 @@ static double height_share(const struct edge_task *task, uint32_t triangle)
     return longest > 0 ? math_sqrt(dot(n, n)) / longest : 0;
 }
 
-// A crease beside a sliver, a triangle whose height is below 1/SLIVER of its longest edge, weighs less, in proportion.
+// A sliver is a triangle whose height is below 1/SLIVER of its longest edge. A crease beside a sliver has a
+// proportionally smaller weight.
 enum { SLIVER = 8 };
 
 // Returns the weight of a line with these LAM_EDGES_… bits.

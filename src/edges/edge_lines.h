@@ -1,4 +1,4 @@
-// edge_lines.h: the data that describe edges on the way from the mesh to the picture.
+// edge_lines.h: the data of the steps from the edges of a mesh to strokes in the picture.
 #ifndef EDGE_LINES_H
 #define EDGE_LINES_H
 
@@ -27,7 +27,7 @@ struct edge_line {
     bool reversed;             // the chain runs from its second end to its first
     int style;
     bool whole[2];         // whether the end is an end of the edge itself
-    uint32_t first, count; // the range of its points
+    uint32_t first, count; // the range of the line's points
 };
 
 // A point of a line, given as a fraction of the line's length in the window.
@@ -39,7 +39,7 @@ struct edge_point {
 // A visible part of a line.
 struct edge_stroke {
     double x[2], y[2];
-    double half; // half of its width
+    double half; // half of the stroke's width
     int style;
     bool round[2]; // round caps; otherwise the end is cut off at a right angle
 };

@@ -4,7 +4,7 @@
 // strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
 // strip's angle. Therefore, for any position of a line, its coverage along any row or column that crosses the line adds
 // up to the width of the line in that direction. At a crossing the largest coverage is used, so that edges shared by
-// two triangles, and corners, are not darker than the rest.
+// two triangles, and corners, are not darker than other edges.
 #define LANES 1
 #include "edge_lines.h"
 
@@ -21,7 +21,7 @@ struct cover_job {
     struct edge_memory *memory;
     const struct frame *frame;
     struct loop_status loop;
-    // The strokes that may touch each band of rows. Band b begins at ends[b − 1], or 0 for the first, and ends at
+    // The strokes that may touch each band of rows. Band b begins at ends[b − 1] (the first band at 0), and ends at
     // ends[b].
     const struct edge_stroke **strokes;
     size_t ends[BANDS_MAX];

@@ -1,8 +1,8 @@
 // edge_specks.c: removes feature edges that form only specks in the picture. Scans and slivers of CAD programs contain
 // many short creases, which look like dirt instead of lines.
 //
-// Edges with common ends form a group. The group's size is the sum of the weights of its edges, in whole numbers, so
-// that it does not depend on the order.
+// Edges with common ends form a group. The group's size is the sum of the integer weights of its edges, so the size
+// does not depend on the order.
 #include "edge_tasks.h"
 
 #include "linear.h"
@@ -15,7 +15,7 @@ enum { CHECK_INTERVAL = 1 << 14, SPECK_MAX = 8 * EDGE_WEIGHT_PIXEL };
 // An entry of the hash table: a vertex at which edges end, and the group that the vertex belongs to.
 struct vertex {
     double p[3];
-    uint32_t parent; // another vertex of its group, or itself
+    uint32_t parent; // another vertex of the same group, or the vertex itself
     uint32_t size;   // at a vertex that is its own parent, the size of the group
 };
 
@@ -37,7 +37,7 @@ static uint32_t hash_of(const double p[3])
     return (uint32_t)(hash >> 32);
 }
 
-// Returns the slot of a vertex, which is added if it is new.
+// Returns the slot of a vertex. Adds the vertex if it is new.
 static uint32_t vertex_at(struct groups *groups, const double at[3])
 {
     const double p[3] = {at[0] + 0.0, at[1] + 0.0, at[2] + 0.0}; // −0 becomes 0

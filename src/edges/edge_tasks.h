@@ -7,13 +7,13 @@
 // An edge in the view, if dashes run along chains of edges (edge_chains.c).
 struct edge_measure {
     double x[2], y[2], length; // in the window, clipped to the picture; pixels
-    int style;                 // −1 if it is not drawn
+    int style;                 // −1 if the edge is not drawn
     bool whole[2];             // whether the end is not clipped
     // For each end of this edge, the edge end to which it is linked: twice the index of the other edge, plus 0 or 1.
     // NO_LINK if none.
     uint32_t link[2];
     bool placed;
-    double start;  // length of the chain before it
+    double start;  // length of the chain before this edge
     bool reversed; // the chain runs from end 1 of this edge to end 0
 };
 #define NO_LINK 0xffffffffu
@@ -21,8 +21,8 @@ struct edge_measure {
 enum { EDGES_PER_TASK = 2048 };
 
 // The weight of a feature edge (edge_specks.c): its length in the picture, in fractions of a pixel. A crease beside a
-// face that is narrower than a pixel, or beside a sliver, counts less, in proportion. An edge that continues outside
-// the picture has the largest weight.
+// face that is narrower than a pixel, or beside a sliver, has a proportionally smaller weight. An edge that continues
+// outside the picture has the largest weight.
 enum {
     EDGE_WEIGHT_PIXEL = 1024, // the unit
     EDGE_WEIGHT_MAX = 0xfffd,
@@ -39,7 +39,7 @@ struct edge_task {
     uint16_t *weights;             // one per edge; NULL if there are no feature edges
     edge_rays *rays_of;
     struct edge_strokes *strokes; // output: the strokes of the thread
-    uint64_t drawn, rays;         // output: sums to which the task adds its numbers
+    uint64_t drawn, rays;         // output: the task adds its counts of drawn edges and of rays
 };
 
 // Returns the number of bytes of scratch memory that a thread needs.
@@ -62,8 +62,8 @@ void edge_task_ends(const struct edge_task *task, uint32_t edge, double ends[2][
 bool edge_specks_drop(const struct edge_task *draws, int draw_count, struct loop_status *loop);
 
 // Links the measured edges of a draw to chains, and computes their positions in the chains. If only two lines meet at a
-// corner, and both have the same style, the function connects them. Otherwise it connects the straightest pairs of one
-// style that turn by less than 60 degrees. Returns false if memory runs out or the call is stopped.
+// corner, and both have the same style, the function connects them. Otherwise the function connects the straightest
+// pairs of one style that turn by less than 60 degrees. Returns false if memory runs out or the call is stopped.
 bool edge_chains_link(const struct frame_draw *draw, const struct mesh_edge *edges, struct edge_measure *measures,
                       uint32_t count, struct loop_status *loop);
 

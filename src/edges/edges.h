@@ -37,7 +37,7 @@ struct edge_counts {
 };
 
 // Finds the lines of a frame whose draws_edges is set, and how much of each pixel they cover. `hierarchy` belongs to
-// the frame. `lanes` is the maximum number of rays traced at once.
+// the frame. `lanes` is the maximum number of rays traced at a time.
 bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
                 struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error);
 

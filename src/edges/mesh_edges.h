@@ -1,4 +1,4 @@
-// mesh_edges.h: lists the edges of a mesh's triangles, each once. They depend only on the mesh, not on the view.
+// mesh_edges.h: lists the edges of a mesh's triangles, each once. The edges depend only on the mesh, not on the view.
 #ifndef MESH_EDGES_H
 #define MESH_EDGES_H
 
@@ -13,10 +13,11 @@ enum {
     EDGE_ALIKE = 8,  // both faces traverse the edge in the same direction, so their windings are inconsistent
 };
 
-// An edge from a corner of a triangle to the triangle's next corner, and its corner in another triangle.
+// An edge, which runs from a corner of a triangle to the triangle's next corner, and a corner with the same edge in
+// another triangle.
 struct mesh_edge {
     uint32_t corner;
-    uint32_t other; // another corner with this edge; for EDGE_OPEN, `corner` itself
+    uint32_t other; // a corner with the same edge in another triangle; for EDGE_OPEN, equal to `corner`
     uint32_t kind;  // EDGE_… bits
 };
 

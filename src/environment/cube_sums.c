@@ -31,7 +31,8 @@ struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *erro
     if (!sums)
         return fail_memory(error, bytes), NULL;
     sums->count = count;
-    double total = 0; // sum of the solid angles; they are divided by it, so that no mean exceeds the brightest light
+    double total = 0; // sum of the solid angles; each solid angle is divided by the sum, so that no mean exceeds the
+                      // brightest light
     for (int t = 0; t < n; t++)
         for (int s = 0; s < n; s++)
             total += LAM_FACE_COUNT * (double)texel_weight(n, s, t);

@@ -17,8 +17,8 @@ struct environment_lamp {
 bool environment_lamp(const struct lam_environment *cube, struct environment_lamp *lamp, struct call_control *call,
                       lam_error *error);
 
-// Works like environment_light, but the irradiance does not contain the lamp. Adding the lamp's light, max(n.l, 0)
-// times its colour, gives the total irradiance again. Reflections still contain the lamp.
+// Works like environment_light, but the irradiance does not contain the lamp. The total irradiance is the returned
+// irradiance plus the lamp's light: max(n.l, 0) times the lamp's colour. Reflections still contain the lamp.
 const struct environment_light *environment_light_without_lamp(const struct lam_environment *cube, unsigned needed,
                                                                struct pool *pool, struct call_control *call,
                                                                lam_error *error);

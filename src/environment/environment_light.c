@@ -38,7 +38,7 @@ static const struct {
     {.size = 32}, {.size = 24},   {.size = 16},    {.size = 16},   {.size = 16},    {.size = 16}};
 
 // The sum over the far cells of a lobe varies slowly, so it is computed for a cube of a quarter of the size. A cell is
-// far if it is more than FAR_TEXELS texels of that cube away from the axis.
+// far if its distance from the axis exceeds FAR_TEXELS texels of the smaller cube.
 enum { FAR_SHRINK = 4 };
 #define FAR_TEXELS 1.5
 static int far_size(int level) { return levels[level].growth > 0 ? levels[level].size / FAR_SHRINK : 0; }

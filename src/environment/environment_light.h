@@ -21,7 +21,7 @@ struct environment_light {
     struct lam_environment level[ENVIRONMENT_LEVELS]; // [0] shares the texels of the environment
     struct lam_environment irradiance;
     float *texels; // all levels but level[0], in rows of ENVIRONMENT_LIGHT_WIDTH texels
-    size_t held;   // bytes of their pages
+    size_t held;   // size in bytes of the pages of `texels`
     unsigned made; // bit i is set if level i exists, bit ENVIRONMENT_LEVELS if the irradiance exists; accessed
                    // atomically
     // See environment_lamp.h; both are NULL before the first use. `without_lamp` shares the levels of this struct.
@@ -45,8 +45,8 @@ int environment_light_rows(void);
 
 // Returns the light of an environment. Computes the parts in `needed` that do not exist yet, and stores them with the
 // environment. Any number of threads may call this function at the same time, and read the parts that they requested.
-// If `pool` is NULL, the function starts threads of its own. `call` may be NULL. On failure, returns NULL with
-// LAM_LIMIT or LAM_CANCELLED.
+// If `pool` is NULL, the function starts its own threads. `call` may be NULL. On failure, returns NULL with LAM_LIMIT
+// or LAM_CANCELLED.
 struct pool;
 const struct environment_light *environment_light(const struct lam_environment *cube, unsigned needed,
                                                   struct pool *pool, struct call_control *call, lam_error *error);
@@ -61,7 +61,7 @@ struct cube_chain {
     struct lam_environment cube[CUBE_CHAIN_MAX];
     int count;
     float *texels; // all copies but cube[0]
-    size_t held;   // bytes of their pages
+    size_t held;   // size in bytes of the pages of `texels`
 };
 bool cube_chain_make(struct cube_chain *chain, const struct lam_environment *cube, struct pool *pool,
                      struct call_control *call, lam_error *error);
@@ -72,7 +72,7 @@ const struct lam_environment *cube_chain_near(const struct cube_chain *chain, do
 // Returns the solid angle of a texel, except for a constant factor.
 float texel_weight(int size, int s, int t);
 
-// Sums over all texels of a small copy of a cube. The sums give the irradiance, or the environment prefiltered for a
+// Sums over all texels of a small copy of a cube. The sums are the irradiance, or the environment prefiltered for a
 // wide lobe.
 struct cube_sums;
 struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *error);

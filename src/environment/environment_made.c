@@ -86,15 +86,15 @@ static const struct lamp lamps[LAM_FACE_COUNT] = {[LAM_FACE_PY] = {14, WHITE, -0
                                                   [LAM_FACE_PZ] = {13.5, WHITE, -0.2, 0.26, 0.13, 0.24},
                                                   [LAM_FACE_NZ] = {17, COOL, -0.12, 0.75, 0.3, 0.11}};
 
-// Returns 1 if |x| is below `half_width`, and 0 beyond it, with a soft edge between them.
+// Returns 1 if |x| is below `half_width`, and decreases smoothly to 0 just beyond it.
 static double soft_edge(double x, double half_width)
 {
     const double edge = 0.03;
     return ramp(-half_width - edge, -half_width, x < 0 ? x : -x);
 }
 
-// Returns the light of the walls at a height in the room, −1 … 1. Near the floor it is the floor's colour, and at the
-// horizon there is a bright band.
+// Returns the light of the walls at a height in the room, −1 … 1. Near the floor, the light has the floor's colour, and
+// at the horizon there is a bright band.
 static struct rgb wall_at(double height)
 {
     static const struct rgb floor_color = {{0.085, 0.0825, 0.08}}, wall = {{0.066, 0.068, 0.076}},
@@ -106,7 +106,7 @@ static struct rgb wall_at(double height)
     return light;
 }
 
-// Computes a row of the studio. All texels of a row have the same height.
+// Computes a row of the studio. All texels of a row are at the same height in the room.
 static void studio_row(int face, int t, float *texels)
 {
     const struct lamp *lamp = &lamps[face];

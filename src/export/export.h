@@ -77,11 +77,11 @@ bool export_no_memory(struct exporting *e, size_t bytes);
 void *export_memory(struct exporting *e, size_t bytes);
 void export_memory_free(struct exporting *e, void *memory, size_t bytes);
 
-// The condition of long loops. Every 65,536 items, export_continues checks whether the call may continue.
+// export_continues is the condition of long loops. Every 65,536 items, it checks whether the call may continue.
 bool export_asks(struct exporting *e);
 static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
 
-// These functions return false and fill the error if a loop ended early or the text is incomplete.
+// These functions return false and fill the error if a loop ended early or if the text is incomplete.
 bool export_is_whole(struct exporting *e);
 bool export_text_is_whole(struct exporting *e, const struct text *text);
 
@@ -117,8 +117,8 @@ void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4]);
 // Returns a channel of light as a number for OBJ and MTL.
 double export_encoded(float light);
 
-// Encodes a texture's picture as PNG, in memory from malloc. Records a loss and returns false if PNG cannot store the
-// picture exactly (floats). Fills the error and returns false if memory runs out.
+// Encodes a texture's picture as PNG, in memory that malloc allocates. Records a loss and returns false if PNG cannot
+// store the picture exactly (floats). Fills the error and returns false if memory runs out.
 bool export_texture(struct exporting *e, const lam_texture *texture, lam_bytes *png);
 
 // Returns the material of a part, or the scene's default material.

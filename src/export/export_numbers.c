@@ -1,4 +1,4 @@
-// export_numbers.c: writes numbers of model files, and rotates vectors to the up axis of a format.
+// export_numbers.c: writes the numbers in model files, and rotates vectors to the up axis of a format.
 #include "export.h"
 
 #include "linear.h"

@@ -1,4 +1,4 @@
-// glb.h: the state of writing a glTF file: its JSON, and the bytes of its buffer.
+// glb.h: the JSON and the buffer of a glTF file that is being written.
 #ifndef GLB_H
 #define GLB_H
 
@@ -11,7 +11,7 @@ struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
     int first_indices; // accessor of the first part's indices; the other parts follow
-    // the latest mesh of the file that uses this mesh of the scene, or −1; glb_mesh.before refers to the one before it
+    // the latest mesh of the file that uses this mesh of the scene, or −1; glb_mesh.before refers to the previous one
     int first_mesh;
 };
 
@@ -55,7 +55,7 @@ json_t *glb_floats(struct glb *glb, const float *numbers, int count);
 json_t *glb_extension(struct glb *glb, json_t *object, const char *name);
 
 // Appends bytes to the buffer, aligned to four bytes, and adds a bufferView for them. Returns the index of the
-// bufferView. `target` is its "target" in glTF, or 0.
+// bufferView. `target` is the bufferView's "target" in glTF, or 0.
 int glb_add_view(struct glb *glb, const void *bytes, size_t size, int target);
 
 // Fills the error with the reason why the file is incomplete, and returns false.

@@ -1,4 +1,4 @@
-// glb_materials.c: writes materials as metallic-roughness materials of glTF, with the extensions for material layers.
+// glb_materials.c: writes materials as metallic-roughness materials in glTF, with the extensions for material layers.
 #include "glb.h"
 
 #include "khr_layers.h"
@@ -33,7 +33,7 @@ static bool same_place(const lam_texture_map *a, const lam_texture_map *b)
            a->wrap_t == b->wrap_t && memcmp(a->transform, b->transform, sizeof a->transform) == 0;
 }
 
-// glTF stores roughness in the green channel and metalness in the blue channel of one picture.
+// glTF stores roughness in the green channel and metalness in the blue channel of one texture.
 static const lam_texture_map *metallic_roughness(struct glb *glb, const lam_material *m)
 {
     const lam_texture_map *metallic = usual(glb, m, LAM_MAP_METALLIC, 2),
@@ -41,7 +41,7 @@ static const lam_texture_map *metallic_roughness(struct glb *glb, const lam_mate
     if ((metallic && roughness && same_place(metallic, roughness)) || (roughness && !metallic && m->metallic == 0))
         return roughness;
     if (metallic || roughness)
-        export_lose(glb->e, "separate metalness and roughness maps are omitted: glTF uses one picture for both");
+        export_lose(glb->e, "separate metalness and roughness maps are omitted: glTF uses one texture for both");
     return NULL;
 }
 
@@ -148,7 +148,7 @@ static bool is_opaque(const lam_material *m)
 
 static void put_alpha(struct glb *glb, json_t *object, const lam_material *m, bool classic)
 {
-    // Any classic material may use alpha blending. Viewers of glTF sort blended surfaces by depth, so the file declares
+    // Any classic material may use alpha blending. glTF viewers sort blended surfaces by depth, so the file declares
     // blending only if a material needs it.
     bool blends = m->alpha_mode == LAM_ALPHA_BLEND && !(classic && is_opaque(m));
     if (blends || m->alpha_mode == LAM_ALPHA_MASK)
@@ -168,9 +168,8 @@ static json_t *material(struct glb *glb, const lam_material *source, bool double
             "the whole model looks different");
     if (m.reflectivity.r > 0 || m.reflectivity.g > 0 || m.reflectivity.b > 0 || m.fibre ||
         m.roughness_angle_rad != lam_material_default().roughness_angle_rad)
-        export_lose(
-            glb->e,
-            "reflectivity, Oren-Nayar's roughness and fibres of materials are omitted: glTF does not support them");
+        export_lose(glb->e, "the materials' reflectivity, Oren-Nayar roughness and fibre settings are omitted: glTF "
+                            "does not support them");
     glb_set_name(glb, object, m.name);
     if (m.specular_glossiness > 0) {
         put_glossy(glb, object, &m);

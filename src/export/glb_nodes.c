@@ -49,7 +49,7 @@ static bool add_part(struct glb *glb, const lam_object *object, int part, const 
     return true;
 }
 
-// Primitives of glTF have no names, so a mesh with named parts is written as one node for each part.
+// glTF primitives have no names, so a mesh with named parts is written as one node for each part.
 static bool add_object(struct glb *glb, const lam_object *object)
 {
     const lam_mesh *m = scene_mesh(glb->e->scene, object->mesh);
@@ -114,8 +114,8 @@ static void lose_fields(struct glb *glb, const lam_light *l)
         export_lose(glb->e, "spot lights with an exponent become soft cones with the same angle");
 }
 
-// glTF gives intensities in candela and lux, and a white Lambertian surface reflects 1/π of the light; in Lambent it
-// reflects all of the light.
+// glTF's intensities are in candela and lux, and a white Lambertian surface reflects 1/π of the light. In Lambent, such
+// a surface reflects all of the light.
 static json_t *light(struct glb *glb, const lam_light *l)
 {
     static const char *const words[LAM_LIGHT_TYPE_COUNT] = {

@@ -1,4 +1,4 @@
-// mesh_save.c: writes one mesh of triangles as a model file. It uses the writers for scenes.
+// mesh_save.c: writes one mesh of triangles as a model file, with the writers for scenes.
 #include "export.h"
 
 #include "fail.h"

@@ -1,4 +1,4 @@
-// mtl_write.c: writes materials as MTL, and the pictures of their maps as PNG files beside it.
+// mtl_write.c: writes materials as an MTL file, and the pictures of their maps as PNG files beside it.
 #include "mtl_write.h"
 
 #include "fail.h"
@@ -137,8 +137,8 @@ static void lose(struct exporting *e, const lam_material *m)
     if (m->alpha_mode == LAM_ALPHA_MASK && (m->diffuse.a < 1 || m->maps[LAM_MAP_OPACITY] || color))
         export_lose(e, "masked materials become blended materials: MTL has no threshold");
     if (kr.r > 0 || kr.g > 0 || kr.b > 0 || m->roughness_angle_rad != d.roughness_angle_rad || m->fibre)
-        export_lose(
-            e, "reflectivity, Oren-Nayar's roughness and fibres of materials are omitted: MTL does not support them");
+        export_lose(e, "the materials' reflectivity, Oren-Nayar roughness and fibre settings are omitted: MTL does not "
+                       "support them");
     if (m->unlit)
         export_lose(e, "unlit materials become emission (illum 0)");
 }

@@ -111,8 +111,8 @@ static size_t object_length(const char *name)
     return slash && slash[1] ? (size_t)(slash - name) : 0;
 }
 
-// Writes the name of a part. `before` is the name of the previous part, or NULL. A reader of the written statements
-// joins object and group into the same name again.
+// Writes the name of a part. `before` is the name of the previous part, or NULL. A program that reads these statements
+// can join object and group into the same name again.
 static void put_part_name(struct text *text, const char *name, const char *before)
 {
     size_t length = object_length(name);

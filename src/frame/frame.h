@@ -1,7 +1,7 @@
 // frame.h: converts a scene and a camera to flat arrays in eye space, the input of every device.
 //
-// The transforms are computed in double and rounded to float once, here. Triangle t of a draw has the number
-// first_id + t, unique within the frame; a visibility buffer stores it.
+// The transforms are computed in double and rounded to float once. Triangle t of a draw has the number first_id + t,
+// which is unique within the frame. Visibility buffers store this number.
 #ifndef FRAME_H
 #define FRAME_H
 
@@ -36,7 +36,7 @@ struct frame_draw {
     // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. It casts no
     // shadows.
     bool ground;
-    bool clear; // light passes all triangles unchanged (colourless glass, for example), so rays ignore them
+    bool clear; // all triangles let light through unchanged (colourless glass, for example), so rays ignore them
     lam_cull cull;
     // If above 0, the mesh has no normals, and the device computes the normals of visible triangles with this crease
     // angle.
@@ -53,7 +53,7 @@ struct frame_draw_range {
     // the opacity may be below 1, or the material transmits light: the triangles are blended or masked
     bool translucent;
     lam_reflection reflection; // the model for both sides, never AUTO
-    bool passes_rays;          // the triangles are translucent for rays, for every output
+    bool passes_rays;          // rays treat the triangles as translucent, for every output
     bool transmits;            // the material transmits light (LAYER_TRANSMISSION), and the output shows that
 };
 
@@ -79,8 +79,8 @@ struct frame_light {
     double radius;
 };
 
-// Returns by how many stops a dark model is brightened, or a negative number for a white model (lam_brighten). Call
-// this function after the frame's draws are built.
+// Returns the number of stops by which a dark model is brightened, or a negative number for a white model
+// (lam_brighten). Call this function after the frame's draws are built.
 struct frame;
 double frame_brighten_stops(const struct frame *frame, const lam_scene *scene);
 
@@ -104,7 +104,7 @@ struct frame_ground {
     float eye_middle[3], eye_up[3], eye_height; // eye space: the plane's points p have p·eye_up = eye_height
     lam_mesh mesh;
     lam_material material;
-    uint32_t first_id; // the first of its triangles, which are the frame's last
+    uint32_t first_id; // the number of its first triangle; its triangles are the last of the frame
     struct buffer memory;
 };
 
@@ -142,7 +142,7 @@ struct frame {
     bool translucent;       // whether any range is translucent
     bool passes_rays;       // whether any range has passes_rays
     bool masked;            // whether any range has a material of LAM_ALPHA_MASK
-    // whether any range transmits for any output, so that its material colours the passing light
+    // whether any range transmits light, for any output, so that its material colours this light
     bool tints_rays;
     bool transmits; // whether any range transmits, so that layers need a transmittance per channel
     // whether any range is rough or thick glass, which blurs and refracts the picture behind it
@@ -151,13 +151,14 @@ struct frame {
     bool makes_normals; // whether a draw has a crease_rad, and the output needs its normals
     // The background of transmitting layers without a surface behind them: colour times alpha divided by the exposure,
     // and alpha. If the background is transparent and the output is the picture, this background is white. Glass then
-    // has its colour over white, and its alpha is 1 − its smallest channel.
+    // has the colour that it shows over white, and its alpha is 1 − its smallest transmittance.
     float glass_background[4];
     float eye_pixel[3][4]; // eye space to pixels: rows X·w, Y·w, w
     // The depth key of a point: 1/w in perspective; (1 − z/w)/2 if orthographic. Larger keys are nearer. The key is an
     // affine function of the window coordinates.
     float near_plane, far_plane;
-    // LAM_OUTPUT_DEPTH: the range of distances for 8 bits: the scene's vertices, clipped to the planes.
+    // LAM_OUTPUT_DEPTH: the range of distances that 8 bits encode: the distances of the scene's vertices, clipped to
+    // the near and far planes.
     float depth_near, depth_far;
 
     struct frame_draw *draws;
@@ -166,10 +167,10 @@ struct frame {
     int range_count;
     uint32_t triangle_count;
     // The default material, then material i of the scene at 1 + i. The list repeats all materials if one kind of model
-    // lights a front and the other kind lights its back, and once more if unlit lines or points have emission. Each
-    // copy is of the kind that its model lights.
+    // lights the front of a surface and the other kind lights its back. The list repeats them once more if unlit lines
+    // or points have emission. Each copy is converted to the kind of material that its model lights.
     const lam_material **materials;
-    int material_count, scene_material_count; // number of all materials, and without the materials of backs
+    int material_count, scene_material_count; // number of all materials, and number without the copies
     lam_material *converted;                  // materials converted to the other kind
     int converted_count;
     lam_mesh *stroke_meshes; // one per draw of lines or points
@@ -205,20 +206,20 @@ bool frame_params_check(const lam_draw_params *params, lam_error *error);
 // Returns the reflection model that lights a material; never AUTO.
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material);
 
-// Returns whether lit points send rays; edges send other rays (draws_edges).
+// Returns whether rays are traced from lit points. Rays for edges are separate (draws_edges).
 static inline bool frame_has_rays(const struct frame *frame)
 {
     return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
-// Fills the data of draws and lights that rays need, after these are built, and determines whether any light casts
+// After the draws and lights are built, fills the data that rays need from them, and determines whether any light casts
 // shadows.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
 // Determines the edges to draw, and fills their data. `pixel` is the matrix from eye space to pixels.
 void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
 
-// Returns whether shadow rays meet a draw's triangles.
+// Returns whether a draw's triangles cast shadows.
 static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }
 
 // Returns whether the hierarchy contains a draw's triangles.
@@ -235,7 +236,7 @@ static inline void frame_to_world(const struct frame_draw *draw, const float fro
 // Returns whether a model lights physical materials.
 bool frame_is_physical(lam_reflection model);
 
-// Returns the most materials that frame_materials_build and frame_back_material convert to the other kind.
+// Returns the maximum number of materials that frame_materials_build and frame_back_material convert to the other kind.
 size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene);
 void frame_materials_build(struct frame *frame, const lam_scene *scene);
 // Returns the layers of a material that the frame draws: LAYER_…. Transmission works only with Phong shading.
@@ -244,7 +245,8 @@ int frame_layers(const struct frame *frame, const lam_material *material);
 // Adds the ranges of a draw to the frame, and sets draw->clear. Each range has one material on either side.
 void frame_ranges_build(struct frame *frame, const lam_scene *scene, int draw_index);
 
-// Returns the index of the material for backs with this front.
+// Returns the index of material `back`, or of a converted copy of it if the model that lights `front` lights only the
+// other kind of material.
 int frame_back_material(struct frame *frame, int front, int back);
 
 // Returns the index of the material for unlit lines and points, whose emission is added to the diffuse colour. If the
@@ -256,7 +258,7 @@ int frame_stroke_material(struct frame *frame, int front, bool colored);
 // interpolated, these are the maps that multiply such a colour.
 unsigned frame_maps(const struct frame *frame, const lam_material *material);
 
-// Returns whether each point computes a classic material from a metallic-roughness one and its maps.
+// Returns whether a metallic-roughness material and its maps are converted to a classic material at each point.
 bool frame_converts_at_points(const struct frame *frame, const lam_material *material);
 
 // Gets the colours by which lights are multiplied: kd and ks. For a physical material, kd is base (1 − metallic), and
@@ -267,8 +269,8 @@ void frame_material_colors(const struct frame *frame, const lam_material *materi
 // Returns whether a classic material mirrors the frame's environment.
 bool frame_reflects_environment(const struct frame *frame, const lam_material *material);
 
-// Returns whether a mesh has the texture coordinates that a map uses. If not, it is drawn without the map, as if all
-// texels were 1.
+// Returns whether a mesh has the texture coordinates that a map uses. If not, the mesh is drawn without the map, as if
+// all texels were 1.
 static inline bool frame_has_texcoords(const lam_mesh *mesh, const lam_texture_map *map)
 {
     return map->texcoords ? mesh->second_texcoords != NULL : mesh->texcoords != NULL;

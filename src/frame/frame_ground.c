@@ -15,7 +15,8 @@
 // no shadow is cut off at the border. The model of a fitted camera is inside (FILL_ON_GROUND in camera_fit.c).
 #define BORDER_FIRST 0.8
 #define BORDER_LAST  0.95
-// The distance below the lowest point, in radii. Without it, a flat underside would have the same depth as the ground.
+// The distance below the lowest point, in radii. Without this distance, a flat underside would have the same depth as
+// the ground.
 #define DROP 0x1p-14
 // The sides of squares without a checker pattern, as fractions of the ground's radius, and for a catcher.
 #define PLAIN_SQUARE   0.0625
@@ -23,7 +24,7 @@
 // The brightness of a checker's dark squares relative to its bright ones.
 #define DARK_SQUARE 0.45f
 
-// Returns the largest of 1, 2 and 5 times a power of ten that is at most x.
+// Returns the largest number that is at most x and equals 1, 2 or 5 times a power of ten.
 static double round_number(double x)
 {
     double power = 1;

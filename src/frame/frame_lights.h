@@ -4,7 +4,8 @@
 
 #include "frame.h"
 
-// Adds all lights or, if `only` >= 0, only that light, without the scene's ambient light. Fails with LAM_BAD_ARGUMENT.
+// Adds all lights or, if `only` >= 0, only the light with that index, without the scene's ambient light. Fails with
+// LAM_BAD_ARGUMENT.
 bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
                         lam_error *error);
 
@@ -12,7 +13,7 @@ bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig
 static inline bool wants_shadows(const lam_draw_params *params) { return params->shadows || params->ground; }
 
 // Makes the environment's brightest lamp a separate light, if the environment lights all lit surfaces and the picture
-// has shadows. For a picture of one light, nothing changes.
+// has shadows. If the picture shows a single light, the function does nothing.
 bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, struct call_control *call,
                            lam_error *error);
 

@@ -95,7 +95,8 @@ int frame_back_material(struct frame *frame, int front, int back)
     return second;
 }
 
-// Returns whether the colour of a material is a default: of the scene, or of a glTF primitive without a material.
+// Returns whether the colour of a material is the default colour of the scene, or of glTF primitives without a
+// material.
 static bool is_unchosen(const struct frame *frame, int front)
 {
     const lam_material *m = frame->materials[front];
@@ -181,7 +182,8 @@ float frame_lobe_max(const lam_material *material)
         return 1;
     if (material->maps[LAM_MAP_ROUGHNESS] || material_layers(material))
         return 1.25f / (ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN * ROUGHNESS_MIN);
-    // S of the microfacet lobe is at most 1 / (2 α³), and multiple scattering multiplies it by less than 2.5.
+    // The strength S of the microfacet lobe is at most 1 / (2 α³), and multiple scattering multiplies it by less than
+    // 2.5.
     float roughness = material->roughness > ROUGHNESS_MIN ? material->roughness : ROUGHNESS_MIN;
     float alpha = roughness * roughness;
     return 1.25f / (alpha * alpha * alpha);

@@ -1,4 +1,5 @@
-// frame_ranges.c: divides a draw into ranges of triangles with the same materials, and finds out how light passes them.
+// frame_ranges.c: divides a draw into ranges of triangles with the same materials, and determines whether light passes
+// through the triangles.
 #include "frame.h"
 
 #include "frame_strokes.h"
@@ -20,11 +21,11 @@ static bool transmits(const struct frame *frame, int material, lam_reflection mo
     return frame_is_physical(model) && frame_layers(frame, frame->materials[material]) & LAYER_TRANSMISSION;
 }
 
-// Returns whether a material that transmits light blurs or refracts the picture behind it. An index of refraction of 1
-// (air) or 0 (which admits no light) does not.
+// Returns whether a material that transmits light blurs or refracts the picture behind it. A material with an index of
+// refraction of 1 (air) or 0 (which admits no light) does neither.
 static bool refracts(const lam_material *m) { return m->ior > 1 && (m->roughness > 0 || m->thickness > 0); }
 
-// Returns whether light passes a material unchanged at every point and on both sides (src/rays/opacity.h).
+// Returns whether light passes through a material unchanged at every point and on both sides (src/rays/opacity.h).
 static bool is_clear(const struct frame *frame, const lam_mesh *mesh, int material, lam_reflection model)
 {
     const lam_material *m = frame->materials[material];
@@ -37,10 +38,10 @@ static bool is_clear(const struct frame *frame, const lam_mesh *mesh, int materi
            m->diffuse.r >= 1 && m->diffuse.g >= 1 && m->diffuse.b >= 1;
 }
 
-// How a side of a range treats the light behind it; a range has the traits of both sides.
+// The effects of one side of a range on the light behind it. A range has the traits of both sides.
 enum side_trait { SIDE_DIMS = 1, SIDE_TRANSMITS = 2, SIDE_REFRACTS = 4, SIDE_SEEN_THROUGH = 8, SIDE_MASKED = 16 };
 
-// Returns the traits of the sides with one material; `varies` as for sees_through.
+// Returns the traits of a side with this material. `varies` is as for sees_through.
 static unsigned side_traits(const struct frame *frame, const lam_mesh *mesh, int material, lam_reflection model,
                             bool varies)
 {
@@ -60,7 +61,7 @@ static void add_range(struct frame *frame, struct frame_draw_range range, unsign
     const bool shows = !output_is_value(output), masked = traits & SIDE_MASKED;
     range.passes_rays = traits & SIDE_SEEN_THROUGH;
     range.transmits = shows && traits & SIDE_TRANSMITS;
-    // Pictures of values have no translucent triangles, only masked ones; overdraw counts all of a triangle.
+    // Pictures of values contain no translucent triangles, only masked triangles. Overdraw also counts masked points.
     range.translucent = range.passes_rays && (shows || (masked && output != LAM_OUTPUT_OVERDRAW));
     frame->transmits |= range.transmits;
     frame->refracts |= shows && traits & SIDE_REFRACTS;

@@ -8,8 +8,8 @@
 
 enum { LINE_CORNERS = 4, POINT_CORNERS_MAX = 16 };
 
-// The arrays of one mesh's polygons, in the order of their alignment; a member is NULL if the mesh lacks the attribute.
-// Corners 0 and 3 of a line are at its first end, 1 and 2 at the second.
+// The arrays of one mesh's polygons, ordered by alignment; a member is NULL if the mesh lacks the attribute. Corners 0
+// and 3 of a line are at its first end, 1 and 2 at the second.
 struct stroke_arrays {
     lam_part *parts;
     float *positions, *normals, *tangents, *texcoords, *second_texcoords;
@@ -26,7 +26,7 @@ static size_t corners_of(const lam_mesh *mesh, size_t point_corners)
 
 size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners) { return corners_of(mesh, point_corners) - 2; }
 
-// The size of a single point, as a fraction of the picture's smaller side. It shrinks with the square root of the
+// The size of a single point, as a fraction of the picture's smaller side. The size shrinks with the square root of the
 // number of points.
 #define POINT_SHARE 0.16
 // The minimum size in pixels, the minimum for few points in pixels, and the maximum for few points as a fraction of the
@@ -54,7 +54,8 @@ void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene,
     view->point_corners = view->point_size < ROUND_FROM ? 4 : view->point_size < ROUNDER_FROM ? 8 : POINT_CORNERS_MAX;
 }
 
-// Divides memory among the arrays, and returns their size in bytes. If `at` is NULL, it only returns the size.
+// Divides memory among the arrays, and returns their size in bytes. If `at` is NULL, the function only returns the
+// size.
 static size_t divide(const lam_mesh *mesh, size_t point_corners, char *at, struct stroke_arrays *out)
 {
     size_t corners = corners_of(mesh, point_corners), items = mesh_items(mesh), vertices = corners * items, size = 0;
@@ -119,7 +120,7 @@ void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera,
 
 // --- attributes
 
-// A position on a line: the fraction t from corner a to corner b. For a point it is corner a.
+// A position on a line, at the fraction t of the way from corner a to corner b. For a point, the position is corner a.
 struct segment_point {
     size_t a, b;
     double t;
@@ -180,7 +181,7 @@ struct builder {
     double half;                         // half the width, pixels
     size_t corners;                      // corners per polygon
     double corner[POINT_CORNERS_MAX][2]; // the corners of a point's polygon, in pixels from its centre
-    double bitangent;                    // sign of mirroring transforms
+    double bitangent;                    // −1 if the transform mirrors the mesh, otherwise 1
 };
 
 static lam_vec3 eye_position(const struct builder *b, size_t corner)
@@ -304,7 +305,7 @@ static void build_line(const struct builder *b, size_t item)
 
 // --- whole meshes
 
-// Computes a square whose side is the size, or a regular polygon with the area of a disc of that diameter.
+// Computes a square whose side is the point size, or a regular polygon with the area of a disc of that diameter.
 static void set_corners(struct builder *b)
 {
     double step = 2 * PI / (double)b->corners;

@@ -10,7 +10,7 @@
 
 enum {
     BOX_CHILDREN = 16, // boxes per box of the next level
-    BOX_LEVELS = 8,    // one level more than 2³² vertices in blocks of 64 need
+    BOX_LEVELS = 8,    // one more level than 2³² vertices in blocks of 64 need
 };
 
 // Minimum and maximum, relative to the mesh's origin.

@@ -6,8 +6,8 @@
 // about √count steps even for long thin ears, for any distribution of the corners.
 //
 // Decisions are exact. The corners are projected along the axis of the normal's largest component and snapped to
-// integers, with 2^30 steps along the longer side of their bounding box. The grid is finer than a float, and a cross
-// product fits into 64 bits.
+// integers, with 2^30 steps along the longer side of their bounding box. The grid is finer than the resolution of a
+// float, and a cross product fits into 64 bits.
 #include "triangulate.h"
 
 #include <string.h>
@@ -165,8 +165,7 @@ static bool snap(const float *positions, const uint32_t *numbers, uint32_t count
 
     double side = high[across] - low[across] > high[up] - low[up] ? high[across] - low[across] : high[up] - low[up];
     double scale = (double)STEPS / side;
-    if (!(side > 0) || !(scale < 1e300)) // the polygon has no extent, or is larger than any polygon of floats with an
-                                         // area
+    if (!(side > 0) || !(scale < 1e300)) // the polygon has no extent, or `side` is not finite
         return false;
     __extension__ __int128 area = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -276,7 +275,7 @@ static int32_t max_int(int32_t a, int32_t b) { return a > b ? a : b; }
 static bool point_inside(const struct corner *const triangle[3], const struct corner *p, bool touching)
 {
     for (int k = 0; k < 3; k++) {
-        // The bridge of a hole returns to the same point, and a point does not block its own ear.
+        // The bridge to a hole returns to the same point, and a point does not block its own ear.
         if (same_place(p, triangle[k]))
             return false;
         int64_t side = turn(triangle[k], triangle[k == 2 ? 0 : k + 1], p);

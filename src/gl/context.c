@@ -223,7 +223,7 @@ void gl_context_leave(struct gl_context *context, const struct gl_previous_conte
         egl->MakeCurrent(previous->display, previous->draw, previous->read, previous->context);
 }
 
-// The display stays initialized: the process has only one, and the calling program may use it.
+// The display stays initialized, because the process has only one display, which the calling program may use.
 void gl_context_free(struct gl_context *context)
 {
     if (context->surface != EGL_NO_SURFACE)

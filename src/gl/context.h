@@ -27,7 +27,7 @@ int gl_platforms(const struct egl *egl, struct gl_platform *platforms);
 // Debug messages of the driver.
 struct gl_messages {
     int errors;      // number of errors and of undefined behaviour
-    char first[256]; // text of the first of them
+    char first[256]; // text of the first counted message
 };
 
 // A context and its functions. `context` is EGL_NO_CONTEXT for the caller's own context.
@@ -36,7 +36,7 @@ struct gl_context {
     struct egl egl;
     EGLDisplay display;
     EGLContext context;
-    EGLSurface surface; // EGL_NO_SURFACE if the driver needs none
+    EGLSurface surface; // EGL_NO_SURFACE if the driver needs no surface
     bool es, software;
     int major, minor;
     bool debug; // whether debug messages are collected
@@ -65,8 +65,8 @@ bool gl_context_make(struct gl_context *context, const char *library, const char
 // Wraps the caller's current context.
 bool gl_context_adopt(struct gl_context *context, lam_gl_get_proc *get, void *user, bool debug, lam_error *error);
 
-// Makes the context current on this thread; gl_context_leave restores the previous one. Both do nothing for the
-// caller's own context.
+// Makes the context current on this thread; gl_context_leave restores the previous context. Both functions do nothing
+// for the caller's own context.
 bool gl_context_enter(struct gl_context *context, struct gl_previous_context *previous, lam_error *error);
 void gl_context_leave(struct gl_context *context, const struct gl_previous_context *previous);
 

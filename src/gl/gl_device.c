@@ -278,7 +278,7 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
-// Draws the distances of the frame's opaque surfaces, and computes its ambient occlusion from them.
+// Draws the distances of the frame's opaque surfaces, and computes the ambient occlusion from these distances.
 static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusion, lam_error *error)
 {
     struct frame distances = *f->frame; // a copy that shares the frame's arrays

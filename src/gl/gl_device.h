@@ -34,11 +34,11 @@ enum texture_unit {
     UNIT_NEARER_DEPTH_IDS, // depth and number of the previous layer
     UNIT_OPAQUE_DEPTH_IDS, // depth and number of the opaque surfaces
     UNIT_OCCLUSION =
-        // only translucent surfaces read depth ids; the ground is the only one of them that occlusion dims
+        // only translucent surfaces read depth ids; of these surfaces, occlusion dims only the ground
     UNIT_NEARER_DEPTH_IDS,
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
-    UNIT_SHADOW_TREE = UNIT_COPY,           // no program reads both
+    UNIT_SHADOW_TREE = UNIT_COPY,           // no program reads both textures
     UNIT_FIRST_MAP,                         // the maps of materials
     UNIT_GROUND_OCCLUSION = UNIT_FIRST_MAP, // a ground has no maps
     // the maximum; every driver supports 16 (OpenGL 3.3 and ES 3.0), most support 32 (gl_device.unit_count)
@@ -88,7 +88,7 @@ struct gl_texture {
     struct scene_token *token;   // referenced: the scene that was drawn when the texture was uploaded
     GLuint name;
     uint64_t bytes;
-    uint64_t last_frame; // number of the last frame that used it
+    uint64_t last_frame; // number of the last frame that used the texture
 };
 
 // The state of a texture unit that determines wrapping and filtering.
@@ -207,7 +207,7 @@ struct gl_device {
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count; // number of texture units that fragment shaders may use, up to UNIT_COUNT
     bool has_norm16;  // the driver supports textures with 16-bit numbers for 0…1
-    // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver does not support the former
+    // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver does not support GL_RGBA32F
     GLenum float_format;
 
     struct gl_mesh *meshes;
@@ -255,7 +255,7 @@ struct gl_device {
 
 // A draw call: all ranges of one draw with the same materials.
 struct gl_draw_call {
-    const struct frame_draw_range *range; // the first of them
+    const struct frame_draw_range *range; // the first of the ranges
     uint32_t first, count;                // vertices or elements
     const struct frame_draw *draw;
     struct gl_program *program;
@@ -306,7 +306,8 @@ bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *er
 // GL_ARRAY_BUFFER. Returns NULL on failure.
 void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
 
-// Sets an attribute of the vertex array: `size` floats from float `at` of each vertex of the bound buffer.
+// Sets an attribute of the vertex array to `size` floats, starting with float number `at`, of each vertex in the bound
+// buffer.
 void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at);
 
 // Adds bytes to a key, a 64-bit hash of the inputs of uploaded data. The data are uploaded again if the key has
@@ -339,8 +340,9 @@ bool mesh_can_share(const lam_mesh *mesh);
 void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                    uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// Returns the mesh's buffers, created on first use; `passing` arrays may change after the frame. If `runs` is not NULL,
-// the elements are ordered by call. The pointer is valid until the next call. Returns NULL on failure.
+// Returns the mesh's buffers, created on first use; `passing` means that the mesh's arrays may change after the frame.
+// If `runs` is not NULL, the elements are ordered by call. The pointer is valid until the next call. Returns NULL on
+// failure.
 struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form, bool passing,
                             const struct mesh_run *runs, int run_count, lam_error *error);
 // Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.
@@ -372,8 +374,8 @@ static inline enum texture_unit gl_occlusion_unit(const struct gl_program *progr
 {
     return program->choices.layer == GLSL_PEELS ? UNIT_GROUND_OCCLUSION : UNIT_OCCLUSION;
 }
-// Computes the ambient occlusion of the frame's pixels from a float picture of the distances of its opaque surfaces
-// (LAM_OUTPUT_DEPTH). The device owns the rows.
+// Computes the ambient occlusion of the frame's pixels from a float picture of the distances of the frame's opaque
+// surfaces (LAM_OUTPUT_DEPTH). The device owns the rows.
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error);
 // Uploads the occlusion of the current part of the picture.
@@ -405,7 +407,8 @@ bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);
 uint64_t surfaces_bytes(const struct gl_device *device);
 void surfaces_free(struct gl_device *device);
-// Returns the position of a triangle's record, by its number in the frame; 0 if it transmits no light.
+// Returns the position of the record of the triangle with this number in the frame, or 0 if the triangle transmits no
+// light.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 
 // --- gl_shadows.c

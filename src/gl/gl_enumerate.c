@@ -1,4 +1,4 @@
-// gl_enumerate.c: lam_gl_devices: lists the OpenGL devices, and tries to make a context on each.
+// gl_enumerate.c: implements lam_gl_devices: lists the OpenGL devices, and tries to make a context on each device.
 #include "context.h"
 
 #include "fail.h"

@@ -1,6 +1,6 @@
-// gl_light_buffers.c: uploads the lights and the products of materials and lights, as uniform blocks or, above the
-// maximum size of a block, as textures; and the environment's faces. Each upload is skipped if the data have not
-// changed.
+// gl_light_buffers.c: uploads the lights, the products of materials and lights, and the environment's faces. Lights and
+// products are stored in uniform blocks or, above the maximum size of a block, in textures. Each upload is skipped if
+// the data have not changed.
 #include "gl_device.h"
 
 #include "cube_map.h"
@@ -72,7 +72,7 @@ static void delete_light_buffer(const struct gl *gl, struct gl_light_buffer *lis
     list->size = list->capacity = 0;
 }
 
-// Uploads `size` bytes of list->next if they have changed since the previous frame.
+// Uploads `size` bytes of list->next if these bytes have changed since the previous frame.
 static bool send(struct gl_frame *f, struct gl_light_buffer *list, size_t size, enum texture_unit unit,
                  lam_error *error)
 {

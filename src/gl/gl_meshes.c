@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHUNK = 4096 }; // vertices packed at once
+enum { CHUNK = 4096 }; // number of vertices packed at a time
 
 // Returns whether a vertex has the same index for all attributes, so that the mesh's own vertices can be uploaded.
 bool mesh_can_share(const lam_mesh *mesh)

@@ -1,8 +1,9 @@
 // gl_passes.c: draws one part of the picture. Each sample is a separate pass, with the projection shifted by the
-// sample's offset. A pass draws the opaque surfaces, then peels the translucent ones layer by layer, nearest first.
+// sample's offset. A pass draws the opaque surfaces, then peels the translucent surfaces layer by layer, nearest first.
 //
 // A depth id is the depth and the triangle number of a fragment. Layers are ordered by depth id, so that surfaces of
-// equal depth have the same order as on the CPU device, with the lower triangle number in front, and none is lost.
+// equal depth have the same order as on the CPU device, with the lower triangle number in front, and no surface is
+// lost.
 //
 // The target's rows are top-down, like the picture: the projection flips y, which reverses the winding.
 #include "gl_device.h"
@@ -123,7 +124,7 @@ static bool is_layer(const struct gl_frame *f, const struct gl_draw_call *call)
 }
 
 // Issues the draw calls of the translucent layers or, if `layers` is false, of all other surfaces. With BLENDING_ADD,
-// every triangle over a pixel counts, regardless of depth.
+// every triangle over a pixel is added, regardless of depth.
 static void draw_all(struct gl_frame *f, bool layers, enum gl_blending blending)
 {
     gl_use_blending(f->device, blending);

@@ -144,7 +144,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
         return NULL;
     struct gl_program *program = &device->programs[device->program_count++];
     *program = (struct gl_program){.name = name};
-    memcpy(&program->choices, choices, sizeof *choices); // includes the padding, because memcmp compares it
+    memcpy(&program->choices, choices, sizeof *choices); // also copies the padding, because memcmp compares the padding
     if (find_uniforms(f, program, error))
         return program;
     f->gl->DeleteProgram(name);

@@ -107,9 +107,10 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
     if (!h)
         return false;
     if (built)
-        device->shadows_sent = false; // the texture contains another hierarchy, or none
+        device->shadows_sent = false; // the texture does not contain this hierarchy
     device->base.report.hierarchy_ms += built ? (double)(now_ns() - start) * 1e-6 : 0;
-    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->settings.output)) // no shader traverses it
+    if (f->stage == LAM_STAGE_APPLICATION && !glsl_output_is_geometry(frame->settings.output)) // no shader traverses
+                                                                                               // the hierarchy
         return true;
     // Triangle indices are stored as floats and must fit the texels of a texture.
     size_t triangles = (size_t)NODE * h->node_count, positions = triangles + (size_t)TRIANGLE * (h->triangle_count + 1);

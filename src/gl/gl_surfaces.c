@@ -1,6 +1,6 @@
 // gl_surfaces.c: stores the data with which a shader computes the light that passes a masked, translucent or
 // transmitting triangle (passed_surface in shadows.glsl). These data are the triangle's record, and the records of its
-// materials and their maps at level 0. They follow the hierarchy in the same texture.
+// materials and their maps at level 0. The data follow the hierarchy in the same texture.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -12,7 +12,7 @@
 
 enum {
     RECORD = 4,  // texels of a triangle: its sides, and the texture coordinates of its corners
-    COLORED = 7, // the same with the colours of its corners
+    COLORED = 7, // texels of a triangle with the colours of its corners
     SIDE = 4,    // texels of one side of a material
     MAP = 4,     // texels of a map
     MAPS = 4,    // number of maps that affect the transmitted light of a side
@@ -29,7 +29,7 @@ struct packed_pixels {
 // Everything is packed twice. The first pass only computes the size and the key. Pictures and meshes are identified by
 // their addresses, because a scene never changes arrays and keeps them as long as it exists.
 struct packer {
-    float *out; // if it is NULL, only size and key are computed
+    float *out; // if NULL, only the size and the key are computed
     size_t first, used;
     uint64_t key;
     struct packed_pixels *pixels;

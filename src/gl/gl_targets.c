@@ -1,5 +1,5 @@
-// gl_targets.c: the framebuffers for a part of the picture. They store linear light as floats, which gl_readback.c
-// encodes.
+// gl_targets.c: the framebuffers for a part of the picture. The framebuffers store linear light as floats, which
+// gl_readback.c encodes.
 #include "gl_device.h"
 
 #include "fail.h"

@@ -1,5 +1,5 @@
-// loader.c: opens libEGL, and looks up the functions of EGL and OpenGL by name. The program links neither library, so
-// it also starts on a machine without OpenGL, and draws with the CPU device.
+// loader.c: opens libEGL, and looks up the functions of EGL and OpenGL by name. The program links neither library. On a
+// machine without OpenGL, the program therefore still starts and draws with the CPU device.
 #include "loader.h"
 
 #include "dynamic_library.h"

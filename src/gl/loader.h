@@ -1,4 +1,4 @@
-// loader.h: loads libEGL at run time, and looks up OpenGL's functions by name.
+// loader.h: loads libEGL at run time, and looks up the OpenGL functions by name.
 #ifndef LOADER_H
 #define LOADER_H
 
@@ -49,7 +49,7 @@ const char *egl_reason(const struct egl *egl);
 // Returns whether a space-separated list (NULL if empty) contains the word.
 bool list_has(const char *list, const char *word);
 
-// Fills the table of functions. Fails with LAM_UNSUPPORTED, and names the first missing one.
+// Fills the table of functions. Fails with LAM_UNSUPPORTED, and names the first missing function.
 bool gl_load(struct gl *gl, lam_gl_get_proc *get, void *user, lam_error *error);
 
 #endif

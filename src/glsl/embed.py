@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""embed.py [--dialect] OUT FILE...: writes text files as C strings text_NAME_ENDING, each up to a line "// --- C only". A line
-`#include "NAME"` becomes the file of that name beside it. With --dialect, the dialect of src/lighting becomes GLSL: num is float,
-mask is bool, STRUCT(name) is struct name, FN and the definitions of these words go; numbers lose their f, num_of(1.0f) is 1.0."""
+"""embed.py [--dialect] OUT FILE...: writes text files as C strings text_NAME_ENDING, each up to a line "// --- C only". Replaces a line
+`#include "NAME"` by the contents of that file in the same folder. With --dialect, translates the dialect of src/lighting to GLSL: num
+becomes float, mask becomes bool, STRUCT(name) becomes struct name, and num_of(1.0f) becomes 1.0. FN, the definitions of these words,
+and the suffix f of numbers are removed."""
 import os
 import re
 import sys

@@ -13,7 +13,7 @@ struct definition {
     const char *name;
     size_t name_length;
     int file;
-    bool spaced; // an empty line precedes it
+    bool spaced; // an empty line precedes the definition
     bool kept;
 };
 
@@ -33,7 +33,7 @@ static char *next_line(const char *at)
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
 // Returns the end of a definition. If its first line contains a semicolon, the definition ends with that line.
-// Otherwise it ends with the line that begins with the closing brace or, for a table, with a parenthesis.
+// Otherwise the definition ends with the line that begins with the closing brace or, for a table, with a parenthesis.
 static char *definition_end(char *at)
 {
     bool table = begins(at, "const ");

@@ -1,4 +1,4 @@
-// equations.h: composes the text of a shader stage from the equations of src/lighting and the texts of src/glsl/text.
+// equations.h: composes the source of a shader stage from the equations in src/lighting and the files in src/glsl/text.
 #ifndef EQUATIONS_H
 #define EQUATIONS_H
 
@@ -8,8 +8,8 @@
 struct stage_source {
     const char *title; // heading of the called definitions, or NULL
     const char *text;  // may be NULL
-    bool made;         // the text is generated for this stage and printed unchanged
-    bool whole;        // keeps unread parameters and variables of its functions
+    bool made;         // the source is generated for this stage and printed unchanged
+    bool whole;        // keeps unread parameters and variables of the functions
 };
 
 // Appends the definitions that the function `main` needs, directly or indirectly: first from the equations, then from

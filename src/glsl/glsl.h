@@ -1,10 +1,10 @@
-// glsl.h: GLSL text for a set of choices, and the values of its uniforms from a frame.
+// glsl.h: generates GLSL for a set of choices, and computes the values of its uniforms for a frame.
 //
-// The text consists of the equations of src/lighting that the shader calls (equations.h), and of the files in
+// The source consists of the equations in src/lighting that the shader calls (equations.h), and of the files in
 // src/glsl/text. These files contain the code for all choices. For one set of choices, branches with known conditions
 // are resolved, and unread names are removed (specialize.h).
 //
-// Names in the text. Attributes, with their locations (GLSL 120: bound by name):
+// Names in the source. Attributes, with their locations (GLSL 120: bound by name):
 //    0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,
 //    8 second_texcoord.
 // glsl_rows.c contains the table of uniforms. All colours are vec4, so that arrays of them have the same layout in
@@ -60,7 +60,7 @@ struct glsl_map {
     uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
 };
 
-// The choices that determine a shader's text. If memcmp compares two structs, zero them before assigning members.
+// The choices that determine a shader's source. If memcmp compares two structs, zero them before assigning members.
 struct glsl_choices {
     enum glsl_version version;
     enum glsl_storage storage;
@@ -83,12 +83,12 @@ struct glsl_choices {
     bool widens;
     bool passed;      // each light is multiplied by its unblocked share, which the program sets (in texels: position.w)
     bool shadows;     // traverses the hierarchy in a texture (shadows.glsl); not in 120
-    bool passes_rays; // with shadows, some triangles transmit light
-    bool tints_rays;  // with passes_rays, they also tint the light
+    bool passes_rays; // with shadows, whether some triangles transmit light
+    bool tints_rays;  // with passes_rays, whether these triangles also tint the light
     bool catches;     // a shadow catcher: black, with the blocked share of the light as opacity
     lam_tone tone;    // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
     bool exposes;     // the fragment multiplies its light by the uniform `exposure`
-    const struct glsl_style *style; // writes the texts; NULL: the full style
+    const struct glsl_style *style; // writes the sources; NULL means the full style
     int mistake;                    // number of a change that the style makes, or 0
     bool products;                  // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;                 // the back is lit with −n
@@ -139,8 +139,8 @@ struct glsl_style {
     bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
     // Appends a stage after its version and its uniforms.
     void (*add_stage)(struct text *text, const struct glsl_facts *stage);
-    // Makes the change choices->mistake in one of the texts. On success, all texts are freed and replaced by copies.
-    // Returns false on failure.
+    // Makes the change choices->mistake in one of the sources `texts`. On success, all sources are freed and replaced
+    // by copies. Returns false on failure.
     bool (*change)(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 };
 
@@ -184,9 +184,9 @@ size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
 // Do the same for the products of one material: the block Products or BackProducts, or the material's texels of
-// product_list. They contain, for each light, the diffuse, the specular and (with gl1) the ambient product, then, for
-// each hemisphere, the products of sky and ground. The uniforms first_product and back_first_product contain the index
-// of the first texel.
+// product_list. The products are, for each light, the diffuse, the specular and (with gl1) the ambient product, then,
+// for each hemisphere, the products of sky and ground. The uniforms first_product and back_first_product contain the
+// index of the first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
@@ -205,7 +205,7 @@ float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material)
 void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4]);
 
 // Gets the rows of a map's uniforms NAME_map_s and NAME_map_t: the matrix from the mesh's texture coordinates to the
-// picture's, with the scale and the offset of the texel. A NULL map has the value 1 everywhere.
+// texture's coordinates, with the scale and the offset of the texel. A NULL map has the value 1 everywhere.
 void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4], float t[4]);
 
 // Writes the values of glsl_material_layout(products, field_layers).

@@ -5,11 +5,11 @@
 #include "glsl_rows.h"
 #include "specialize.h"
 
-// A table under construction. A zeroed table is empty. Names and texts are not copied.
+// A table under construction. A zeroed table is empty. Names and strings are not copied.
 enum { KNOWN_MAX = 192, KNOWN_MADE_MAX = 32 };
 struct known_table {
     struct known rows[KNOWN_MAX + 1];
-    struct text made[KNOWN_MADE_MAX]; // texts from known_made and known_number
+    struct text made[KNOWN_MADE_MAX]; // strings from known_made and known_number
     struct known *of_made[KNOWN_MADE_MAX];
     int count, made_count;
 };
@@ -17,7 +17,7 @@ struct known_table {
 void known_flag(struct known_table *table, const char *name, bool holds);
 void known_text(struct known_table *table, const char *name, const char *text);
 void known_number(struct known_table *table, const char *name, int number);
-// Adds an empty text for a name, and returns it; the caller then writes it.
+// Adds a row with an empty replacement for a name, and returns the replacement, to which the caller then appends.
 struct text *known_made(struct known_table *table, const char *name);
 // Appends a source, specialised by the table, and frees the table.
 void known_specialize(struct text *text, const char *source, struct known_table *table);

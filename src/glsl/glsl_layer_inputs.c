@@ -1,4 +1,4 @@
-// glsl_layer_inputs.c: the table of the numbers of a material that layers use (src/lighting/layer_inputs.h), for GLSL.
+// glsl_layer_inputs.c: the table of the material values that layers use (src/lighting/layer_inputs.h), for GLSL.
 #include "layer_inputs.h"
 
 #include "glsl_rows.h"

@@ -39,7 +39,8 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
         return true;
     if (!f->adds_lights || !f->has_lights)
         return false;
-    bool numbers = f->converts && !f->microfacet; // the classic model's numbers are computed from these
+    bool numbers = f->converts && !f->microfacet; // the classic model's parameters are computed from the physical
+                                                  // parameters
     if (strcmp(parameter, "shininess") == 0)
         return f->highlights && !f->microfacet;
     if (strcmp(parameter, "metallic") == 0) // the Fresnel factor uses this parameter

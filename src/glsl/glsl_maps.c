@@ -1,5 +1,5 @@
-// glsl_maps.c: sets the choices about a shader's maps, finds the maps that it reads, and writes the texts that replace
-// the names in maps.glsl.
+// glsl_maps.c: sets the choices about a shader's maps, finds the maps that the shader reads, and writes the GLSL that
+// replaces the names in maps.glsl.
 #include "fail.h"
 #include "glsl_rows.h"
 #include "maps.inc"
@@ -94,7 +94,7 @@ void glsl_map_values(const lam_texture_map *map, const lam_mesh *mesh, float s[4
     }
     s[3] = map->scale != 0 ? map->scale : 1;
     t[3] = map->offset;
-    if (!frame_has_texcoords(mesh, map)) { // a map without texture coordinates counts as 1 everywhere
+    if (!frame_has_texcoords(mesh, map)) { // a map without texture coordinates has the value 1 everywhere
         t[3] += s[3];
         s[3] = 0;
     }
@@ -144,7 +144,7 @@ static lam_map lod_map(const struct glsl_facts *f, int side)
     return LAM_MAP_COUNT;
 }
 
-// Returns whether the material at a point depends on a map of that side.
+// Returns whether the material at a point depends on a map of side `side`.
 static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
 {
     switch (f->choices->output) {
@@ -236,11 +236,11 @@ static bool has_layer_input(const struct glsl_facts *f, const struct glsl_layer_
 
 bool glsl_maps_have(const struct glsl_facts *f, const char *member)
 {
-    // The members of surface_maps that other texts read, and the map of each. Members for layers follow.
+    // The members of surface_maps that other files read, and the map of each member. Members for layers follow.
     static const struct {
         const char *name;
         lam_map map;
-        bool converted; // a conversion to a classic model computes it as well
+        bool converted; // a conversion to a classic model also computes the member
     } members[] = {{"color", LAM_MAP_DIFFUSE, false},       {"ambient", LAM_MAP_AMBIENT, false},
                    {"specular", LAM_MAP_SPECULAR, true},    {"emission", LAM_MAP_EMISSION, false},
                    {"opacity", LAM_MAP_OPACITY, false},     {"shininess", LAM_MAP_SHININESS, true},
@@ -266,7 +266,7 @@ bool glsl_maps_have(const struct glsl_facts *f, const char *member)
 
 // --- text
 
-// The names of maps.glsl for one side, with the texts that replace them.
+// The names in maps.glsl for one side, and their replacements.
 enum { WORDS_MAX = 9 * LAM_MAP_COUNT + 24, WORD_MAX = 128 };
 struct words {
     const struct glsl_facts *facts;

@@ -53,8 +53,8 @@ struct glsl_row {
 };
 enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
-// Properties of a shader that follow from its choices. Each is a member of struct glsl_facts and a flag of the sources
-// (specialize.h).
+// Properties of a shader that follow from its choices. Each property is a member of struct glsl_facts and a flag of the
+// sources (specialize.h).
 // clang-format off
 #define GLSL_FACTS(X) \
     /* light, and the stage that evaluates it */ \
@@ -144,7 +144,7 @@ void glsl_find_maps(struct glsl_facts *facts);
 lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
 // Returns whether the reflection model lights physical materials.
 bool glsl_is_physical(const struct glsl_facts *facts);
-// Returns whether the maps' struct has a member with this name.
+// Returns whether the struct of map values has a member with this name.
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
 // A member of struct layer_values that is a field of the material times its map's value (layer_inputs.h).
 struct glsl_layer_input {
@@ -183,8 +183,8 @@ int glsl_attributes(const struct glsl_facts *facts, struct glsl_attribute rows[G
 
 // Lists the members of a struct type. Returns their number, or 0 if `type` is not a struct.
 int glsl_members(const struct glsl_facts *facts, const char *type, struct glsl_row rows[GLSL_ROWS_MAX]);
-// Writes the value of element `index` of a uniform, or of a member of that element, matrices by columns. Returns the
-// number of floats; 0 for textures and for the projection, which depends on the window.
+// Writes the value of element `index` of a uniform, or of a member of that element. Matrices are written in
+// column-major order. Returns the number of floats; 0 for textures and for the projection, which depends on the window.
 struct glsl_uniform_source {
     const struct frame *frame;
     const struct frame_draw_range *range; // NULL for uniforms of the frame

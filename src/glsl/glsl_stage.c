@@ -1,5 +1,5 @@
-// glsl_stage.c: selects the sources of a stage, the texts of src/glsl/text, and the conditions that its choices
-// determine.
+// glsl_stage.c: selects the sources of a stage from the files in src/glsl/text, and adds the conditions that the
+// stage's choices determine.
 #include "environment_light.h"
 #include "equations.h"
 #include "fail.h"

@@ -21,7 +21,7 @@ static int put_number(float *out, float value)
     return 1;
 }
 
-// Writes a matrix, given by rows, in OpenGL's order, by columns.
+// Writes a matrix, given by rows, in column-major order, as OpenGL requires.
 static int put_matrix(float *out, const float *rows, int stride, int size)
 {
     for (int column = 0; column < size; column++)

@@ -1,4 +1,4 @@
-// specialize.c: removes branches with a known condition from a text, and names that are then never read.
+// specialize.c: removes branches with a known condition from a source, and names that are then never read.
 #include "specialize.h"
 
 #include <stddef.h>
@@ -212,7 +212,7 @@ static bool has_known(struct span s, const struct index *known)
     return false;
 }
 
-// Appends a statement, or the head of one, without its indentation.
+// Appends a statement, or the head of a statement, without its indentation.
 static void add_statement(struct text *text, struct span s, const struct index *known)
 {
     struct span code = s;
@@ -385,8 +385,8 @@ static bool is_of(const struct source_span *s, struct span variable, struct span
     return false;
 }
 
-// Returns whether a span reads a struct's member. If it does not and `erases` is set, overwrites the lines that set the
-// member.
+// Returns whether a span reads a struct's member. If the member is not read and `erases` is set, overwrites the lines
+// that set the member.
 static bool reads_member(const struct source_span *s, struct span type, struct span member, bool erases)
 {
     for (struct span w = next_name(s->start, s->end); w.end > w.at; w = next_name(w.end, s->end)) {
@@ -440,8 +440,8 @@ static bool erase_members(const struct source_span *spans, int count, const stru
     return changed;
 }
 
-// Returns whether a function reads a variable after `from`. If it does not and `erases` is set, overwrites the lines
-// that set the variable.
+// Returns whether a function reads a variable after `from`. If the variable is not read and `erases` is set, overwrites
+// the lines that set the variable.
 static bool reads(const struct source_span *s, const char *from, struct span name, bool erases)
 {
     for (struct span w = next_name(from, s->end); w.end > w.at; w = next_name(w.end, s->end)) {

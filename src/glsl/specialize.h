@@ -1,16 +1,17 @@
-// specialize.h: reduces general sources to the shader for some choices. It removes branches that are never taken, and
-// the parameters, variables and members that are then unread.
+// specialize.h: reduces general sources to the shader for one set of choices. This module removes branches that are
+// never taken, and the parameters, variables and members that are then unread.
 //
-// The text must have the layout that the formatter gives src/lighting. An `if` ends its line with the opening brace,
-// and the closing brace is in the same column as the `if`. A condition or a choice (?:) of known names is on one line.
+// The source must have the layout that clang-format gives to src/lighting. An `if` ends its line with the opening
+// brace, and the closing brace is in the same column as the `if`. A condition or a choice (?:) of known names is on one
+// line.
 #ifndef SPECIALIZE_H
 #define SPECIALIZE_H
 
 #include "text_builder.h"
 
-// A row of the table: a name, or the condition of an `if` as written between the parentheses, and the text that
-// replaces it. The texts "true" and "false" decide branches. A line "NAME;" is replaced by the lines of the text. A
-// table ends with NULL.
+// A row of the table: a name, or the condition of an `if` as written between the parentheses, and its replacement. The
+// replacements "true" and "false" decide branches. A line "NAME;" is replaced by the lines of the replacement. A table
+// ends with NULL.
 struct known {
     const char *name, *text;
 };

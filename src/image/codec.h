@@ -12,14 +12,14 @@ struct picture_file {
     const uint8_t *bytes;
     size_t size;
     const char *name;          // the file's name in messages
-    struct call_control *call; // its limits are checked while decoding, and the pixels are charged to it; may be NULL
+    struct call_control *call; // decoding checks the call's limits, and charges the pixels to the call; may be NULL
 };
 
 struct codec {
     const char *name;  // "png"; also the file extension, without its dot
     const char *title; // for messages: "PNG"
     const char *alias; // another file extension, or NULL
-    // One line about the numbers that a file stores, for lists of formats. NULL means that Lambent only reads this
+    // One line about the values that a file stores, for lists of formats. NULL means that Lambent only reads this
     // format; `write` is then also NULL.
     const char *written;
     lam_pixel_format pixels;
@@ -60,7 +60,7 @@ CODECS(CODEC)
 #undef CODEC
 
 // Returns the codec of a file that starts with these bytes, or NULL if no format matches. If the bytes match several
-// formats, the extension of `name` (may be NULL) selects one.
+// formats, the extension of `name` (may be NULL) selects the format.
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name);
 
 // Checks the parameters. Fails with LAM_BAD_ARGUMENT if one of them is invalid.

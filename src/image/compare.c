@@ -68,7 +68,7 @@ static void tally_floats(struct tally *tally, const float *a, const float *b, si
             double size = 0.0;
             if (nan_a != nan_b)
                 size = __builtin_inf();
-            else if (!nan_a && a[at] != b[at]) // the difference of equal infinities would be NaN
+            else if (!nan_a && a[at] != b[at]) // the difference between equal infinities would be NaN
                 size = a[at] < b[at] ? (double)b[at] - (double)a[at] : (double)a[at] - (double)b[at];
             tally->sum += size;
             tally->squares += size * size;

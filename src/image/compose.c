@@ -4,7 +4,7 @@
 #include "srgb.h"
 
 // Returns the byte that is nearest to a linear number. The byte is found by bisection. Numbers outside 0…1 are clamped,
-// and NaN gives 0.
+// and NaN becomes 0.
 static uint8_t byte_of(const struct compose *compose, double linear)
 {
     int byte = 0;

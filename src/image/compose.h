@@ -4,11 +4,11 @@
 
 #include <lambent/image.h>
 
-// Composes the channels of a picture over a background, in linear light unless the picture's numbers are raw.
+// Composes the channels of a picture over a background, in linear light unless the picture's values are raw.
 struct compose {
     double linear[256];   // the linear value of each byte
-    double from[256];     // for i > 0, the smallest linear number that rounds to byte i, which is the linear value of
-                          // (i − ½)/255
+    double from[256];     // for i > 0, the smallest linear value that rounds to byte i, which is the linear value of (i
+                          // − ½)/255
     double background[3]; // linear
     uint8_t clear[3];     // the result if alpha is 0
 };

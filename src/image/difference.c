@@ -26,7 +26,7 @@ static float distance(float a, float b)
     bool nan_a = a != a, nan_b = b != b;
     if (nan_a || nan_b)
         return nan_a == nan_b ? 0.0f : __builtin_inff();
-    if (a == b) // the difference of equal infinities would be NaN
+    if (a == b) // the difference between equal infinities would be NaN
         return 0.0f;
     return a < b ? b - a : a - b;
 }

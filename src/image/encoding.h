@@ -2,7 +2,7 @@
 // time (lanes.h).
 //
 // For numbers in 0…1, both curves differ by at most 1e-6 from the standard's formulas. Numbers outside this range are
-// clamped, and NaN gives 0. If a byte is decoded and encoded again, the result is the same byte.
+// clamped, and NaN becomes 0. If a byte is decoded and encoded again, the result is the same byte.
 #ifndef ENCODING_H
 #define ENCODING_H
 
@@ -24,7 +24,7 @@ LANE_FN num srgb_decode(num encoded)
     return pick(x <= 0.04045f, x * 0.0773993808f, exp2_of(log2_of(base) * 2.4f));
 }
 
-// Converts 0…1 to 0…255: floor(255·x + ½). Numbers outside this range are clamped, and NaN gives 0.
+// Converts 0…1 to 0…255: floor(255·x + ½). Numbers outside this range are clamped, and NaN becomes 0.
 LANE_FN inum byte_of(num x) { return int_of(saturate(x) * 255.0f + 0.5f); }
 
 #endif

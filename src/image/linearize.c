@@ -1,4 +1,4 @@
-// linearize.c: converts the numbers of a picture file to linear light.
+// linearize.c: converts the values of a picture file to linear light.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"
@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-// Makes a table of the linear values that correspond to the file's numbers 0 … last.
+// Makes a table of the linear values that correspond to the file's values 0 … last.
 static float *make_table(int last, lam_color_mode color, lam_error *error)
 {
     size_t bytes = ((size_t)last + 1) * sizeof(float);

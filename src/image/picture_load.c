@@ -66,7 +66,7 @@ bool picture_decode_linear(const struct picture_file *file, lam_color_mode color
     return ok;
 }
 
-// Loads a picture. If `color` is NULL, the file's numbers are not converted.
+// Loads a picture. If `color` is NULL, the file's values are not converted.
 static bool load(lam_image *image, const char *path, const lam_color_mode *color, const lam_control *control,
                  lam_error *error)
 {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""static_font.py FONT OUTPUT: writes a font as the C array `static_font`, packed by zlib (caption.c of a static program)."""
+"""static_font.py FONT OUTPUT: writes a font as the C array `static_font`, compressed by zlib, for caption.c of a static program."""
 import pathlib
 import sys
 import zlib

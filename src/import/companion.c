@@ -52,7 +52,8 @@ static char *join(struct arena *arena, const char *folder, const char *name)
     return path;
 }
 
-// Returns the path after following all links, if the result is inside one of params->allowed_paths; see path_within.
+// Resolves all links of a path. Returns the resolved path if it is inside one of params->allowed_paths (see
+// path_within), otherwise NULL.
 static char *path_allowed(const struct import_source *source, const char *path, size_t *length)
 {
     char *real = NULL;
@@ -163,8 +164,8 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     return file_read_named(out->real, length, out->shown, fresh, source->pool, source->call, &out->file, error);
 }
 
-// Explains that the name of a missing file was cut to its last component, because the file may exist under the full
-// name.
+// Adds to the error that the name of a missing file was cut to its last component, because the file may exist under the
+// full name.
 static void explain_cut(const char *name, lam_error *error)
 {
     char shown[SHOWN_NAME_SIZE];

@@ -4,12 +4,12 @@
 
 #include "importer.h"
 
-// The state of import_source.open and .open_of_scene: where they look for files.
+// The state of import_source.open and .open_of_scene, which defines the locations in which they look for files.
 struct file_list;
 struct companions {
     // the folder of the model or scene file, with its '/' ("" is the current folder); NULL if that file is not on disk
     const char *folder;
-    const char *inside; // prefix of names for `open`: the folder of a model within a scene, with its '/', or ""
+    const char *inside; // prefix of names for `open`: the folder of a scene's model, with its '/'; otherwise ""
     lam_open_fn *open;  // the caller's function; NULL if files are opened in `folder`
     lam_release_fn *release;
     void *user;
@@ -24,8 +24,9 @@ struct companion {
     const char *shown; // the file's name in messages: the folder, then the name shortened by shown_name
 };
 
-// Implements import_source.open. The name is confined first (companion_name). After following links, the file must be
-// in the model's folder or below, or in one of params->allowed_paths. The strings of `out` are in `arena`.
+// Implements import_source.open. companion_name first confines the name to the model's folder. After following links,
+// the file must be in the model's folder or below, or in one of params->allowed_paths. The strings of `out` are in
+// `arena`.
 bool companion_open(const struct import_source *source, const char *name, struct arena *arena, struct companion *out,
                     lam_error *error);
 
@@ -34,14 +35,14 @@ bool companion_open(const struct import_source *source, const char *name, struct
 bool companion_open_of_scene(const struct import_source *source, const char *name, struct arena *arena,
                              struct companion *out, lam_error *error);
 
-// Initialises the companions of a model that a scene file names: open_of_scene opened `model` under the name `name`.
-// The strings are in `arena`. Returns false if memory runs out.
+// Initialises the companions of a model that a scene file names: open_of_scene must have opened `model` under the name
+// `name`. The strings are in `arena`. Returns false if memory runs out.
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,
                          struct arena *arena, struct companions *out, lam_error *error);
 
 // Converts the name of a file that a model refers to. The name is confined to the model's folder: backslashes become
-// slashes, "." and empty components are removed, and ".." removes the component before it. A name that begins at a root
-// or a drive, or refers to a file outside the folder, is cut to its last component, unless params->allowed_paths
+// slashes, "." and empty components are removed, and ".." removes the component before it. A name that begins with a
+// root or a drive, or refers to a file outside the folder, is cut to its last component, unless params->allowed_paths
 // contains the file. All spellings of a file in the folder are therefore converted to the same name. Sets *cut to
 // whether the name was cut. Returns false if no component is left, or if COMPANION_NAME_SIZE is too small.
 enum { COMPANION_NAME_SIZE = 4096 };

@@ -18,8 +18,8 @@ void file_list_start(struct file_list *list);
 // Adds a copy of a path. Any thread may call this function. Returns whether the path is new. `list` may be NULL.
 bool file_list_add(struct file_list *list, const char *path);
 
-// Passes the model's own path (may be NULL) and then the other paths, in alphabetical order without duplicates, to the
-// scene, whose arena copies them. Returns false if memory runs out.
+// Adds the paths to the scene, which copies them to its arena: first the model's own path (may be NULL), then the other
+// paths in alphabetical order, without duplicates. Returns false if memory runs out.
 bool file_list_give(struct file_list *list, const char *model, struct lam_scene *scene, lam_error *error);
 
 void file_list_end(struct file_list *list);

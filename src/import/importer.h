@@ -46,13 +46,13 @@ struct importer {
     // a scene file: it names other models, and its importer prepares their normals and origins itself
     bool is_scene_file;
     bool flat_normals; // the format requires flat normals for meshes without normals
-    // Returns whether the bytes are of this format: 0 no, 1 possibly (the file's extension decides), 2 certainly.
+    // Returns whether the bytes are in this format: 0: no; 1: possibly (the file's extension decides); 2: certainly.
     int (*probe)(const uint8_t *bytes, size_t size);
     // Fills an empty scene with meshes, materials, and one object per mesh. On failure, the caller frees the scene.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
     // Optional. Returns whether `load` reads this large file in parts (import_source.parts).
     bool (*in_parts)(const struct import_source *source);
-    // Optional. Loads a large file in parts, if that needs neither a line number nor a second pass over the text.
+    // Optional. Loads a large file in parts, if loading needs neither a line number nor a second pass over the text.
     // Returns false for other files and on errors. The caller then runs `load` with an empty scene and the whole file.
     bool (*load_stream)(const struct import_source *source, struct lam_scene *scene);
 };

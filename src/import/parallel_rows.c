@@ -9,7 +9,7 @@ struct run {
     void *user;
     const struct row_bytes *rows;
     uint8_t *buffers;    // PARALLEL_ROWS rows per thread, for a file that is read in parts
-    size_t first_failed; // atomic; the lowest chunk that failed, or `count`
+    size_t first_failed; // atomic; the index of the first chunk that failed, or `count`
     int stopped;         // atomic; the call was cancelled or ran out of time
 };
 
@@ -34,7 +34,7 @@ static bool run_task(const struct run *run, size_t index, int thread, lam_error 
 static void run_one(void *user, size_t index, int thread)
 {
     struct run *run = user;
-    // Chunks after a failed one are skipped, because only the first error is reported.
+    // Chunks after a failed chunk are skipped, because only the first error is reported.
     size_t failed = __atomic_load_n(&run->first_failed, __ATOMIC_RELAXED);
     if (index > failed || __atomic_load_n(&run->stopped, __ATOMIC_RELAXED))
         return;
@@ -55,7 +55,7 @@ static bool run_all(struct run *run, size_t count, lam_error *error)
     pool_run(run->source->pool, count, run_one, run);
     if (run->stopped)
         return call_error(run->source->call, error);
-    // Chunks after the first failed one may have been skipped. If the failed chunk succeeds now, because memory is
+    // Chunks after the first failed chunk may have been skipped. If the failed chunk succeeds now, because memory is
     // available again, the skipped chunks must still run.
     for (size_t index = run->first_failed; index < count; index++) {
         if (!run_task(run, index, 0, error))

@@ -17,8 +17,8 @@ static inline void parallel_rows_range(size_t rows, size_t index, size_t *first,
     *last = rows - *first < PARALLEL_ROWS ? rows : *first + PARALLEL_ROWS;
 }
 
-// A task that processes chunk `index`. It may run twice for the same chunk. Returns false if the chunk contains an
-// error; `error` (may be NULL) then describes the first error in the chunk. The call's cancellation and deadline are
+// A task that processes chunk `index`. The task may run twice for the same chunk. Returns false if the chunk contains
+// an error; `error` (may be NULL) then describes the first error in the chunk. The call's cancellation and deadline are
 // checked between chunks.
 typedef bool parallel_rows_task(void *user, size_t index, lam_error *error);
 

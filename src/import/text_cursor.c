@@ -1,4 +1,4 @@
-// text_cursor.c: reads words, lines and names of text files.
+// text_cursor.c: reads words, lines and names in text files.
 #include "text_cursor.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// text_cursor.h: reads words, lines and names of text files.
+// text_cursor.h: reads words, lines and names in text files.
 #ifndef TEXT_CURSOR_H
 #define TEXT_CURSOR_H
 
@@ -9,7 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Every byte up to the space is white space: tabs, form feeds and control characters separate words.
+// Every byte with a code up to the code of the space is white space: tabs, form feeds and control characters separate
+// words.
 static inline bool text_white(uint8_t c) { return c <= ' '; }
 
 static inline const uint8_t *text_skip_white(const uint8_t *at, const uint8_t *end)
@@ -26,7 +27,7 @@ static inline const uint8_t *text_skip_word(const uint8_t *at, const uint8_t *en
     return at;
 }
 
-// Returns the line's '\n' or '\r', or `end`.
+// Returns the position of the line's '\n' or '\r', or `end` if there is none.
 static inline const uint8_t *text_line_end(const uint8_t *at, const uint8_t *end)
 {
     while (at < end && *at != '\n' && *at != '\r')

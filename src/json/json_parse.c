@@ -84,7 +84,7 @@ static void skip_space(struct parser *p)
         p->at++;
 }
 
-// Skips the next character after spaces if it is `c`.
+// Skips spaces. If the next character is `c`, skips it too and returns true.
 static bool accept(struct parser *p, char c)
 {
     skip_space(p);
@@ -301,7 +301,7 @@ static bool add_value(struct parser *p, json_t *object, const char *start, const
     return json_object_size(object) > keys || fail_twice(p, start, key);
 }
 
-// Reads one pair of key and value.
+// Reads one key-value pair.
 static bool read_pair(struct parser *p, json_t *object, int depth)
 {
     struct text key;

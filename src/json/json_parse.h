@@ -12,7 +12,7 @@
 // `call` may be NULL. Returns NULL on failure: LAM_CANNOT_READ with "FILE:LINE: column C: sentence", LAM_LIMIT (nested
 // deeper than lam_control.json_depth_limit), LAM_CANCELLED.
 //
-// Jansson's own parser is not used. If memory runs out, that parser ends the process by a failed assertion, or it
+// Jansson's own parser is not used. If memory runs out, that parser ends the process with a failed assertion, or
 // wrongly reports an invalid token in the file.
 json_t *json_parse(const char *text, size_t size, const char *file, struct call_control *call, lam_error *error);
 

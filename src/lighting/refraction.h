@@ -15,8 +15,8 @@ FN vec3 refracted3(vec3 v, vec3 n, num ior)
 
 // Returns the width over which a surface blurs the picture behind it, as a fraction of the picture's height: 1024^(r −
 // 1) with r = roughness · min(2 ior − 2, 1), at most 1/8. In a picture 1024 pixels high, this equals one texel of
-// mipmap level r log2(1024), the level that three.js uses. The limit is reached at r = 0.7. Without it, the roughest
-// glass would have the mean colour of the whole picture, including the background. Returns 0 for r = 0.
+// mipmap level r log2(1024), the level that three.js uses. The limit is reached at r = 0.7. Without the limit, the
+// roughest glass would have the mean colour of the whole picture, including the background. Returns 0 for r = 0.
 FN num transmission_blur(num roughness, num ior)
 {
     num r = roughness * min_of(positive(2.0f * ior - 2.0f), num_of(1.0f));

@@ -116,7 +116,7 @@ const struct importer *importer_for_parts(const char *name, const uint8_t *head,
         const struct importer *importer = importer_for(name, NULL, wanted, NULL);
         return importer && reads_parts(importer) ? importer : NULL;
     }
-    // importers that read files in parts examine only the head, so they may get the whole size
+    // importers that read files in parts examine only the head, so passing the size of the whole file is safe
     for (int i = 0; i < COUNT; i++)
         if (importers[i]->probe(head, reads_parts(importers[i]) ? size : FILE_HEAD) == 2)
             return reads_parts(importers[i]) ? importers[i] : NULL;

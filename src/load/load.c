@@ -142,7 +142,7 @@ static bool load_in_parts(struct import_source *source, const struct importer **
             lam_scene_free(*scene);
             *scene = NULL;
         }
-        if (!in_parts && !done) // the file will be read as a whole, and its size is counted then
+        if (!in_parts && !done) // the file will be read as a whole, and its size will be counted at that time
             call_add_input(source->call, 0 - file.size);
         file_close_parts(&file);
         source->bytes = NULL;

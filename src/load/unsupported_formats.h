@@ -13,7 +13,7 @@ struct unsupported_format {
 // Returns NULL if the content is not recognised.
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size);
 
-// Returns the 3D format with this file extension (without its dot), or NULL if it is unknown.
+// Returns the 3D format with this file extension (without its dot), or NULL if the extension is unknown.
 const struct unsupported_format *unsupported_format_named(const char *ending);
 
 #endif

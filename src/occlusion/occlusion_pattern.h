@@ -1,8 +1,8 @@
 // occlusion_pattern.h: the directions and lengths of the rays that compute ambient occlusion at a lit point.
 //
-// Directions are projected from points of a disc below the hemisphere (Malley's method), so that each has an equal
-// share of the cosine-weighted integral. The points form Vogel's spiral (1979), as for lights with a size
-// (light_pattern.h). Every lit point rotates the disc by its own angle, so that visible steps become fine grain. A
+// Directions are projected from points of a disc below the hemisphere (Malley's method), so that each direction has an
+// equal share of the cosine-weighted integral. The points form Vogel's spiral (1979), as for lights with a size
+// (light_pattern.h). Every lit point rotates the disc by its own angle, so that visible steps become fine noise. A
 // surface at the distance d occludes its direction by the share
 //    w(d) = clamp((radius − d) / (OCCLUSION_FADING radius), 0, 1)
 // This is the fraction of rays that reach as far as d if their lengths are evenly distributed from (1 −
@@ -21,9 +21,9 @@ enum { OCCLUSION_RAYS_MAX = 1024, OCCLUSION_TURNS = 256 };
 // Rays about +z; neighbours in the list have similar directions.
 struct occlusion_pattern {
     int count;
-    double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // the rotations of occlusion_turn
+    double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // unit directions
     double length[OCCLUSION_RAYS_MAX];                     // 0…1, from the longest ray to the shortest
-    double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // the cosines and sines of the turns of occlusion_turn
+    double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // of the angles that occlusion_turn selects
 };
 
 // Returns the turn at a pixel: interleaved gradient noise (Jimenez 2014) computed in integers. The turns of

@@ -3,8 +3,8 @@
 // The visible surfaces are treated as a height field. Around a pixel, a plane through the view vector cuts the height
 // field. In this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
 // (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). Sixteen neighbours rotate
-// their planes by different angles, and an edge-aware filter of that size averages them. docs/lighting/occlusion.md
-// lists the formulas.
+// their planes by different angles, and an edge-aware filter of that size averages the results.
+// docs/lighting/occlusion.md lists the formulas.
 #ifndef SCREEN_OCCLUSION_H
 #define SCREEN_OCCLUSION_H
 
@@ -31,7 +31,8 @@ struct screen_occlusion {
     bool ridges;         // whether cavity shading lightens ridges
     bool deepens;        // whether cavity shading darkens valleys by the sixth power instead of the third
     // The distance of the visible surface in front of the eye at each pixel, or SCREEN_EMPTY: one plane for each pixel
-    // of a cell (screen_pixel). The caller fills it; screen_occlusion_start writes SCREEN_EMPTY around the picture.
+    // of a cell (screen_pixel). The caller fills `depth`; screen_occlusion_start writes SCREEN_EMPTY around the
+    // picture.
     float *depth;
     float *cell_depth; // the depth of the first pixel of each cell that shows a surface
     // The slope of each cell's surface, computed with its occlusion: the change of distance to the next cell.

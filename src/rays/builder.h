@@ -1,4 +1,4 @@
-// builder.h: the state of building a hierarchy.
+// builder.h: the state while a hierarchy is built.
 #ifndef BUILDER_H
 #define BUILDER_H
 
@@ -8,8 +8,8 @@
 // Triangles per task, for preparing triangles and dividing the largest ranges.
 enum { RAY_CHUNK = 4096 };
 
-// The box of a triangle. low[3] contains the bits of its number, high[3] the bits of 1. For a cell's triangles
-// (cells.c), low[3] is the first triangle and high[3] the count.
+// The box of a triangle. low[3] contains the bits of the triangle's number, and high[3] the bits of 1. For a cell's
+// triangles (cells.c), low[3] is the first triangle and high[3] the count.
 struct primitive {
     _Alignas(16) float low[4];
     float high[4];

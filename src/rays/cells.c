@@ -1,9 +1,9 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
 // The centres of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
-// of its cells instead of the far more numerous triangles. A range of few triangles, or a range within one cell, is
-// removed from its cells. One thread then divides it (splits.c), unless it is large; a large range within one cell gets
-// its own grid. Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its
+// of its cells, which are far fewer than its triangles. A range of few triangles, or a range within one cell, is
+// removed from its cells. One thread then divides the range (splits.c). A large range within one cell instead gets its
+// own grid. Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its
 // triangles, so the result does not depend on the number of threads.
 #include "ranges.h"
 
@@ -22,8 +22,8 @@ enum {
 
 // A grid over the centres of a range's triangles.
 struct grid {
-    num start, factor, last; // convert twice a centre to a cell index up to `last`
-    int shift[3];            // the positions of their bits in a cell's number
+    num start, factor, last; // convert twice the centre to a cell index up to `last`
+    int shift[3];            // for each axis, the position of its bits in a cell's number
     uint32_t cell_count;
 };
 
@@ -43,7 +43,7 @@ struct large {
     struct primitive *cells; // cells that contain triangles
     uint32_t used_cells;
     struct box *boxes;          // for each task, the box of its triangles and the box of twice their centres
-    struct list small, waiting; // ranges to be divided by one thread, and in grids of their own
+    struct list small, waiting; // ranges that one thread divides, and ranges that get their own grids
     struct buffer keys_memory, offsets_memory, cells_memory;
 };
 

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-// Everything that a hierarchy depends on. Equal pointers mean equal contents, since a scene never modifies its arrays.
+// All data that a hierarchy depends on. Equal pointers mean equal contents, since a scene never modifies its arrays.
 struct source {
     const float *positions;
     const uint32_t *indices;
@@ -34,8 +34,8 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
 }
 
 // Adds the rounding errors of a draw. Besides the coordinates of the file (frame_draw.rounding), the transform to the
-// hierarchy's space and the computation of a point of a triangle also round. They take fewer than eight operations in
-// double, on numbers up to the sum below.
+// hierarchy's space and the computation of a point of a triangle also cause rounding errors. These two steps take fewer
+// than eight operations in double, on numbers up to the sum below.
 static void add_rounding(struct hierarchy *h, const struct frame_draw *draw)
 {
     for (int i = 0; i < 3; i++) {

@@ -1,8 +1,8 @@
 // hierarchy.h: a bounding volume hierarchy over all triangles of a frame, for rays.
 //
 // One test in double precision decides whether a ray meets a triangle (ray_lanes.h), so results do not depend on the
-// hierarchy, whose boxes are merely conservative. It is built by fixed tasks and is identical for any number of
-// threads. The OpenGL device reads the same hierarchy.
+// hierarchy, whose boxes are merely conservative. The hierarchy is built by a fixed set of tasks, so it is identical
+// for any number of threads. The OpenGL device reads the same hierarchy.
 #ifndef HIERARCHY_H
 #define HIERARCHY_H
 
@@ -26,7 +26,7 @@ struct ray_node {
 };
 
 enum {
-    HIERARCHY_DEPTH = 120, // the most nodes from the root to a leaf
+    HIERARCHY_DEPTH = 120, // the maximum number of nodes from the root to a leaf
     NO_TRIANGLE = -1,      // a ray that does not start on a triangle
 };
 
@@ -51,7 +51,7 @@ struct hierarchy_memory {
 };
 
 // Builds the hierarchy of a frame, unless the existing one has the same meshes at the same positions. Sets *built to
-// whether it was built. Fails with LAM_LIMIT (memory, time) or LAM_CANCELLED.
+// whether a hierarchy was built. Fails with LAM_LIMIT (memory, time) or LAM_CANCELLED.
 const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, const struct frame *frame,
                                            struct pool *pool, struct call_control *call, bool *built, lam_error *error);
 void hierarchy_free(struct hierarchy_memory *memory);

@@ -52,8 +52,8 @@ struct side_share {
     float passed[3];
 };
 
-// Gets the light that passes a point of a triangle, for each of passed_channels. If that light is the same at all
-// points of a side, `share` stores it.
+// Gets the light that passes through a point of a triangle, for each of passed_channels. If that light is the same at
+// all points of a side, `share` stores it.
 static void share_at(const struct frame *frame, uint32_t number, bool back, float b1, float b2,
                      struct side_share *share)
 {
@@ -69,8 +69,8 @@ static void share_at(const struct frame *frame, uint32_t number, bool back, floa
         passed[0] = passed[1] = passed[2] = 1 - ray_opacity(frame, number, back, b1, b2);
 }
 
-// Records the light that a translucent triangle lets through, and returns the rays that it blocks. Uses the side of the
-// triangle that faces the light.
+// Records the light that a translucent triangle lets through, and returns the rays that the triangle blocks. The
+// function uses the side of the triangle that faces the light.
 static unsigned filter_ray(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                            const struct ray_view *view, unsigned lanes)
 {
@@ -133,7 +133,7 @@ static int by_number(const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
-// Returns the number of channels of the transmitted light: one unless something tints it.
+// Returns the number of channels of the transmitted light: three if a material tints the light, otherwise one.
 static int passed_channels(const struct frame *frame) { return frame->tints_rays ? 3 : 1; }
 
 // Computes the share of the light that passes along LANES rays, for each of passed_channels.
@@ -190,8 +190,8 @@ LANE_FN void aim_at_point(struct ray_lanes *ray, const struct ray_lanes *centre,
                            (points->x[n] * dnum_load(u[k] + part) + points->y[n] * dnum_load(v[k] + part)));
 }
 
-// Stores the light along the first probe, and returns the lanes for which another probe finds different light, which
-// are in a penumbra.
+// Stores the light along the first probe, and returns the lanes for which another probe finds different light. These
+// lanes are in a penumbra.
 static unsigned trace_probes(struct light_rays *r, const struct ray_lanes *centre, double u[3][LANES],
                              double v[3][LANES], unsigned active, float passed[3][LANES])
 {
@@ -208,7 +208,7 @@ static unsigned trace_probes(struct light_rays *r, const struct ray_lanes *centr
     return active & ~agree;
 }
 
-// Computes the mean over the points of a light with a size.
+// Computes the mean share of light over the points of a light with a size.
 static void trace_disc(struct light_rays *r, const struct frame_light *light, const struct ray_lanes *centre,
                        unsigned active, float passed[3][LANES])
 {

@@ -1,5 +1,5 @@
-// opacity.c: computes the opacity of a point on a triangle, and the light that it transmits, from its material, vertex
-// colours and maps.
+// opacity.c: computes the opacity of a point on a triangle, and the light that passes through this point, from the
+// triangle's material, vertex colours and maps.
 #include "opacity.h"
 
 #include "layer_kinds.h"
@@ -50,7 +50,7 @@ static float vertex_color(const lam_mesh *mesh, uint32_t triangle, int channel, 
     return at_weights(value, b1, b2);
 }
 
-// Returns the texel of a map at level 0, or 1 if the mesh lacks texture coordinates for it.
+// Returns the texel of a map at level 0, or 1 if the mesh lacks texture coordinates for the map.
 static texel map_texel(const lam_mesh *mesh, const lam_texture_map *map, uint32_t triangle, float b1, float b2)
 {
     float at[2], s[3], t[3];

@@ -94,7 +94,7 @@ struct bins {
     uint32_t counts[BINS];
 };
 
-// The division of a range: bin numbers below `bin` go to the left.
+// The division of a range: primitives in bins below `bin` belong to the left half.
 struct split {
     int axis, bin, bins;
     float start, factor;
@@ -208,7 +208,8 @@ void range_measure(const struct primitive *p, uint32_t count, struct box *box, s
 // becomes a leaf, or if memory runs out.
 bool range_halve(struct builder *builder, struct range *range, struct range *right);
 
-// Stores the node of a range that was divided into `parts`, and sets where the parts store their nodes.
+// Stores the node of a range that was divided into `parts`, and sets the addresses at which the parts store their
+// nodes.
 void range_enter_node(struct builder *builder, const struct range *range, struct range *parts, int count);
 
 // Makes the nodes of a range, or a leaf if it is not divided. The root is always a node.

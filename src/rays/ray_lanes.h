@@ -1,15 +1,15 @@
 // ray_lanes.h: intersects LANES rays at a time with a hierarchy. Define LANES as 1, 4, 8 or 16 before including it.
 //
 // A ray is origin + t direction with 0 < t < end, in the hierarchy's space. Only crosses() decides whether a ray meets
-// a triangle. It uses double and a fixed order of operations; boxes merely save work. The result therefore does not
-// depend on the hierarchy, on the number of lanes, or on which rays are traced together.
+// a triangle. crosses() uses double and a fixed order of operations; boxes merely save work. The result therefore does
+// not depend on the hierarchy, on the number of lanes, or on which rays are traced together.
 //
 // The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013). Seen along the ray, with
 // the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
-// passes. Rounding is monotonic, so that such a sign can be 0 but is never wrong. A sign of 0 counts as inside for both
-// triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles around a
-// point do not block its rays. A triangle whose plane contains the start point of the ray (through_points) does not
-// block the ray either, because t is then 0 except for rounding.
+// passes. Rounding is monotonic, so that such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for
+// both triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles
+// around a point do not block its rays. A triangle whose plane contains the start point of the ray (through_points)
+// does not block the ray either, because t is then 0 except for rounding.
 //
 // Rays with nearly the same direction form a bundle and traverse the hierarchy together. At a node, the intervals of
 // their origins and directions are tested against the boxes of all children of the node at once (Boulos, Wald and
@@ -84,8 +84,8 @@ LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
     return (dnum_load(row[0] + at) * p[0] + dnum_load(row[1] + at) * p[1]) + dnum_load(row[2] + at) * p[2];
 }
 
-// Returns the lanes of `active` whose rays are blocked by a triangle. `weights` (may be NULL) gets the weights of the
-// triangle's corners, each multiplied by the sum of the weights. `t` receives the ray parameter t of each hit.
+// Returns the lanes of `active` whose rays are blocked by a triangle. `weights` (may be NULL) receives the weights of
+// the triangle's corners, each multiplied by the sum of the weights. `t` receives the ray parameter t of each hit.
 LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view,
                          unsigned active, double weights[3][LANES], double t[LANES])
 {
@@ -383,9 +383,9 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
 }
 
 #if LANES == 1
-// Returns the number in the frame of the nearest triangle on a ray, and the triangle's distance *t. Of triangles at
-// equal distances, it returns the lowest number. Returns NO_TRIANGLE if there is none. `counts` decides whether a
-// triangle is considered.
+// Returns the number in the frame of the nearest triangle on a ray, and the triangle's distance *t. If several
+// triangles are at this distance, the function returns the lowest number. Returns NO_TRIANGLE if there is none.
+// `counts` decides whether a triangle is considered.
 LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray,
                              bool (*counts)(void *user, const struct ray_triangle *triangle,
                                             const struct ray_lanes *ray, const struct ray_view *view),

@@ -14,7 +14,7 @@ struct point {
     dnum xy, z;
 };
 
-// The draw of the previous triangle, and its matrix by columns; initially zero.
+// The draw of the previous triangle, and its matrix in column-major order; initially zero.
 struct placement {
     const struct frame_draw *draw;
     uint32_t first, end; // the range of its triangles in the frame
@@ -54,8 +54,8 @@ static __attribute__((noinline, unused)) void place_draw(struct placement *place
 }
 
 // Computes the corners of a triangle in world space, bit-identical to ray_corners. Returns false if no ray can meet the
-// triangle. Its corners are then not finite, or it belongs to the rectangles of lines and points, which face the eye
-// and cast no shadows.
+// triangle. In that case, its corners are not finite, or it belongs to the rectangles of lines and points, which face
+// the eye and cast no shadows.
 LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct placement *place, struct point p[3])
 {
     if (number - place->first >= place->end - place->first)

@@ -45,8 +45,8 @@ static bool same_box(const struct primitive *p, const struct primitive *q)
     return (mask_bits((a.low == b.low) & (a.high == b.high)) & 7) == 7;
 }
 
-// Makes a leaf. Triangles with the same positions have the same box, and are therefore in one leaf, or in one group
-// (sort_group), which has already found them.
+// Makes a leaf. Triangles with the same positions have the same box, and are therefore in one leaf, or in one group,
+// whose twins sort_group has already found.
 static void make_leaf(struct builder *b, const struct range *r, struct placement *place)
 {
     const struct primitive *p = b->primitives + r->first;
@@ -71,7 +71,8 @@ static void make_leaf(struct builder *b, const struct range *r, struct placement
 
 // --- nodes
 
-// Stores the node of a range that was divided into `parts`, and sets where the parts store their nodes.
+// Stores the node of a range that was divided into `parts`, and sets the addresses at which the parts store their
+// nodes.
 void range_enter_node(struct builder *b, const struct range *r, struct range *parts, int count)
 {
     struct ray_node *node = &b->nodes[r->node];
@@ -117,7 +118,7 @@ static void divide_at(struct builder *b, struct range *r, uint32_t left, struct 
     halves_of(r, left, boxes, middles, right);
 }
 
-// Compares two primitives by twice the centre along one axis, then by number.
+// Compares two primitives by twice their centres along one axis, then by number.
 static int compare_along(const void *a, const void *b, int axis)
 {
     const struct primitive *p = a, *q = b;
@@ -130,8 +131,8 @@ static int along_x(const void *a, const void *b) { return compare_along(a, b, 0)
 static int along_y(const void *a, const void *b) { return compare_along(a, b, 1); }
 static int along_z(const void *a, const void *b) { return compare_along(a, b, 2); }
 
-// Divides a range in the middle if bins have repeatedly produced uneven parts, so that the depth is bounded. It uses
-// the position nearest to the middle that is between two different centres.
+// Divides a range in the middle if bins have repeatedly produced uneven parts, so that the depth is bounded. The range
+// is divided between two different centres, as near to its middle as possible.
 static uint32_t divide_evenly(struct primitive *p, uint32_t count, int axis)
 {
     static int (*const along[3])(const void *, const void *) = {along_x, along_y, along_z};

@@ -124,8 +124,8 @@ static int headlight(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 1;
 }
 
-// Returns the three lights of a portrait. The sum of all lights is at most 0.8 + 0.4·cos 73° + 0.05, below 1; the ratio
-// of key to fill is 2 to 1.
+// Returns three lights as in portrait photography. The sum of all lights is at most 0.8 + 0.4·cos 73° + 0.05, below 1;
+// the ratio of key to fill is 2 to 1.
 static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = camera_light("key", v3(-1.0, 1.0, 1.0), 0.8f, 0.8f);

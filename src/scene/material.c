@@ -68,8 +68,8 @@ static const struct named_material named[LAM_MATERIAL_COUNT] = {
              0.078125),
 };
 
-// Returns a grey that ranges from sRGB 60 to 230 under the studio rig. This leaves headroom for a highlight that shows
-// the shape but does not look like metal or wet clay.
+// Returns a grey material, whose pixels range from sRGB 60 to 230 under the studio rig. This leaves headroom for a
+// highlight that shows the shape but does not look like metal or wet clay.
 lam_material lam_material_default(void)
 {
     lam_material material = {.illum = -1};

@@ -108,8 +108,7 @@ int scene_append(struct lam_scene *scene, struct scene_list *list, const void *i
     return list->count - 1;
 }
 
-// Only loading limits the number of items here. The items of a scene that a program builds are limited when the scene
-// is drawn.
+// This limit applies only to files. A scene that a program builds is checked when it is drawn.
 static bool check_items(const struct lam_scene *scene, const char *what, uint64_t items, lam_error *error)
 {
     return !scene->arena.call ||
@@ -291,7 +290,7 @@ const lam_light *lam_scene_light(const lam_scene *scene, int index)
     return scene ? item(&scene->lights, index, sizeof(lam_light)) : NULL;
 }
 
-// Returns the sum of a count of meshes, the member at `offset`, over all objects.
+// Returns the sum, over all objects, of a count in their meshes, the member at `offset`.
 static uint64_t sum_of(const lam_scene *scene, size_t offset)
 {
     uint64_t count = 0;

@@ -125,7 +125,7 @@ static bool check_mesh(const struct lam_scene *scene, const lam_mesh *mesh, lam_
     return check_colors(mesh, error) && check_parts(scene, mesh, error);
 }
 
-// Replaces *pointer by a copy in the scene's arena.
+// Replaces *pointer with a copy in the scene's arena.
 static bool copy_array(struct lam_scene *scene, const void *pointer, size_t count, size_t size)
 {
     const void **target = (const void **)(uintptr_t)pointer;

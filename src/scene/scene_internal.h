@@ -190,7 +190,7 @@ double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
 // These components are positive for front faces whose normal is `axis`.
 void mesh_add_areas(const lam_mesh *mesh, lam_vec3 axis, double *all, double *facing);
 
-// The form of a scene, by which the studio chooses its lights.
+// The form of a scene, which determines the lights of the studio.
 enum scene_form {
     FORM_FLAT,    // most of the area is in few flat faces, as in machine parts; also every scene with few triangles
     FORM_CURVED,  // the normals differ everywhere, as in scans

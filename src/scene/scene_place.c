@@ -8,7 +8,8 @@
 
 #include <lambent/material.h>
 
-// A point whose squared distance is below this number is nearer than `distance`, regardless of rounding.
+// Returns a limit: a point whose squared distance is below this limit is nearer than `distance`, regardless of
+// rounding.
 static double nearer_than(double distance)
 {
     return distance > 1e-100 && distance < 1e100 ? distance * distance * (1 - 1e-9) : 0;

@@ -1,5 +1,4 @@
-// scene_json.c: reads scene files: the top-level JSON, the settings of the picture, and the row in the table of
-// formats.
+// scene_json.c: reads the top-level JSON and the picture settings of scene files, and defines their importer.
 #include "scene_reader.h"
 
 #include "fail.h"
@@ -40,7 +39,7 @@ static bool read_image(struct scene_reader *r, const json_t *root)
     if (!image)
         return true;
     // The colour mode is read first, because it determines how colours are read. Older files use the key `color` for
-    // it.
+    // the mode.
     bool mode = json_object_get(image, "color_mode"), former = json_object_get(image, "color");
     if (!check_keys(r, place, image, keys))
         return false;

@@ -18,7 +18,7 @@ enum {
 };
 
 // NUMBER and the parameters have no operand. LESS: 1 if a < b, ½ if they are equal, otherwise 0. CHAIN: a · b, but 0 if
-// b is 0. It is a term of a derivative, whose outer factor may be infinite where the inner function is constant.
+// b is 0. Derivatives contain CHAIN because of the chain rule: a may be infinite if b is 0.
 enum formula_op {
     OP_NUMBER,
     OP_PARAMETER_0, // u or x
@@ -71,7 +71,7 @@ struct formula_graph {
 
 bool formula_graph_start(struct formula_graph *graph, struct arena *arena);
 
-// Return the node of an operation, which may be an existing node or a simpler one.
+// Return the node of an operation, which may be an existing node or the node of a simpler operation.
 int formula_number(struct formula_graph *graph, double value);
 int formula_unary(struct formula_graph *graph, enum formula_op op, int a);
 int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b);

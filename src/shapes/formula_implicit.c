@@ -1,4 +1,5 @@
-// formula_implicit.c: makes a mesh of a formula f(x, y, z) = 0: finds the box around it, and runs marching cubes.
+// formula_implicit.c: makes a mesh of the surface f(x, y, z) = 0 of a formula: finds the surface's box, and runs
+// marching cubes.
 #include "formula.h"
 
 #include "fail.h"
@@ -10,8 +11,7 @@ enum {
     CELLS_MAX = 1024,
     SEARCH_CELLS = 64,
     SEARCH_POINTS = SEARCH_CELLS + 1,
-    CHECKED_OPERATIONS = 1 << 20, // the operations between two checks of the call's limits, which take a few
-                                  // milliseconds
+    CHECKED_OPERATIONS = 1 << 20, // number of operations between two checks of the call's limits: a few milliseconds
 };
 
 // Half the sides of the cubes that are searched. Textbook examples fit into the first cube, and most closed surfaces
@@ -106,8 +106,8 @@ static bool find_crossings(struct implicit *s, bool *inside, int first[3], int l
     return found;
 }
 
-// Sets the ranges that were not given to the extent of the surface, plus one cell of the coarse lattice. Returns false
-// if the surface was not found; the ranges are then the largest searched box.
+// If a range was not given, sets it to the extent of the surface, plus one cell of the coarse lattice. Returns false if
+// the surface was not found; the ranges are then the largest searched box.
 static bool fit_box(struct implicit *s, bool *inside)
 {
     enum { SEARCHES = sizeof search_sides / sizeof *search_sides };

@@ -32,7 +32,7 @@ struct parser {
 
 static const struct function {
     const char *name;
-    enum formula_op op; // NUMBER if it is composed of other operations
+    enum formula_op op; // NUMBER for a function that is composed of other operations
     int least, most;    // number of arguments
 } functions[] = {
     {"sin", OP_SIN, 1, 1},   {"cos", OP_COS, 1, 1},     {"tan", OP_TAN, 1, 1},     {"asin", OP_ASIN, 1, 1},

@@ -235,7 +235,7 @@ static int by_place(const void *one, const void *other)
     return a->vertex < b->vertex ? -1 : 1;
 }
 
-// Gives coinciding border vertices a common index: same[vertex].
+// Stores a common index for coinciding border vertices in same[vertex].
 static void weld(const lam_mesh *mesh, const uint8_t *border, struct border_point *points, double size, uint32_t *same)
 {
     size_t count = 0;
@@ -267,7 +267,7 @@ static lam_vec3 corner(const lam_mesh *mesh, size_t i)
     return v3((double)p[0], (double)p[1], (double)p[2]);
 }
 
-// Normals without a derivative become the mean of their triangles' normals.
+// Replaces normals that no derivative determines by the mean of their triangles' normals.
 static void complete_normals(lam_mesh *mesh)
 {
     float *normals = (float *)(uintptr_t)mesh->normals;

@@ -430,7 +430,7 @@ static int end(struct lam_scene *scene, uint64_t state, int index)
 
 static void scale_mesh(lam_mesh *mesh, double radius)
 {
-    float *positions = (float *)(uintptr_t)mesh->positions; // in the arena, so it is writable
+    float *positions = (float *)(uintptr_t)mesh->positions; // the array is in the arena, so it is writable
     for (size_t i = 0; i < 3 * (size_t)mesh->vertex_count; i++)
         positions[i] = (float)((double)positions[i] * radius);
 }

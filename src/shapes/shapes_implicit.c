@@ -47,7 +47,7 @@ static int face_corner(int face, int k)
 {
     int axis = face >> 1, side = face & 1;
     int u = (axis + 1) % 3, v = (axis + 2) % 3; // u × v points along +axis
-    int turn = side ? k : 3 - k;                // seen from the other side the order is reversed
+    int turn = side ? k : 3 - k;                // seen from the other side, the order is reversed
     static const int steps[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     return side << axis | steps[turn][0] << u | steps[turn][1] << v;
 }
@@ -121,7 +121,7 @@ struct march {
 
     double *values[2];       // f at the lattice points of the plane below and above
     uint32_t *crossed[2][2]; // vertices on the x and y edges of the two planes
-    uint32_t *upright;       // vertices on the z edges between them
+    uint32_t *upright;       // vertices on the z edges between the two planes
     uint32_t *corners[2];    // vertices on lattice points of the two planes
 
     float *positions, *normals;

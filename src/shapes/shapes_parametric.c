@@ -6,10 +6,10 @@
 // Seams: if u (or v) is closed, the last column (row) has the position, normal and tangent of the first, bit for bit;
 // only the texture coordinate differs.
 //
-// Poles: a row, or the first or last column, whose points coincide is one vertex. Degenerate triangles at a pole are
-// skipped. Each remaining triangle has its own corner at the pole, with the texture coordinate, tangent and normal of
-// the centre of its cell. If these normals agree, the pole is smooth and all corners get the mean normal. Otherwise the
-// pole is a tip, like the tip of a cone, and each corner keeps its normal.
+// Poles: if all points of a row, or of the first or last column, coincide, the row or the column is one vertex.
+// Degenerate triangles at a pole are skipped. Each remaining triangle has its own corner at the pole, with the texture
+// coordinate, tangent and normal of the centre of its cell. If these normals agree, the pole is smooth and all corners
+// get the mean normal. Otherwise the pole is a tip, like the tip of a cone, and each corner keeps its normal.
 //
 // A zero derivative does not determine the tangent plane. Such a derivative is replaced by the derivative at a point a
 // ten-thousandth of the domain further inside, which approximates the one-sided limit.
@@ -25,7 +25,7 @@
 
 // Points closer than this fraction of the surface's size coincide; floats cannot represent the difference.
 #define COINCIDENT 1e-9
-// A derivative below this fraction of size per domain length counts as zero.
+// A derivative below this fraction of size per domain length is treated as zero.
 #define VANISHED 1e-9
 // The distance from the boundary at which the one-sided limit is approximated, as a fraction of the domain.
 #define INSET 1e-4
@@ -42,7 +42,7 @@ struct row {
     uint32_t first, middle, last; // the vertices of column 0, 1 and u_segments
     bool single;                  // all columns have the vertex `first`
     bool owns_first, owns_middle, owns_last;
-    bool pole;     // its points coincide
+    bool pole;     // the points of the row coincide
     size_t corner; // the first corner of its cells, which are between the previous row and this one
 };
 

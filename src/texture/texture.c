@@ -88,8 +88,8 @@ void lam_texture_free(lam_texture *texture)
 
 static size_t pixels_of(const lam_image *image) { return (size_t)image->width * (size_t)image->height; }
 
-// Removes the alpha channel from a picture of bytes if all its alphas are 255. This saves a quarter of the picture's
-// memory.
+// Removes the alpha channel from an 8-bit picture if all alpha values are 255. Without the alpha channel, the picture
+// needs a quarter less memory.
 static void drop_opaque_alpha(lam_image *image, struct call_control *call)
 {
     uint8_t *bytes = image->pixels;
@@ -108,7 +108,7 @@ static void drop_opaque_alpha(lam_image *image, struct call_control *call)
         call_refund(call, count);
 }
 
-// Returns the number of channels that a picture's texels need, or 0 if a number is not finite.
+// Returns the number of channels that a picture's texels need, or 0 if a value is not finite.
 static int count_channels(const lam_image *image, const char *name, lam_error *error)
 {
     const float *pixel = image->pixels;
@@ -180,7 +180,7 @@ struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values
 
 // --- pictures from files
 
-// Decodes the sRGB-encoded 16-bit numbers of a picture to linear numbers.
+// Decodes the sRGB-encoded 16-bit values of a picture to linear values.
 static bool decode_wide(lam_image *image, lam_error *error)
 {
     size_t count = (size_t)image->width * (size_t)image->height;

@@ -66,25 +66,24 @@ static inline texel texel_at(const struct lam_texture *texture, int level, int x
                      : texel_of_bytes(texture->bytes + at, texture->decode, texture->channels);
 }
 
-// Makes a texture from a decoded picture (LAM_RGB8, LAM_RGBA8, or LAM_RGBA32F with linear numbers, not premultiplied),
-// and takes over its pixels if they are bytes. Its memory is charged to `call`, which may be NULL. Fails with LAM_LIMIT
-// or LAM_BAD_ARGUMENT; the picture is freed in any case.
+// Makes a texture from a decoded picture (LAM_RGB8, LAM_RGBA8, or LAM_RGBA32F with linear values, not premultiplied),
+// and takes over its pixels if they are bytes. The texture's memory is charged to `call`, which may be NULL. Fails with
+// LAM_LIMIT or LAM_BAD_ARGUMENT; the picture is freed in any case.
 struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
                                      struct call_control *call, lam_error *error);
 
-// Makes a texture from the bytes of a picture's file. With LAM_COLOR_RAW as `color`, colours are used without
-// conversion.
+// Makes a texture from the bytes of a picture file. With LAM_COLOR_RAW as `color`, colours are used without conversion.
 struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
                                    struct call_control *call, lam_error *error);
 
-// Returns whether a model is loaded without a texture whose texture_decode failed with this error. Otherwise the load
-// fails.
+// Returns whether a model may be loaded without a texture if texture_decode failed with this error. If not, loading the
+// model fails.
 bool texture_is_optional(const lam_error *error);
 
 // Adds a reference.
 struct lam_texture *texture_share(const struct lam_texture *texture);
 
-// Fills levels 1 … level_count − 1 from level 0. Their sizes and memory are already set.
+// Fills levels 1 … level_count − 1 from level 0. The sizes and the memory of these levels are already set.
 void mipmaps_make(struct lam_texture *texture);
 
 #endif

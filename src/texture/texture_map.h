@@ -1,4 +1,4 @@
-// texture_map.h: lookups of a material in its textures: checks, and values at many points.
+// texture_map.h: checks a material's maps, and looks up their values at many points.
 #ifndef TEXTURE_MAP_H
 #define TEXTURE_MAP_H
 
@@ -16,7 +16,7 @@ static inline bool texture_map_translucent(const lam_texture_map *map)
     return map && map->texture && !map->texture->opaque;
 }
 
-// Gets approximate bounds of a map's numbers after channel, scale and offset are applied; rounding makes the bounds
+// Gets approximate bounds of a map's values after channel, scale and offset are applied; rounding makes the bounds
 // inexact. The bounds are −1e30 and 1e30 if the texture was not made from bytes. Any thread may call this function; the
 // bounds of a texture are computed once.
 void texture_map_range(const lam_texture_map *map, float out[2]);
@@ -39,10 +39,10 @@ struct texture_taps {
     } at[2];
 };
 
-// Returns whether two maps use the same positions in pictures of the same size.
+// Returns whether two maps use the same positions in textures of the same size.
 bool texture_map_same_taps(const lam_texture_map *a, const lam_texture_map *b);
 
-// Fetches the filtered texels of points into four rows: the map's numbers before scale and offset.
+// Fetches the filtered texels of points into four rows: the map's values before scale and offset.
 void texture_fetch(const struct lam_texture *texture, const struct texture_taps *taps, int count, float *const out[4]);
 
 // Like texture_fetch, but filters the footprint of each point with up to `anisotropy` > 1 probes along its longer axis.

@@ -1,4 +1,4 @@
-// texture_range.c: computes bounds of the numbers of a texture.
+// texture_range.c: computes bounds of a texture's values.
 #include "texture_map.h"
 
 // The number of texels that are compared together. With three or four channels, their bytes fill whole registers.

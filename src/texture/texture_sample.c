@@ -40,7 +40,7 @@ static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_te
         right, lower);
 }
 
-// Prefetches the texels of a later point, because pictures are larger than the processor's caches.
+// Prefetches the texels of a later point, because textures are larger than the processor's caches.
 static inline __attribute__((always_inline)) void prefetch_tap(const struct lam_texture *texture, int channels,
                                                                int level, int32_t first, int32_t down)
 {
@@ -104,7 +104,7 @@ static texel at_level(const lam_texture_map *map, float s, float t, float detail
     return value;
 }
 
-// Returns the mean of several probes along the longer axis of a minified footprint (convention 22).
+// Returns the mean of several probes along the longer axis of a minified footprint (docs/textures.md).
 static texel along_axis(const lam_texture_map *map, const struct texture_matrix *matrix,
                         const struct texture_points *points, int i, const struct footprints *f, int most, float *level)
 {

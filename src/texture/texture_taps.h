@@ -120,7 +120,7 @@ struct texture_matrix {
     float m[2][3];
 };
 
-// Returns the transform from the mesh's texture coordinates to coordinates in the picture.
+// Returns the transform from the mesh's texture coordinates to coordinates in the texture.
 static inline struct texture_matrix texture_matrix_of(const lam_texture_map *map)
 {
     struct texture_matrix matrix = {{{1, 0, 0}, {0, 1, 0}}};
@@ -134,7 +134,7 @@ static inline struct texture_matrix texture_matrix_of(const lam_texture_map *map
 
 LANE_FN num row_of(const float m[3], num s, num t) { return m[0] * s + m[1] * t; }
 
-// Positions in the picture, the squared lengths of the two axes of each pixel's footprint in texels of level 0, and the
+// Positions in the texture, the squared lengths of the two axes of each pixel's footprint in texels of level 0, and the
 // level of detail. Footprints of zero or unknown size are treated as magnified.
 struct footprints {
     num s, t, longer, shorter, detail;

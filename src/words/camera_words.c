@@ -51,7 +51,7 @@ static const char *const keys[] = {"eye", "target", "up", "fovy", "ortho", "near
 const char *lam_camera_key(int index) { return index >= 0 && index < KEY_COUNT ? keys[index] : NULL; }
 
 struct parser {
-    lam_camera camera; // fovy is in degrees here
+    lam_camera camera; // fovy is stored in degrees
     bool seen[KEY_COUNT];
 };
 

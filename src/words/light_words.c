@@ -309,7 +309,7 @@ static bool set_cone(struct parser *parser, lam_error *error)
                     outer ? parser->numbers[field_index("outer")] : NULL, error))
         return false;
     if (!cutoff && !outer && seen(parser, "exponent"))
-        light->cutoff_rad = 0; // the cone has no edge; only the exponent shapes it
+        light->cutoff_rad = 0; // the cone has no edge, and only the exponent determines its shape
     return true;
 }
 

@@ -22,7 +22,7 @@ static const struct {
 enum { OTHERS = sizeof others / sizeof *others };
 
 struct parser {
-    lam_material_id id; // a named material, or LAM_MATERIAL_COUNT if the text names none
+    lam_material_id id; // a named material, or LAM_MATERIAL_COUNT if the text contains no name
     const char *words;  // the description of one of `others`, or NULL
     bool given[MATERIAL_KEYS];
     bool ambient_is_diffuse; // whether the text contains ambient=diffuse
@@ -94,8 +94,8 @@ static bool read_pair(char *pair, lam_color_mode mode, struct parser *parser, la
     return word_field(&color, value, mode, parser->numbers[key], error);
 }
 
-// Detects a colour without a key: #rrggbb, r/g/b or a name. A single number is not treated as a colour, because it is
-// more likely a value whose key was forgotten.
+// Detects a colour without a key: #rrggbb, r/g/b or a name. A single number is not treated as a colour, because the
+// number is more likely a value whose key was forgotten.
 static bool is_color_alone(const char *word, lam_color_mode mode)
 {
     lam_rgba color;
@@ -125,7 +125,7 @@ static bool unknown_material(const char *name, lam_error *error)
                 nearest ? "'?" : "; expected a name of `lambent materials`, a colour or key=value");
 }
 
-// Sets the first three numbers of a colour and keeps its alpha.
+// Sets the first three channels of a colour and keeps its alpha.
 static void set_color(const lam_field *field, lam_material *m, const double color[4], double factor)
 {
     double numbers[4];

@@ -53,7 +53,8 @@ bool word_copy(const char *text, char copy[WORDS_MAX], lam_error *error)
     return true;
 }
 
-// Parses a finite decimal number, but not "inf" or "nan". Returns the position after it, or NULL if there is no number.
+// Parses a finite decimal number, but not "inf" or "nan". Returns the position after the number, or NULL if there is no
+// number.
 static const char *word_number(const char *text, double *number)
 {
     const char *digits = text + (*text == '-' || *text == '+');

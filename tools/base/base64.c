@@ -5,7 +5,7 @@
 
 static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-// Returns 0..63, or −1 for a letter outside the alphabet.
+// Returns the value of a character (0..63), or −1 if the character is outside the alphabet.
 static int value_of(char letter)
 {
     return letter >= 'A' && letter <= 'Z'   ? letter - 'A'

@@ -6,12 +6,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Decodes base64 into memory from malloc, and sets *size to the number of bytes. Returns NULL if memory runs out, or
+// Decodes base64 into memory allocated with malloc, and sets *size to the number of bytes. Returns NULL if memory runs
+// out, or
 // if `text` is invalid; *at is then the position of the error.
 uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at);
 
-// Encodes bytes as base64 into memory from malloc, with a final zero, and sets *length to the number of characters
-// without the zero. Returns NULL if memory runs out.
+// Encodes bytes as base64 into memory allocated with malloc, with a final zero, and sets *length to the number of
+// characters without the zero. Returns NULL if memory runs out.
 char *base64_encode(const uint8_t *bytes, size_t size, size_t *length);
 
 #endif

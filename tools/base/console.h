@@ -9,7 +9,7 @@
 
 // Detects once whether standard error is a terminal with colours (NO_COLOR and TERM=dumb disable them).
 void console_start(void);
-bool console_is_terminal(void); // standard error is a terminal that can move its cursor
+bool console_is_terminal(void); // returns whether standard error is a terminal with a movable cursor
 bool console_has_colors(void);
 
 // Print one line on standard error: "lambent: …" and "lambent: warning: …".

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { AT_ONCE = 1 << 30 }; // no system writes more than 2 GiB at once
+enum { AT_ONCE = 1 << 30 }; // no system writes more than 2 GiB in one call
 
 bool write_all(int file, const void *bytes, size_t size)
 {
@@ -48,7 +48,7 @@ int open_regular(const char *path, uint64_t *size)
     if (stat(path, &about) != 0)
         return -1;
     int file = S_ISREG(about.st_mode) ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY) : -1;
-    if (file >= 0 && fstat(file, &about) == 0 && !S_ISREG(about.st_mode)) { // replaced meanwhile
+    if (file >= 0 && fstat(file, &about) == 0 && !S_ISREG(about.st_mode)) { // the path was replaced meanwhile
         close(file);
         file = -1;
     }

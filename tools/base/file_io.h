@@ -6,28 +6,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Writes all bytes. Returns false and sets errno if it fails.
+// Writes all bytes. Returns false and sets errno on failure.
 bool write_all(int file, const void *bytes, size_t size);
 
-// Reads exactly `size` bytes. Returns false and sets errno if it fails; errno is 0 if the file ends earlier.
+// Reads exactly `size` bytes. Returns false and sets errno on failure; errno is 0 if the file ends earlier.
 bool read_all(int file, void *bytes, size_t size);
 
 // Opens a regular file for reading, and sets *size to its size. Rejects folders, pipes and devices, since opening them
-// can block forever or have side effects. Returns −1 and sets errno if it fails; errno is 0 if the file is not a
-// regular file.
+// can block forever or have side effects. Returns −1 and sets errno on failure; errno is 0 if the file is not a regular
+// file.
 int open_regular(const char *path, uint64_t *size);
 
-// Reads a file to its end, at most `size` bytes. Returns false and sets errno if it fails.
+// Reads a file to its end, at most `size` bytes. Returns false and sets errno on failure.
 bool read_up_to(int file, char *bytes, size_t size, size_t *length);
 
 // Returns whether a path is the folder itself or lies below the folder. Both must be real paths.
 bool is_in_folder(const char *real, const char *folder);
 
-// Returns whether a file is the folder or lies below it after links are resolved. Returns `missing` if the file or the
-// folder cannot be found, or memory runs out.
+// Returns whether a path, after links are resolved, is the folder itself or lies below the folder. Returns `missing` if
+// the file or the folder cannot be found, or memory runs out.
 bool path_is_below(const char *path, const char *folder, bool missing);
 
-// Returns whether a folder exists at `path`, or a link to one.
+// Returns whether `path` is a folder or a link to a folder.
 bool path_is_folder(const char *path);
 
 #endif

@@ -7,7 +7,7 @@
 
 enum { HOST_SIZE = 65 }; // HOST_NAME_MAX of Linux, and the closing zero
 
-// Returns the host name, or "" if it is unknown.
+// Returns the host name, or "" if the name is unknown.
 static inline const char *host_name(char name[HOST_SIZE])
 {
     memset(name, 0, HOST_SIZE);

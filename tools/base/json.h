@@ -17,19 +17,19 @@ struct json {
     bool comma; // a comma is needed before the next value
 };
 
-// `key` is NULL for the elements of a list and for the outermost value.
+// `key` is NULL for the elements of an array and for the outermost value.
 void json_open(struct json *json, const char *key, char bracket); // '{' or '['
 void json_close(struct json *json, char bracket);                 // '}' or ']'
 void json_text(struct json *json, const char *key,
                const char *text); // writes null for NULL, U+FFFD for invalid UTF-8
-// Writes a sentence of the library, with fields replaced by options (option_names.h). NULL becomes null.
+// Writes a message of the library, with field names replaced by options (option_names.h). NULL becomes null.
 void json_message(struct json *json, const char *key, const char *text);
 void json_number(struct json *json, const char *key, double value); // writes null if `value` is not finite
 void json_count(struct json *json, const char *key, uint64_t value);
 void json_none(struct json *json, const char *key);
 void json_flag(struct json *json, const char *key, bool value);
 
-// Write lists of numbers.
+// Write arrays of numbers.
 void json_numbers(struct json *json, const char *key, const double *values, int count);
 void json_vector(struct json *json, const char *key, lam_vec3 v);
 

@@ -4,7 +4,8 @@
 
 #include <lambent/base.h>
 
-// Returns the folder of a path, from malloc: "." if the path contains none. Returns NULL if memory runs out.
+// Returns the folder of a path, or "." if the path contains no folder. The result is allocated with malloc. Returns
+// NULL if memory runs out.
 char *output_folder_of(const char *path);
 
 // Creates the folder of a path and the folder's parents, if they are missing. output_check must have accepted the path.

@@ -10,7 +10,7 @@ struct progress {
     double from, span; // the current call's section of the bar: its start and length, as fractions
     const char *model;
     bool shown;
-    void (*show)(double share); // called with the total fraction instead of drawing the bar; NULL draws the bar
+    void (*show)(double share); // receives the total fraction; if NULL, the bar is drawn
 };
 
 void progress_start(struct progress *progress, const char *model, bool allowed);

@@ -9,7 +9,7 @@
 
 struct suggestion suggest_start(const char *typed)
 {
-    // Allows a third of the letters to differ, but at least one.
+    // Allows a third of the letters to differ, but at least one letter.
     int allowed = (int)strlen(typed) / 3;
     return (struct suggestion){.typed = typed, .distance = allowed < 1 ? 2 : allowed + 1};
 }
@@ -17,7 +17,7 @@ struct suggestion suggest_start(const char *typed)
 void suggest_try(struct suggestion *suggestion, const char *word)
 {
     int distance = lam_word_distance(suggestion->typed, word);
-    // Among equally similar words, prefers a word that is a prefix of the other.
+    // If an equally similar word is a prefix of the best word so far, prefers the prefix.
     const char *best = suggestion->best;
     bool shorter = best && distance == suggestion->distance && strncmp(best, word, strlen(word)) == 0;
     if (distance < suggestion->distance || shorter) {

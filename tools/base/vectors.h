@@ -1,4 +1,4 @@
-// vectors.h: products and differences of vectors, tests of vectors and colours, and degrees.
+// vectors.h: computes vector products and differences, tests vectors and colours, and converts radians to degrees.
 #ifndef VECTORS_H
 #define VECTORS_H
 

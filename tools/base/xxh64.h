@@ -20,7 +20,7 @@ uint64_t xxh64_end(const struct xxh64 *hash);
 // Hashes a block of bytes.
 uint64_t xxh64_of(const void *bytes, size_t size);
 
-// Hashes the bytes of a file. Returns false and sets errno if it cannot be read or is not a regular file.
+// Hashes the bytes of a file. Returns false and sets errno if the file cannot be read or is not a regular file.
 bool xxh64_file(const char *path, uint64_t *hash);
 
 // xxh64_print writes a hash in the form "xxh64:0123456789abcdef". xxh64_parse reads this form, and returns false for

@@ -75,7 +75,7 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
     return true;
 }
 
-// Returns the path of the journal, allocated with malloc. Sets *none if there is none.
+// Returns the path of the journal, allocated with malloc. Sets *none if the batch writes no journal.
 static char *journal_path(const struct batch_plan *plan, bool *none)
 {
     const char *named = plan->options->batch.journal;

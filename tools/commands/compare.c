@@ -28,7 +28,7 @@ struct page {
     double unit;
     int cell_width, cell_height; // the size of a picture
     int gap, head, foot;         // the gap between and around cells; the heights of the title and of a caption
-    int inset;                   // the height of the enlarged part with its gap; 0 if there is none
+    int inset;                   // the height of the enlarged section with its gap; 0 without such a section
     int rows;
 };
 
@@ -43,11 +43,11 @@ struct compare {
     int done;                              // the number of pictures drawn so far
     lam_image right;                       // the first picture of a sheet of mistakes
     lam_difference differences[CELLS_MAX]; // differences from `right`
-    bool exposure_fitted;                  // fitted to the first picture, then used for all
+    bool exposure_fitted;                  // the exposure was fitted to the first picture, and is used for all pictures
     double exposure;
     const char *defaults[2 * SHEET_DEFAULTS_MAX]; // arguments that the sheet adds to every picture
     int default_count;
-    bool default_material; // one of the defaults is a material
+    bool default_material; // whether one of the defaults is a material
 };
 
 // Returns the user's caption of a picture, or the sheet's caption.
@@ -87,14 +87,14 @@ static int words_of(const struct compare *c, const struct cell *cell, const char
     return count;
 }
 
-// Makes the options of a cell's picture, with two additional arguments (may be NULL). On failure there is nothing to
-// free.
+// Creates the options of a cell's picture, with two additional arguments, which may be NULL. After a failure, there is
+// nothing to free.
 static bool cell_options(const struct compare *c, const struct cell *cell, const char *more, const char *value,
                          struct options *options, lam_error *error)
 {
     if (!options_copy(options, c->options))
         return complain(error, LAM_LIMIT, "out of memory");
-    char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // options_parse only reads them
+    char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // options_parse does not modify the words
     int count = 0;
     for (int i = 0; i < c->default_count; i++)
         words[count++] = (char *)(uintptr_t)c->defaults[i];
@@ -119,7 +119,8 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     return ok;
 }
 
-// Returns the device that draws a cell. On a sheet of mistakes this is OpenGL with the mistake in its shaders.
+// Returns the device that draws a cell. On a sheet of mistakes, the device is an OpenGL device whose shaders contain
+// the mistake.
 static lam_device *cell_device(const struct compare *c, const struct options *options, lam_error *error)
 {
     if (!c->sheet.mistakes)
@@ -186,7 +187,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     if (!cell_options(c, cell, NULL, NULL, &options, error))
         return false;
     options.shader.style = LAM_SHADER_STYLE_LECTURE;
-    options.shader.products = true; // the same as for drawing with OpenGL
+    options.shader.products = true; // as when OpenGL draws the picture
     options.picture.width = CELL_WIDTH;
     options.picture.height = CELL_HEIGHT;
     struct job job = {.options = &options, .model = c->model};
@@ -290,8 +291,8 @@ static void join(const char *const *words, int count, char line[512])
         snprintf(line + strlen(line), 512 - strlen(line), "%s%s", i ? " " : "", words[i]);
 }
 
-// Draws text on one line, or on two lines if it would be too small to read on one. Breaks the text after the comma or
-// the space nearest to its middle.
+// Draws text on one line, or on two lines if the text would be too small to read on one line. Breaks the text after the
+// comma or the space nearest to its middle.
 static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
 {
     double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);
@@ -442,7 +443,7 @@ static bool has_argument(const char *const *words, int count, const char *argume
     return false;
 }
 
-// Prints the caption of each picture, and its arguments without the options of the sheet itself.
+// Prints the caption and the arguments of each picture, without the options of the sheet itself.
 static void print_json(const struct compare *c, const char *path)
 {
     struct json json = {.file = strcmp(path, "-") == 0 ? stderr : stdout};
@@ -482,7 +483,7 @@ static void print_json(const struct compare *c, const char *path)
     putc('\n', json.file);
 }
 
-// Returns the sheet's path, such as "koala-terms.png" by default.
+// Returns the sheet's path. The default is a path such as "koala-terms.png".
 static char *path_of(const struct options *o, const char *model, const char *sheet)
 {
     char ending[64];

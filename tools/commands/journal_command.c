@@ -244,7 +244,7 @@ static bool write_page(struct journal_sum *sum, const struct batch_tally *tally,
     return batch_page_write(&page, error);
 }
 
-// Returns the right to write a file. The sandbox is needed because the journals may be untrusted, and they name the
+// Returns whether a file may be written. The sandbox is needed because the journals may be untrusted, and they name the
 // pictures from which thumbnails are made.
 static enum writer_right right_of(void *user, const char *path)
 {

@@ -120,8 +120,8 @@ static void print_list(const struct options *options)
         print_table((lam_color_mode)options->picture.color_mode);
 }
 
-// Builds a scene of one mesh and an object for each material, in rows of COLUMNS from the top left. The light is the
-// original program's: directional, from (0, 3, 3), with a global ambient of 0.2 and an infinite viewer.
+// Builds a scene of one mesh and an object for each material, in rows of COLUMNS from the top left. The light matches
+// the original program: it is directional, from (0, 3, 3), with a global ambient of 0.2 and an infinite viewer.
 static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error)
 {
     int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);
@@ -134,7 +134,7 @@ static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error
         object.mesh = mesh;
         object.material = lam_scene_add_material(scene, &material, error);
         object.transform.m[0][3] = 2.2 * (i % COLUMNS - (COLUMNS - 1) * 0.5);
-        // NOLINTNEXTLINE(bugprone-integer-division): the row, a whole number
+        // NOLINTNEXTLINE(bugprone-integer-division): the row is a whole number
         object.transform.m[1][3] = 1.7 * ((ROWS - 1) * 0.5 - i / COLUMNS);
         if (object.material < 0 || lam_scene_add_object(scene, &object, error) < 0)
             return false;

@@ -30,7 +30,8 @@ static bool check_models(int count, char **models, lam_error *error)
     return true;
 }
 
-// Prepares pictures in the terminal if there is only one, and refuses to write a picture file to a terminal.
+// Prepares showing the picture in the terminal if the command draws only one picture. Refuses to write a picture file
+// to a terminal.
 static bool check_terminal(int count, const struct options *o, lam_error *error)
 {
     bool alone = count == 1 && !o->batch.lists.count && o->batch.view_count <= 1 && o->batch.size_count <= 1 &&
@@ -42,7 +43,7 @@ static bool check_terminal(int count, const struct options *o, lam_error *error)
     return true;
 }
 
-// One reason to refuse the command line: whether it applies, and the message.
+// A reason to reject the command line: whether the reason applies, and the message.
 struct refusal {
     bool applies;
     const char *text;

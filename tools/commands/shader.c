@@ -88,8 +88,8 @@ static char *base_of(const char *output, const char *model)
     return base;
 }
 
-// Writes a file. Shader files do not record which program wrote them, so this function cannot check that. It replaces
-// an existing file even if `output` names only a folder. The folder of `output` may be missing.
+// Writes a file. Shader files do not record which program wrote them. This function therefore replaces any existing
+// file, even if `output` names only a folder. The folder of `output` may be missing.
 static bool write_file(const char *output, const char *base, const char *ending, const char *text, size_t size,
                        lam_error *error)
 {

@@ -25,13 +25,13 @@ void complete_offer(const struct typed_word *typed, const char *candidate, const
 
 void complete_files(void) { printf(":files\n"); }
 
-// Returns the word with `complete` more bytes of `prefix` counted as finished.
+// Returns the word, of which `complete` more bytes of `prefix` are now finished.
 static struct typed_word after(const struct typed_word *typed, size_t complete)
 {
     return (struct typed_word){typed->before, typed->prefix + complete, typed->before_length + (int)complete};
 }
 
-// Returns the word with everything up to the last comma counted as finished.
+// Returns the word, of which everything up to the last comma is now finished.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
     const char *comma = strrchr(typed->prefix, ',');
@@ -41,7 +41,7 @@ static struct typed_word after_comma(const struct typed_word *typed)
 static void complete_words(const struct choice *words, const struct typed_word *typed)
 {
     for (const struct choice *w = words; w->name; w++) {
-        // A name in capitals, as in "light:NAME", means text that the user types, so it is not offered.
+        // A name in capitals, as in "light:NAME", represents text that the user types, so this name is not offered.
         char fixed[64];
         snprintf(fixed, sizeof fixed, "%s", w->name);
         char *colon = strchr(fixed, ':');

@@ -1,4 +1,4 @@
-// help.c: prints the texts of --help and -h.
+// help.c: prints the help for --help and -h.
 #include "help.h"
 
 #include <stdio.h>

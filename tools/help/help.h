@@ -1,4 +1,4 @@
-// help.h: the texts of -h and --help.
+// help.h: prints the help for -h and --help.
 #ifndef HELP_H
 #define HELP_H
 

@@ -14,11 +14,12 @@ void help_text(const char *text, int indent, int width);
 // `left` is too long.
 void help_row(const char *left, int column, int width, const char *text);
 
-// Prints an option's row: its summary and default, for `command` if it has its own. With `details`, prints all
-// information about it.
+// Prints an option's row: its summary and its default, or the default of `command` if that default differs. With
+// `details`, prints all information about the option.
 void help_option(const struct option *option, const struct command *command, bool details);
 
-// Prints the options that a command accepts, by group: its own options first; for shared options only the names.
+// Prints the options that a command accepts, by group: first the command's own options, then only the names of the
+// shared options.
 void help_options(const struct command *command);
 
 void help_commands(void);   // commands that must be named explicitly

@@ -1,4 +1,4 @@
-// help_search.c: searches the texts of subjects, commands, options and keys.
+// help_search.c: searches the help for subjects, commands, options and keys.
 #include "help_search.h"
 
 #include <ctype.h>
@@ -55,7 +55,7 @@ static bool matches(const struct search *search, const struct texts_of *texts)
     return found == search->count;
 }
 
-// Prints a row if the texts match. Prints a heading before the first row of each kind.
+// Prints a row if the entry's texts match. Prints a heading before the first row of each kind.
 static void try_row(struct search *search, const struct texts_of *texts, const char *heading, int *of_kind,
                     const char *name, const char *summary)
 {

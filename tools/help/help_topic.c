@@ -39,7 +39,7 @@ static const struct topic *find_topic(const char *query)
     return NULL;
 }
 
-// Finds an option from "light", "--light", "-o" or "o".
+// Finds the option for a query such as "light", "--light", "-o" or "o".
 static const struct option *find_option(const char *query)
 {
     char letter = query[0] != '-' && !query[1] ? query[0] : query[0] == '-' && query[1] && !query[2] ? query[1] : 0;

@@ -34,8 +34,8 @@ static void roff_line(const char *text)
     putchar('\n');
 }
 
-// Formats the default of an option, followed by the defaults of the commands that use a different one. The result is ""
-// if there is no default.
+// Formats the default of an option, followed by the defaults of the commands that use a different default. The result
+// is "" if there is no default.
 static const char *standard_of(const struct option *o, char text[400])
 {
     int used = snprintf(text, 400, "%s", o->standard ? o->standard : "");

@@ -2,8 +2,8 @@
 //
 // Each frame is a picture drawn with the command line's options, plus the options that the sweeps and the turntable set
 // for that frame. The program loads the scene once, marks its state (lam_scene_mark), and resets the scene to this
-// state before each frame. It loads the scene again only if a swept option affects loading (option.loads). The camera
-// and exposure of the first frame are used for all frames.
+// state before each frame. The program loads the scene again only if a swept option affects loading (option.loads). The
+// camera and exposure of the first frame are used for all frames.
 #include "animate.h"
 
 #include <stdio.h>
@@ -203,7 +203,7 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     }
     o->animation.place_lights |= o->animation.turntable != 0;
     if (a->environment && !a->loads && !environment_option_is_none(o->shading.environment))
-        o->shading.environment = NULL; // the scene already has it
+        o->shading.environment = NULL; // the scene already contains the environment
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }
 
@@ -218,7 +218,8 @@ static void keep_exposure(const struct job *job, struct options *o)
     if (job->fill_scale > 0) {
         o->lighting.has_light_scale = true;
         o->lighting.light_scale = job->fill_scale;
-        o->shading.environment = job->animation->loads ? "studio" : NULL; // otherwise the scene already contains it
+        o->shading.environment = job->animation->loads ? "studio" : NULL; // otherwise the scene already contains the
+                                                                          // studio
     }
 }
 
@@ -288,7 +289,8 @@ static bool find_length(const struct job *job, double *length_s, lam_error *erro
                                      "expected time=FROM..TO");
 }
 
-// If a time sweep gives no range, fills in the animation's whole length, and sets the number of frames.
+// If a time sweep contains no range, uses the whole length of the animation as the range, and sets the number of
+// frames.
 static bool set_length(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;

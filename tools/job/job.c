@@ -319,8 +319,7 @@ static bool fill_darkness(struct job *job, lam_draw_params *draw, int width, int
     return true;
 }
 
-// Computes the exposure if it is automatic. All lights are then evaluated, because the effect of a light depends on the
-// exposure.
+// Computes an automatic exposure. All lights are then evaluated, because the effect of a light depends on the exposure.
 static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
 {
     const struct options *o = job->options;
@@ -365,7 +364,7 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
     return ok;
 }
 
-// For an even number of frames, the median is the faster one of the middle two.
+// For an even number of frames, the median is the faster of the two middle frames.
 void job_time_frames(struct job *job, lam_frame_report *reports, int count)
 {
     qsort(reports, (size_t)count, sizeof *reports, by_total);

@@ -37,7 +37,7 @@ struct model_sphere {
 
 // One of several pictures of a model that is loaded once.
 struct job_view {
-    int side;          // lam_side, or −1 if the options select it
+    int side;          // lam_side, or −1 if the options select the side
     int width, height; // pixels
 };
 
@@ -61,7 +61,7 @@ struct job {
     const lam_bytes *model_bytes; // the bytes of the model that `model` names; NULL if the model is a file
     const char *output;           // path of the picture; "-" means standard output
     lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written
-    bool one_of_many;             // several models share the options, so a model may lack a name in --hide
+    bool one_of_many;             // several models share the options, so a model may not contain a name given to --hide
     bool makes_folder;            // also create the folder of an explicitly named picture
     const lam_cancel *cancel;     // stops the job; if NULL, only Ctrl-C does
     const char *format;           // the format of the picture: "png"
@@ -98,7 +98,7 @@ struct job {
     lam_picture_settings settings; // the scene file's settings; empty if the model is not a scene file
     lam_draw_params draw;          // parameters of the drawn picture
     struct job_times times;
-    lam_error error; // the error; its code is LAM_OK if there is none
+    lam_error error; // the error, or the code LAM_OK if the job has not failed
 };
 
 // Loads the model, draws it and writes the picture. The caller fills in options, model, output, device and times.start;

@@ -5,7 +5,7 @@
 #include <lambent/scene.h>
 
 // Returns whether writing `path` would leave the scene's input files unchanged. Fails with LAM_BAD_ARGUMENT. With
-// `own`, the scene file itself may be replaced by another scene file, but not the files that it names.
+// `own`, another scene file may replace the scene file itself, but no file that the scene file names may be replaced.
 bool job_check_inputs(const lam_scene *scene, const char *path, bool own, lam_error *error);
 
 // Returns whether both paths refer to the same existing file.

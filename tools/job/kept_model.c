@@ -20,7 +20,7 @@ static bool changes_drawing_only(const struct option *option)
     return !option->loads && (option->setting || option_is_in(option, KEEPS_MODEL));
 }
 
-// Returns a key for the model and its load options, from malloc.
+// Returns a key for the model and its load options, allocated with malloc.
 static char *key_of(const char *name, const struct options *options)
 {
     size_t size = 0;

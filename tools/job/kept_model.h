@@ -11,7 +11,7 @@ struct kept_model {
     double read_ms;
 };
 
-// Gives the model to the job in its original state. Loads the model if another model, or the same model with other
+// Passes the model, in its original state, to the job. Loads the model if another model, or the same model with other
 // options, is stored. The job's options, model, device and environments must be set. `progress` shows the loading and
 // may be NULL. Fails like job_load.
 bool kept_model_take(struct kept_model *model, struct job *job, struct progress *progress, lam_error *error);

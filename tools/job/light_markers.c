@@ -66,7 +66,7 @@ static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
     return depth <= 0 || x > kx * depth + radius * sqrt(1 + kx * kx) || y > ky * depth + radius * sqrt(1 + ky * ky);
 }
 
-// A list of the first few lights, each by its name or else by its number from 1, and the number of further lights.
+// A list of the first few lights: the name of each light or, if the light has no name, its number, counted from 1.
 struct names {
     char text[160];
     int count, more; // the number of all lights, and of the omitted lights

@@ -1,4 +1,4 @@
-// scene_settings.c: applies the picture settings of a scene file, which the command line overrides, and writes the
+// scene_settings.c: applies the picture settings of a scene file unless the command line overrides them, and writes the
 // scene file of --save-scene.
 #include "scene_settings.h"
 
@@ -63,7 +63,7 @@ void scene_settings_apply(struct job *job)
         if (setting->offset == offsetof(lam_draw_params, shading) && (s->draw_present >> i & 1) && !shading_given)
             own->shading.has_shading = !option_given(own, "stage");
     }
-    // A list of lights, even an empty one, replaces the studio.
+    // A list of lights, even an empty list, replaces the studio.
     if (takes_setting(job, LAM_SETTING_LIGHTS, "rig")) {
         own->lighting.rig = (int)LAM_RIG_NONE;
         own->lighting.has_rig = true;

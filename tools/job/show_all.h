@@ -6,7 +6,7 @@
 
 bool show_is_all(const struct options *options);
 
-// Checks that the output can store layers. The error says that --show all needs a .exr.
+// Checks that the output format can store layers. Otherwise, the error says that --show all needs a .exr file.
 bool show_all_check(const struct job *job, lam_error *error);
 
 // Draws every term of the job's picture. Writes the terms and the picture, which is already drawn, to the job's output.

@@ -50,7 +50,7 @@ struct sent_picture {
 struct work {
     struct batch *batch;
     struct batch_unit *unit;
-    bool draws; // otherwise only thumbnails of earlier pictures are missing
+    bool draws; // if false, the process only makes missing thumbnails of earlier pictures
 };
 
 static bool enter(const struct batch *b, const struct batch_task *task, lam_error *error)

@@ -1,4 +1,4 @@
-// batch_isolate_windows.c: rejects --isolate on Windows: Windows cannot copy a process.
+// batch_isolate_windows.c: rejects --isolate on Windows, which cannot copy a process.
 #include "batch_isolate.h"
 
 #include "console.h"

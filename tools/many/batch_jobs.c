@@ -433,7 +433,7 @@ bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool wait
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit)
 {
     struct batch_job *job = unit->task.job;
-    // Removes the job before sending the answer, because the reader of the answer may reuse the id at once.
+    // Removes the job before sending the answer, because the reader of the answer may reuse the id immediately.
     pthread_mutex_lock(&jobs->lock);
     list_remove(&jobs->drawing, job);
     pthread_cond_broadcast(&jobs->changed);

@@ -19,7 +19,7 @@ enum { THUMBNAIL = 160 }; // pixels of the longer side
 
 // --- thumbnails
 
-// Returns the file of a picture's thumbnail, from malloc: "page-files/0123456789abcdef.png" for "page.html".
+// Returns the file of a picture's thumbnail, allocated with malloc: "page-files/0123456789abcdef.png" for "page.html".
 static char *thumbnail_path(const char *page, const char *output)
 {
     struct xxh64 hash;

@@ -16,7 +16,7 @@
 
 // --- selecting the next model
 
-// Marks the failed pictures of a model as open if they may be retried. Returns whether there are any.
+// Marks the failed pictures of a model as open if they may be retried. Returns whether any picture was marked.
 static bool reopen(struct batch *b, size_t model)
 {
     bool open = false;
@@ -197,7 +197,7 @@ void batch_deliver(struct batch *b, struct batch_unit *u)
             keep(b, u, i);
     }
     b->tally.warnings += (size_t)u->warnings;
-    if (job) { // the job's answer contains its errors
+    if (job) { // the answer contains the job's errors
         if (b->options->report.verbose && u->err)
             fputs(u->err, stderr);
     } else {

@@ -7,9 +7,9 @@
 struct batch_process {
     struct child child;
     struct child_bytes answer;
-    double stop_ms; // the clock_ms() at which it will be killed, or 0
-    bool stopped;   // the process was killed at that time
-    pid_t writer;   // the process that writes files for this process and ends after it, or 0
+    double stop_ms; // the clock_ms() at which the process will be killed, or 0
+    bool stopped;   // whether the process was killed at `stop_ms`
+    pid_t writer;   // the process that writes files for this process and ends after this process, or 0
 };
 
 // Starts `work` in a copy of this process, which must have no other thread. The copy sends back the bytes that `work`

@@ -26,7 +26,7 @@ static bool takes_folder(const struct batch *b)
            (b->options_text || b->plan->count * (size_t)b->plan->view_count > SINGLE);
 }
 
-// Returns the folder of a path, from malloc: "." if the path names no folder.
+// Returns the folder of a path, or "." if the path contains no folder. The result is allocated with malloc.
 static char *folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -58,8 +58,8 @@ static void add_folder(struct sandbox_paths *paths, char *folder)
     free(folder);
 }
 
-// Returns whether the rule for the previous model also covers this model. It does if both are in one folder and this
-// model is neither a scene file nor a link, which may lead elsewhere. A shape has no folder.
+// Returns whether the rule for the previous model also covers this model: both models are in one folder, and this model
+// is neither a scene file nor a link, which may lead elsewhere. A shape has no folder.
 static bool is_within_reach(const char *model, const char *before)
 {
     before = before && lam_shape_find(before) < 0 ? before : NULL;

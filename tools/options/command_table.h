@@ -22,12 +22,12 @@ struct own_default {
 
 struct command {
     const char *name;
-    const char *operands;               // the operands as the help shows them; NULL if there are none
+    const char *operands;               // the operands as shown in the help; NULL for a command without operands
     const char *summary;                // one sentence
     uint64_t groups;                    // bit g means that the options of group g are accepted; TAKES_… means single
                                         // options
     int min_operands, max_operands;     // −1 in max_operands means no limit
-    const struct own_default *defaults; // NULL if the command has none
+    const struct own_default *defaults; // NULL if the command has no defaults of its own
     const char *one_more;               // a hint for the error about too many operands; may be NULL
     bool verbatim;                      // only -h and --help, as the first argument, are parsed as options
 };
@@ -38,7 +38,8 @@ extern const struct command command_table[]; // in the order of COMMANDS, ends w
 const char *brief_of(const struct command *command, const struct option *option);
 
 const struct command *find_command(const char *name); // returns NULL if there is no such command
-uint64_t find_groups(const char *name);               // returns the groups of a command, 0 if there is no such command
+uint64_t find_groups(const char *name);               // returns the groups of a command, or 0 if there is no such
+                                                      // command
 
 // Returns the text of an option's default for a command: the command's own default, otherwise the option's default.
 // Returns NULL if the help shows no default.

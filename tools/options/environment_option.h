@@ -11,7 +11,8 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
 // Returns whether the value removes the environment. `text` may be NULL.
 bool environment_option_is_none(const char *text);
 
-// Returns the built-in environment with this name or "none", or NULL if the value names files.
+// Returns the name of the built-in environment that `name` selects, or "none", as a static string. Returns NULL if
+// `name` names files.
 const char *environment_option_built_in(const char *name);
 
 // Loads or makes the environment that a value of --environment describes. The caller frees it. Returns NULL on failure;

@@ -12,7 +12,7 @@ uint64_t limits_memory(const struct options *options);
 // Returns the time limit for a model in seconds. 0 means no limit.
 double limits_time(const struct options *options);
 
-// Returns a control with all limits. Its time limit applies to a whole model.
+// Returns a control with all limits. The time limit of the control applies to a whole model.
 lam_control limits_control(const struct options *options);
 
 #endif

@@ -69,7 +69,7 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 {
     if (option->named) // material_option_mirror has already replaced a metal's name with its keys
         material = lam_material_default();
-    // This cannot fail, because material_option_parse has checked the text.
+    // lam_material_parse cannot fail, because material_option_parse has checked the text.
     lam_material_parse(option->text, option->mode, &material, NULL);
     return material;
 }

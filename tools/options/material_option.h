@@ -29,11 +29,12 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 // Adds a warning to the scene for each coefficient above 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);
 
-// Adds the same warnings for the scene's own materials: one for each of the first few coefficients, and one for all
-// others.
+// Adds the same warnings for the scene's own materials: a warning for each of the first few coefficients, and a single
+// warning for all others.
 void materials_warn(lam_scene *scene);
 
-// Writes "; for 0 to 255 write #ff0000" if the three numbers of a colour look like bytes, otherwise "". Returns `text`.
+// Writes "; for 0 to 255 write #ff0000" if the three channels of a colour look like bytes, otherwise "". Returns
+// `text`.
 enum { COLOR_ADVICE_SIZE = 40 };
 const char *color_advice(const double rgb[3], char text[COLOR_ADVICE_SIZE]);
 

@@ -41,7 +41,7 @@ enum sheet_name {
 
 // The picture and its output file.
 struct picture_options {
-    const char *output;     // NULL means <model's name>.png, "-" standard output
+    const char *output;     // NULL means <model's name>.png, "-" means standard output
     int width, height;      // pixels
     bool has_size;          // true if the size was given
     const char *background; // as typed; NULL means transparent
@@ -79,7 +79,7 @@ struct view_options {
 struct lighting_options {
     struct texts lights;         // as typed, checked
     const char *look;            // as typed; NULL if there is none
-    char *look_text;             // the look's text, from malloc; values point into it
+    char *look_text;             // the look's text, into which values point; allocated with malloc
     int look_first, look_lights; // the range of `lights` that the look added
     int rig;                     // lam_rig, RIG_DARK or RIG_DEFAULT
     bool has_rig;
@@ -149,8 +149,8 @@ struct work_options {
 
 // Limits (limit_options.h).
 struct limits_options {
-    double time_limit_s;         // 0 means the default, infinity no limit
-    uint64_t memory_limit_bytes; // 0 means the default, UINT64_MAX no limit
+    double time_limit_s;         // 0 means the default, infinity means no limit
+    uint64_t memory_limit_bytes; // 0 means the default, UINT64_MAX means no limit
     uint64_t triangle_limit;     // 0 means the library's default, also for the next fields
     uint64_t pixel_limit;
     uint64_t file_limit_bytes;
@@ -255,7 +255,7 @@ struct shader_options {
 struct settings_options {
     const char *file; // NULL means the user's own file
     bool none;
-    char *values;                  // the texts to which `values` of struct options points, from malloc
+    char *values;                  // the strings to which `values` of struct options points, allocated with malloc
     const struct options *without; // the same options without the settings, or NULL
 };
 

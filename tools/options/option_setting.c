@@ -9,7 +9,7 @@ enum { POOL = 192, NAME_SIZE = 40 };
 static struct choice pool[POOL];
 static int pool_used;
 
-// Returns whether a name equals a key, apart from each _ in the key, which is - in the name.
+// Returns whether a name equals a key after each _ in the key is replaced by -.
 static bool is_named(const char *name, const char *key)
 {
     while (*name && *key && (*name == *key || (*name == '-' && *key == '_')))
@@ -43,8 +43,8 @@ static const struct choice *words_of(const lam_setting *setting)
     return first;
 }
 
-// Formats a number of at least 0 with up to five decimals, or three significant digits if it has a fraction. Calling
-// printf would take a tenth of the start-up time.
+// Formats a number of at least 0 with up to five decimals. Rounds a fraction so that the number has at most three
+// significant digits. Calling printf would take a tenth of the start-up time.
 static void put_number(char *text, double number)
 {
     long long scaled = (long long)(number * 100000 + 0.5), unit = 1;
@@ -95,8 +95,8 @@ static const struct {
     [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
-// Collects the rows without a parser or a summary, which the table of settings completes, and returns their number.
-// Also counts all rows.
+// Collects the rows that lack a parser or a summary, because the table of settings completes these rows. Returns the
+// number of these rows, and sets *rows to the number of all rows.
 static int open_rows(struct option *table, struct option *open[LAM_SETTINGS_MAX], int *rows)
 {
     int count = 0;

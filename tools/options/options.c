@@ -356,7 +356,7 @@ static bool take_look_line(void *user, int line, char *name, char *value, lam_er
 
 static bool apply_look(const char *name, struct options *options, lam_error *error)
 {
-    struct options before = *options; // The copy shares the original's lists, but only its flags are read.
+    struct options before = *options; // the copy shares the lists of `options`, but only the flags of the copy are read
     struct look_lines lines = {options, &before, own_lights(options)};
     options->lighting.look = name;
     options->lighting.look_first = options->lighting.lights.count;

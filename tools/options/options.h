@@ -38,9 +38,9 @@ struct options {
     struct settings_options settings;
 
     bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
-    bool by_key[OPTIONS_MAX];        // a key in the value of another option sets it (option.key)
+    bool by_key[OPTIONS_MAX];        // a key in the value of another option sets the option (option.key)
     bool by_look[OPTIONS_MAX];       // whether the option comes from --look
-    int by_config[OPTIONS_MAX];      // the line in the settings file, or 0 if it is not from the file
+    int by_config[OPTIONS_MAX];      // the line in the settings file, or 0 if the file does not set the option
     const char *values[OPTIONS_MAX]; // the value on the command line or in the settings file, or NULL
 };
 
@@ -99,11 +99,11 @@ enum option_group {
 
 // Uses of options. Each use includes the options of some groups; `also_in` and `not_in` of a row are the exceptions.
 enum option_use {
-    IN_LOOK = 1,      // a look may set it
-    IN_JOB = 2,       // a worker's job may set it
+    IN_LOOK = 1,      // a look may set the option
+    IN_JOB = 2,       // a worker's job may set the option
     IN_KEY = 4,       // part of the key by which a journal recognises unchanged pictures
-    IN_PAGE = 8,      // the page shows a control
-    IN_SHEET = 16,    // `compare --across` can vary it
+    IN_PAGE = 8,      // the web page shows a control for the option
+    IN_SHEET = 16,    // `compare --across` can vary the option
     KEEPS_MODEL = 32, // changes only the drawing, so that a loaded model can be used again
 };
 
@@ -132,9 +132,9 @@ typedef bool option_parser(const struct option *option, const char *value, struc
 
 struct option {
     const char *name; // without the dashes
-    char letter;      // the short form; 0 if there is none
+    char letter;      // the letter of the short form; 0 means no short form
     enum option_group group;
-    const char *value;          // the value's placeholder in the help; NULL if the option takes none
+    const char *value;          // the value's placeholder in the help; NULL if the option has no value
     const char *standard;       // the text of the default; NULL hides it
     const char *summary;        // one sentence for --help
     const char *details;        // more text for the man page and the docs, `code` in back quotes; may be NULL
@@ -144,23 +144,23 @@ struct option {
     // Stores the value (NULL for a switch) at offset `field` of struct options. On failure, error->text describes the
     // mistake without the option's name.
     option_parser *store;
-    size_t field, has_field;    // a bool to set as well; 0 if there is none
-    double min, max;            // for numbers that are not library settings
+    size_t field, has_field;    // offset of a bool that is also set; 0 means no bool
+    double min, max;            // the range of a number that is not a setting of the library
     uint64_t single;            // TAKES_…, if a command may accept the option without its group
-    const char *brief;          // a few words for -h; NULL hides it there
-    size_t letter_field;        // a bool to set as well if the short form is used; 0 if there is none
+    const char *brief;          // a few words for -h; NULL omits the option from -h
+    size_t letter_field;        // offset of a bool that the short form also sets; 0 means no bool
     const char *alias;          // another long name for the same option, or NULL
     const char *others;         // names in other programs, separated by spaces, for suggestions; may be NULL
-    const char *alone;          // the value if none follows; NULL requires a value
-    bool of_file;               // concerns the output file: see WRITES_NO_FILE
-    bool loads;                 // requires reading the model again if it changes
+    const char *alone;          // the value of an option without a value; NULL means that a value is required
+    bool of_file;               // the option concerns the output file (WRITES_NO_FILE)
+    bool loads;                 // if the option changes, the model must be read again
     uint8_t also_in, not_in;    // bits of option_use that the group does not imply, or implies wrongly
-    const lam_setting *setting; // the library's setting that it stores, or NULL
+    const lam_setting *setting; // the library's setting that the option stores, or NULL
     // The option that takes several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;
-    const char *now;    // the option that replaces this obsolete one, or NULL
+    const char *now;    // the option that replaces this obsolete option, or NULL
     const char *key;    // its key in the value of `now`, such as "width" of "edge-width" in "--edges all,width=2"
-    bool keyed;         // other options are keys of its value
+    bool keyed;         // whether other options are keys of the option's value
     const char *former; // the option that formerly had this name, suggested for its words; or NULL
 };
 
@@ -210,12 +210,12 @@ int options_parse(int count, char **words, uint64_t groups, struct options *opti
 option_parser store_switch, store_word_flag; // bool; store_word_flag: from words with the values 0 and 1
 option_parser store_text, store_jobs;        // const char *
 option_parser store_color, store_opaque_color, store_show, store_camera; // const char *, checked
-option_parser store_word, store_words, store_glsl, store_up; // int, the value of a word; store_words: a bit mask
-option_parser store_integer;                                 // int
-option_parser store_number, store_seconds;                   // double; store_seconds: infinity for "none"
-option_parser store_float, store_angle, store_cutoff;        // float; store_angle: degrees; store_cutoff: 0 gives −1
-option_parser store_count, store_bytes;                      // uint64_t
-option_parser store_light, store_material, store_rotation;   // struct texts, checked
+option_parser store_word, store_words, store_glsl, store_up;     // int, the value of a word; store_words: a bit mask
+option_parser store_integer;                                     // int
+option_parser store_number, store_seconds;                       // double; store_seconds: infinity for "none"
+option_parser store_float, store_angle, store_cutoff;            // float; store_angle: degrees; store_cutoff: −1 for 0
+option_parser store_count, store_bytes;                          // uint64_t
+option_parser store_light, store_material, store_rotation;       // struct texts, checked
 option_parser store_texts, store_path, store_list, store_across; // struct texts; store_across: at most ACROSS_MAX
 option_parser store_reflectivity;                                // lam_rgb
 // Store several members of struct options.

@@ -191,7 +191,7 @@ static bool is_decided(const struct settings_parser *r, const struct option *opt
         r->before->draw.shading != LAM_SHADING_PHONG || stage == LAM_STAGE_VERTEX || stage == LAM_STAGE_APPLICATION;
     for (size_t i = 0; by_vertex && i < sizeof phong_only / sizeof *phong_only; i++)
         if (strcmp(name, phong_only[i]) == 0)
-            return true; // the command line or its look excludes this setting
+            return true; // the command line, or the look on the command line, excludes this setting
     return option_given(r->before, name) || option_given(r->before, pair) ||
            (strcmp(name, "size") == 0 && r->before->batch.size_count);
 }

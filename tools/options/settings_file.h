@@ -19,8 +19,8 @@ struct settings_source {
 };
 
 // Applies the settings of the file to all options that neither the command line nor a look sets (options.by_config).
-// `before` becomes a copy of the options without the settings. It shares the lists of the options and must live as long
-// as the options. Only a regular file of at most 64 KiB is read. Fails with LAM_CANNOT_READ and one sentence that
+// `before` becomes a copy of the options without the settings. The copy shares the lists of `options` and must live as
+// long as `options`. Only a regular file of at most 64 KiB is read. Fails with LAM_CANNOT_READ and one sentence that
 // states the file, the line, the key, the value found and the expected values.
 bool settings_apply(struct options *options, struct options *before, struct settings_source *source, lam_error *error);
 

@@ -66,8 +66,8 @@ static bool has_direction(const lam_light *light)
     return light->type != LAM_LIGHT_AMBIENT && light->type != LAM_LIGHT_HEMISPHERE;
 }
 
-// Finds a light by its name, or else by its number (the first light is 1). Without `wanted`, finds the first light that
-// has a direction. Returns −1 if there is no such light.
+// Finds a light by its name or, if no light has this name, by its number (the first light is 1). Without `wanted`,
+// finds the first light that has a direction. Returns −1 if there is no such light.
 static int find(const char *wanted, const lam_light *lights, int count)
 {
     for (int i = 0; i < count; i++)
@@ -78,7 +78,7 @@ static int find(const char *wanted, const lam_light *lights, int count)
     return wanted && *wanted >= '0' && *wanted <= '9' && !*end && number >= 1 && number <= count ? (int)number - 1 : -1;
 }
 
-// Lists lights as in "'key', 'fill', 3", with numbers for unnamed lights. Ends the list with "…" if it does not fit.
+// Lists lights as in "'key', 'fill', 3", with numbers for unnamed lights. If the list does not fit, it ends with "…".
 static void list(const lam_light *lights, int count, bool directed, char *out, size_t capacity)
 {
     size_t used = 0;

@@ -1,10 +1,10 @@
-// sweep_option.h: parses the values of --sweep, which describe numbers that change from frame to frame.
+// sweep_option.h: parses the values of --sweep. A sweep changes a numeric value from frame to frame.
 #ifndef SWEEP_OPTION_H
 #define SWEEP_OPTION_H
 
 #include "options.h"
 
-// The kinds of numbers that a sweep can change.
+// The kinds of values that a sweep can change.
 enum sweep_kind {
     SWEEP_OPTION,   // an option of the table
     SWEEP_MATERIAL, // a key of --material

@@ -7,12 +7,13 @@
 #include "output_folder.h"
 #include "output_name.h"
 
-// Returns true if --output names a file, false if it is NULL (not given) or a folder ("thumbs/").
+// Returns true if --output names a file, and false if `output` is NULL (not given) or a folder ("thumbs/").
 bool output_is_named(const char *output);
 
-// Returns the path of a picture, allocated with malloc. This is `output` if it names a file; otherwise the model's name
-// with `ending`, in the folder `output` or in the current folder. For example, "dir/koala.obj" gives "koala.png" for
-// ".png" and "koala-terms.png" for "-terms.png"; "-" gives "model.png". Returns NULL if memory runs out.
+// Returns the path of a picture, allocated with malloc. If `output` names a file, the path is `output`. Otherwise the
+// path is the model's name with `ending`, in the folder `output` or in the current folder. For example, the name for
+// "dir/koala.obj" is "koala.png" with the ending ".png", and "koala-terms.png" with the ending "-terms.png". The name
+// for "-" is "model.png". Returns NULL if memory runs out.
 char *output_path(const char *output, const char *model, const char *ending);
 
 // Returns the path of a model's picture, allocated with malloc: the expanded pattern, or the result of output_path.
@@ -37,13 +38,13 @@ bool output_is_stream(const char *path);
 // extension.
 const char *output_ending(const char *path);
 
-// Sets `format` to the pixel format of the file format of `path`, which is 8 bits per channel for a stream. Fails with
+// Sets `format` to the pixel format for the file format of `path`: 8 bits per channel for a stream. Fails with
 // LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 
-// Checks that the file format stores 8 bits per channel. Fails like output_format, or with "PATH: a sheet is written as
-// .svg, .png or .jpg", with the noun "sheet" and the extensions `others` (".svg, " or "") that the command writes
-// itself.
+// Checks that the file format stores 8 bits per channel. Fails like output_format, or with an error such as "PATH: a
+// sheet is written as .svg, .png or .jpg". In this error, `noun` is "sheet" and `others` is ".svg, ": the extensions
+// that the command writes itself, or "".
 bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error);
 
 // Returns true if the name has the extension of a model format. Returns false for every .json file, even a scene file,
@@ -64,6 +65,6 @@ void output_show_with(output_show_fn *show);
 // Writes encoded bytes like output_save, but without the callback. `durable` is as in lam_save_params.
 bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, uint64_t *size, lam_error *error);
 
-// Returns the size in bytes of the file at `path`, or 0 if it is not a file.
+// Returns the size in bytes of the file at `path`, or 0 if `path` is not a file.
 uint64_t output_size(const char *path);
 #endif

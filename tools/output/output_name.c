@@ -87,7 +87,7 @@ const char *output_stem(const char *model, int *length)
 {
     const char *name = strcmp(model, "-") == 0 ? "model" : model;
     const char *end = name + strlen(name);
-    while (end > name && end[-1] == '/') // a model path that is a folder is reported when it is loaded
+    while (end > name && end[-1] == '/') // if the model's path is a folder, loading the model reports the error
         end--;
     const char *start = end;
     while (start > name && start[-1] != '/')

@@ -7,7 +7,7 @@
 // The values of a pattern's placeholders for one picture. {ext} is the extension of the model's file name, such as
 // "obj".
 struct output_words {
-    const char *model; // {stem} is its file name without extension, "model" for "-"
+    const char *model; // {stem} is the model's file name without its extension, or "model" for "-"
     const char *root;  // {dir} is the model's folder relative to this folder; may be NULL or ""
     const char *view;  // {view}; NULL if the pattern does not contain it
     int width, height; // {size}: "256" for a square, otherwise "256x128"
@@ -35,8 +35,8 @@ bool output_name_check(const char *pattern, unsigned known, lam_error *error);
 // NULL if memory runs out.
 char *output_name_expand(const char *pattern, const struct output_words *words);
 
-// Returns a model's file name, of which the first `*length` bytes are the name without its extension. Returns "model"
-// if there is no name.
+// Returns a model's file name, and sets *length to the number of its bytes before the extension. Returns "model" if
+// there is no name.
 const char *output_stem(const char *model, int *length);
 
 #endif

@@ -110,7 +110,8 @@ static double scale_of(const lam_image *image, bool *tall)
     return *tall ? down : across;
 }
 
-// Returns the picture's size in the terminal: its own size if it fits, leaving one line for the prompt.
+// Returns the picture's size in the terminal. A picture that fits keeps its own size. One line remains free for the
+// prompt.
 static struct chafa_size fit(const lam_image *image)
 {
     const struct terminal *t = &terminal;

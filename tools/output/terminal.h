@@ -8,9 +8,9 @@
 
 // The properties of a terminal and the size of its character cells.
 struct terminal {
-    enum term_kind kind;         // TERM_OFF if it shows no pictures
+    enum term_kind kind;         // TERM_OFF if the terminal cannot display pictures
     int columns, rows;           // in cells
-    int cell_width, cell_height; // in pixels; 10 by 20 if the terminal does not report it
+    int cell_width, cell_height; // in pixels; 10 by 20 if the terminal does not report the size
     bool has_truecolor, has_256; // the colours of block characters
 };
 
@@ -31,8 +31,9 @@ bool terminal_refuse(const char *command, lam_error *error);
 // second and restores the terminal's settings. Sends no query from a background process.
 struct terminal terminal_probe(bool asks);
 
-// terminal_chafa.c: converts a picture to sixels or block characters with libchafa. `columns` and `rows` are the cells
-// to fill with blocks, `width` and `height` the pixels of sixels. Free `out` with lam_bytes_free.
+// terminal_chafa.c: converts a picture to sixels or block characters with libchafa. `columns` and `rows` are the size
+// in cells for block characters; `width` and `height` are the size in pixels for sixels. Free `out` with
+// lam_bytes_free.
 bool chafa_open(lam_error *error);
 struct chafa_size {
     int columns, rows, width, height;

@@ -1,6 +1,6 @@
 // terminal_probe.c: detects the graphics protocol of a terminal. Environment variables identify kitty, Ghostty, iTerm2
-// and WezTerm. The program sends two queries to other terminals: kitty's query, and "primary device attributes". Every
-// terminal answers the second query, so the program then stops waiting.
+// and WezTerm. The program sends two queries to other terminals: the query for the graphics of kitty, and "primary
+// device attributes". Every terminal answers the second query, so the program then stops waiting.
 //
 // Kitty: https://sw.kovidgoyal.net/kitty/graphics-protocol/#querying-support-and-available-transmission-mediums
 // Attributes (4 means sixel graphics) and the cell size (16 t): https://invisible-island.net/xterm/ctlseqs/ctlseqs.html
@@ -39,8 +39,8 @@ static bool is_multiplexed(void)
     return getenv("TMUX") || env_starts("TERM", "screen") || env_starts("TERM", "tmux");
 }
 
-// Identifies the terminal by its environment variables. Returns TERM_OFF for a terminal without pictures, and TERM_AUTO
-// if a query is needed.
+// Identifies the terminal by its environment variables. Returns TERM_OFF for a terminal that cannot display pictures,
+// and TERM_AUTO if a query is needed.
 static enum term_kind kind_by_name(void)
 {
     const char *term = getenv("TERM");

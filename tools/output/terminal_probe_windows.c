@@ -1,4 +1,4 @@
-// terminal_probe_windows.c: assumes that terminals on Windows show no pictures, and does not query them.
+// terminal_probe_windows.c: assumes that terminals on Windows cannot display pictures, and does not query them.
 #include "terminal.h"
 
 struct terminal terminal_probe(bool asks)

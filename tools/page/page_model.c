@@ -66,7 +66,8 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
         bool beside = strncmp(path, job->model, (size_t)length) == 0 && *name != '/' && !climbs_out(name);
         if (beside && !is_file(path)) // the page will also report the missing file
             continue;
-        if (!beside || (i && !path_is_below(path, folder, false))) { // the user may give a symbolic link to the model
+        if (!beside || (i && !path_is_below(path, folder, false))) { // the user's path may be a symbolic link to the
+                                                                     // model
             ok = complain(
                 error, LAM_UNSUPPORTED,
                 "%s: is outside the folder of %s, and a page cannot contain files of other folders; copy it there",

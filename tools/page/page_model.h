@@ -12,9 +12,9 @@ struct page_file {
 };
 
 struct page_model {
-    struct page_file *files; // the existing files, from malloc
+    struct page_file *files; // the existing files, allocated with malloc
     int count;
-    char *environment; // --environment with paths in the page; NULL if it names no file
+    char *environment; // the value of --environment with paths in the page; NULL if it names no file
 };
 
 // Lists the files of a loaded model and of --environment. Fails with LAM_UNSUPPORTED if a file is outside the model's
@@ -29,7 +29,7 @@ void page_model_free(struct page_model *model);
 // ends the list.
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
-// Prints the words of the picture's command line as a JSON list without '<': the model, and each option with its value
+// Prints the words of the picture's command line as a JSON array without '<': the model, and each option with its value
 // in one word. `given` contains the options of the command line. Options about the machine (threads, device, limits)
 // and about output files are omitted. Fails with LAM_LIMIT.
 bool page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model,

@@ -1,4 +1,4 @@
-// explain_words.h: returns the command line's words for the values of an explanation.
+// explain_words.h: returns the names that the command line uses for the values of an explanation.
 #ifndef EXPLAIN_WORDS_H
 #define EXPLAIN_WORDS_H
 

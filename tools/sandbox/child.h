@@ -14,16 +14,16 @@ struct child {
 // A struct child without a process.
 #define NO_CHILD ((struct child){0, -1, -1})
 
-// Starts `work` in a copy of this process, which ends with its parent. `work` reads from `from`, writes to `to` and does
-// not return. If this process has other threads, they may hold locks, so `work` may only make system calls. Returns
-// false and sets errno on failure.
+// Starts `work` in a copy of this process. The copy ends when this process ends. `work` reads from `from`, writes to
+// `to` and does not return. Other threads of this process may hold locks. If there are any, `work` may only make system
+// calls. Returns false and sets errno on failure.
 typedef void child_work(void *user, int from, int to);
 bool child_start(struct child *child, child_work *work, void *user);
 
 // Closes the pipe to the process.
 void child_send_end(struct child *child);
 
-// Closes the pipes, waits for the end of the process, and returns its status (see waitpid). `pid` remains.
+// Closes the pipes, waits for the end of the process, and returns its status (see waitpid). Does not change `pid`.
 int child_wait(struct child *child);
 
 void child_kill(const struct child *child);
@@ -33,7 +33,7 @@ int child_wait_pid(pid_t pid);
 
 // Received bytes.
 struct child_bytes {
-    char *data; // from malloc
+    char *data; // allocated with malloc
     size_t size, capacity;
 };
 
@@ -42,7 +42,7 @@ bool child_bytes_reserve(struct child_bytes *bytes, size_t more);
 bool child_bytes_add(struct child_bytes *bytes, const void *data, size_t size);
 
 enum child_read {
-    CHILD_READ,   // no byte or more was read
+    CHILD_READ,   // zero or more bytes were read
     CHILD_CLOSED, // the other end is closed, or reading failed
     CHILD_MEMORY, // memory ran out
 };

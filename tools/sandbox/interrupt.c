@@ -23,7 +23,8 @@ void interrupt_start(void)
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
         struct sigaction old,
-            action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // without SA_RESTART, a signal ends a read
+            action = {.sa_handler = catch, .sa_flags = (int)SA_RESETHAND}; // without SA_RESTART, a signal interrupts a
+                                                                           // read
         sigemptyset(&action.sa_mask);
         if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN)
             sigaction(signals[i], &action, NULL);

@@ -6,7 +6,8 @@
 #include <lambent/base.h>
 #include <sys/types.h>
 
-// Handles SIGINT, SIGTERM and SIGHUP unless the parent process ignores them. A second signal ends the program at once.
+// Handles SIGINT, SIGTERM and SIGHUP unless the parent process ignores them. A second signal ends the program
+// immediately.
 void interrupt_start(void);
 
 const lam_cancel *interrupt_flag(void);

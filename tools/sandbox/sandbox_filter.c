@@ -4,8 +4,8 @@
 // systems. https://docs.kernel.org/userspace-api/seccomp_filter.html
 
 // The filter returns ENOSYS instead of killing the process, so that C libraries that try a newer call fall back to an
-// older one. The filter is written by hand because it consists of two lists, and libseccomp would be another library to
-// load at every start.
+// older call. The filter is written by hand because it consists of two lists, and libseccomp would be another library
+// to load at every start.
 #include "sandbox.h"
 
 #if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__))
@@ -195,9 +195,10 @@ static const struct condition conditions[] = {
     {SYS_clone, LOW(0), CLONE_THREAD | NAMESPACES, EPERM, 1, {CLONE_THREAD}},
 };
 
-// The conditions of SANDBOX_SERVES, tested before the others. They allow signals that end child processes or cancel
-// their work (since version 6, Landlock blocks signals to other processes). They also allow a new process to restrict
-// itself and to install the stricter filter. MSG_FASTOPEN is excluded because it would connect a socket.
+// The conditions of SANDBOX_SERVES, tested before the others. These conditions allow signals that end child processes
+// or cancel their work (since version 6, Landlock blocks signals to other processes). The conditions also allow a new
+// process to restrict itself and to install the stricter filter. MSG_FASTOPEN is excluded because it would connect a
+// socket.
 static const struct condition served_conditions[] = {
     {SYS_kill, LOW(1), ALL, ENOSYS, 2, {SIGKILL, SIGUSR1}},
     {SYS_kill, LOW(0), NEGATIVE, EPERM, 1, {0}},
@@ -290,7 +291,7 @@ static void allow_some(struct program *p, const struct condition *list, size_t c
 static void build(struct program *p, unsigned kind)
 {
     load(p, offsetof(struct seccomp_data, arch));
-    put(p, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0); // 32-bit calls have other numbers
+    put(p, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0); // the calls of 32-bit programs have other numbers
     end(p, SECCOMP_RET_KILL_PROCESS);
     load(p, offsetof(struct seccomp_data, nr));
     allow(p, allowed, COUNT(allowed));

@@ -22,10 +22,11 @@ void sandbox_add_file(struct sandbox_paths *paths, const char *file);
 void sandbox_add_output(struct sandbox_paths *paths, const char *path, bool by_model);
 
 // Allows access to the files that options name: environments, looks, the font, --allow-path and --save-scene.
-// sandbox_start calls it for its own options.
+// sandbox_start calls this function for its own options.
 void sandbox_add_options(struct sandbox_paths *paths, const struct options *options);
 
-// Allows this process to read an older picture or open a pipe; paths->may_write decides about writing.
+// Allows this process to read an older picture or open a pipe. paths->may_write decides whether the file may be
+// written.
 void sandbox_add_older(struct sandbox_paths *paths, const char *path);
 
 // Returns whether sandbox_start would enter a sandbox.

@@ -72,7 +72,7 @@ static struct {
     void *user;
     uint64_t largest;             // the largest size of the contents; 0 means unlimited
     pthread_mutex_t lock;         // protects the rule and the list
-    struct own_file own[OWN_MAX]; // the most recent files; older files count as foreign
+    struct own_file own[OWN_MAX]; // the most recent files; older files are treated as foreign
     size_t own_count;
 } writing = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
@@ -194,7 +194,7 @@ static bool answer(int connection)
     return act(connection, &request, path, &error) && send_all(connection, &(struct iovec){&error, sizeof error}, 1);
 }
 
-// Serves some connections until all of them are closed.
+// Serves `count` connections until all of them are closed.
 static void serve(int *connections, int count)
 {
     struct pollfd wait[THREADS_MAX];
@@ -253,7 +253,7 @@ static _Noreturn void run(int *connections, int count)
     pthread_attr_init(&small);
     pthread_attr_setstacksize(&small, STACK);
     pthread_t threads[THREADS_MAX];
-    int own = count; // this thread serves the connections that have no thread of their own
+    int own = count; // this thread serves the connections for which no thread could be started
     while (own > 1 && pthread_create(&threads[own - 1], &small, serve_one, &connections[own - 1]) == 0)
         own--;
     serve(connections, own);

@@ -1,9 +1,9 @@
 // writer.h: writes files in a small process outside the sandbox, because the process inside may not write files.
 //
-// The writer starts before an untrusted file is read. It accepts a path and the complete contents, checks that the run
-// may write this path, and replaces the file atomically (lam_bytes_save). The process inside the sandbox therefore does
-// not need write access to any folder, and even compromised code cannot change other files. The writer accepts no
-// requests to run programs or to read files. It ends with the process that it serves.
+// The writer starts before an untrusted file is read. The writer accepts a path and the complete contents, checks that
+// the run may write this path, and replaces the file atomically (lam_bytes_save). The process inside the sandbox
+// therefore does not need write access to any folder, and even compromised code cannot change other files. The writer
+// accepts no requests to run programs or to read files. The writer ends when the process that it serves ends.
 #ifndef WRITER_H
 #define WRITER_H
 
@@ -59,9 +59,9 @@ struct writer_file {
     enum writer_right right;
 };
 
-// Writes all of the files or none. When all are complete, the files get their names, in the given order. Their folders
-// must exist. After a signal, or if the disk is full, the older files are unchanged. Fails with LAM_CANNOT_WRITE or
-// LAM_LIMIT.
+// Writes all of the files or none. When all files are complete, they get their names, in the given order. The folders
+// of the files must exist. After a signal, or if the disk is full, the older files are unchanged. Fails with
+// LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
 
 // Returns whether the path contains no links after its first `named` bytes, which the user gave. Fails with

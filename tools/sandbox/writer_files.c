@@ -64,10 +64,10 @@ bool writer_files_save(const char *path, const lam_bytes *bytes, bool durable, l
 
 static struct {
     struct staged {
-        char *hidden, *target; // from malloc
+        char *hidden, *target; // allocated with malloc
     } files[STAGED_MAX];
     size_t count;
-    bool locked; // atomic; threads of the writer rarely wait for each other here
+    bool locked; // accessed atomically; threads of the writer rarely wait for this lock
 } set;
 
 static void lock_set(void)

@@ -96,7 +96,7 @@ bool environment_apply(const struct options *options, struct environment_cache *
     } else if (options->shading.environment) {
         ok = environment_cache_set(cache, options->shading.environment, (lam_color_mode)options->picture.color_mode,
                                    scene, rotation_rad, control, error);
-        if (!ok && error) { // the caller puts the model's name before this sentence, so it names the option
+        if (!ok && error) { // the caller puts the model's name before the message, so the message must name the option
             lam_error reason = *error;
             complain(error, reason.code, "option '--environment': %.300s", reason.text);
         }

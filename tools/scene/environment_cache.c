@@ -26,7 +26,7 @@ struct entry {
     lam_color_mode color;
     struct identity identity;
     lam_environment *environment; // NULL while a thread reads it
-    uint64_t used;                // the time of its last use
+    uint64_t used;                // the time of the entry's last use
 };
 
 struct environment_cache {

@@ -1,5 +1,5 @@
-// environment_cache.h: shares environments among scenes and threads. Each environment is read, and its light prepared,
-// only once.
+// environment_cache.h: shares environments among scenes and threads. An environment is read only once, and its light is
+// prepared only once.
 #ifndef ENVIRONMENT_CACHE_H
 #define ENVIRONMENT_CACHE_H
 

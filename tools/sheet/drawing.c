@@ -214,8 +214,8 @@ bool draw_dot(struct drawing *d, struct point middle, double radius, uint32_t co
     return true;
 }
 
-// Returns the number of bytes of the UTF-8 character at the beginning of a text; returns 0 if it is invalid, or a
-// character that XML cannot contain.
+// Returns the number of bytes of the UTF-8 character at the beginning of a text. Returns 0 if the character is invalid,
+// or if XML cannot contain it.
 static int letter_bytes(const char *text)
 {
     const unsigned char *at = (const unsigned char *)text;
@@ -249,7 +249,7 @@ static void svg_letters(FILE *file, const char *text, const char *element)
 // (https://www.unicode.org/Public/UCD/latest/ucd/Blocks.txt). The default font contains the first three ranges.
 static const struct {
     uint32_t first, last;
-    bool own_font; // the default font contains none of them
+    bool own_font; // the default font contains no character of the range
 } plain_scripts[] = {
     {0x20, 0x052F, false},   // Latin, Greek, Cyrillic
     {0x1E00, 0x1FFF, false}, // Latin and Greek with more diacritics
@@ -325,7 +325,7 @@ bool draw_text_upwards(struct drawing *d, struct point baseline, double size, ui
         svg_letters(d->svg, text, "text");
         return true;
     }
-    // Draws the text horizontally on a strip, then paints the strip's alpha rotated.
+    // Draws the text horizontally on a strip, then paints the rotated alpha of the strip.
     int length = (int)text_width(d, size, text) + 4, height = (int)(2 * size) + 2, base = (int)(1.5 * size);
     lam_image strip;
     if (!lam_image_make(&strip, length, height, LAM_RGBA8, error))

@@ -48,7 +48,7 @@ void draw_text(struct drawing *drawing, struct point baseline, double size, enum
 bool draw_text_upwards(struct drawing *drawing, struct point baseline, double size, uint32_t color, const char *text,
                        lam_error *error);
 
-// Returns the width of text. It is exact for PNG and an estimate for SVG, where the viewer selects the font.
+// Returns the width of text: exact for PNG, and an estimate for SVG, because the viewer of an SVG selects the font.
 double text_width(const struct drawing *drawing, double size, const char *text);
 
 // Draws a picture (LAM_RGBA8) onto the page, clipped at the page's edges. An SVG embeds it as a PNG with the label as

@@ -193,7 +193,8 @@ static const struct row *find_row(const char *option)
     return NULL;
 }
 
-// Two lights, one attenuated and one from behind, on a coloured surface. They make most mistakes visible.
+// Two lights, one attenuated and one from behind, on a coloured surface. These lights and the surface make most
+// mistakes visible.
 #define LAMP  "point:position=-1.2r/1.3r/1.7r,attenuation=0.3/0.1r/0.15r,ambient=0.2"
 #define RIM   "directional:direction=-1/-0.5/1.4,diffuse=0.4/0.45/0.55,specular=0.8"
 #define PAINT "ambient=0.3/0.12/0.08,diffuse=0.75/0.3/0.2,specular=0.5,shininess=20"
@@ -298,8 +299,8 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
         return complain(error, LAM_LIMIT, "out of memory");
     sprintf(*store, "--%s", option->name);
     *sheet = (struct sheet){.name = option->name, .across = true};
-    // Single terms and numbers show the unchanged model. For all five terms, the row's defaults change the scene, so
-    // that every term is visible.
+    // A row of single terms or values shows the unchanged model. In a row of all five terms, the row's defaults change
+    // the scene, so that every term is visible.
     if (row && (all_terms || strcmp(option->name, "show") != 0))
         memcpy(sheet->defaults, row->defaults, sizeof sheet->defaults);
     title_of(option->name, sheet->title, sizeof sheet->title);

@@ -17,7 +17,7 @@ static const char *coarse(const char *shape)
     return "24x12";
 }
 
-// Returns whether the command line contains an option, or whether the option is varied in a row of variants.
+// Returns whether the command line contains an option, or a row of variants varies the option.
 static bool is_given(const struct sheet *sheet, const struct options *options, const char *dashed)
 {
     if (option_given(options, dashed + 2))

@@ -1,5 +1,6 @@
 // sheet_defaults.h: provides the common options of a sheet's pictures: a coarse shape, one light, a visible highlight.
-// The command line and the model can override them. Without them, a sheet about shading would show no difference.
+// The command line and the model can override them. Without these options, a sheet about shading would show no
+// difference.
 #ifndef SHEET_DEFAULTS_H
 #define SHEET_DEFAULTS_H
 

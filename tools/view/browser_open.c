@@ -19,7 +19,7 @@ bool browser_open(const char *address)
     pid_t process;
     if (!(x11 && *x11) && !(wayland && *wayland))
         return false;
-    // The browser continues when this program is interrupted, and its messages are discarded.
+    // The browser keeps running if this program is interrupted. The browser's messages are discarded.
     bool ok = posix_spawn_file_actions_init(&actions) == 0;
     ok = ok && posix_spawnattr_init(&attributes) == 0;
     if (!ok)

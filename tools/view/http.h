@@ -10,7 +10,7 @@
 
 #define HTTP_LIBRARY "libmicrohttpd.so.12"
 
-// The functions used. Each is a member of struct http with the type of its declaration.
+// The functions used. Each function is a member of struct http with the type of its declaration.
 #define HTTP_FUNCTIONS(each)                                                                                           \
     each(MHD_start_daemon) each(MHD_stop_daemon) each(MHD_run) each(MHD_get_daemon_info) each(MHD_get_connection_info) \
         each(MHD_get_timeout) each(MHD_queue_response) each(MHD_create_response_from_buffer)                           \

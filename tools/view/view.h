@@ -18,18 +18,18 @@ enum {
 struct view_listener {
     struct MHD_Connection *connection;
     struct view *view;
-    char *pending; // the text to send, from malloc
+    char *pending; // the text to send, allocated with malloc
     size_t size;
     bool suspended;
     struct view_listener *next;
 };
 
-// A connection from its acceptance to its end. Stored as the library's context of a socket.
+// A connection from its acceptance to its end. The library stores it as the context of the socket.
 struct view_socket {
     int file;
     bool waits;      // waits for a request and is in view.waiting
     bool names_zero; // the address of the last request contains "%00"
-    double since_ms; // the clock_ms() at which it started to wait
+    double since_ms; // the clock_ms() at which the connection started to wait
     struct view_socket *before, *after;
 };
 

@@ -1,5 +1,5 @@
-// view_events.c: informs pages about changed files. A connection without news is suspended, so that the library does
-// not poll it.
+// view_events.c: informs pages about changed files. A connection without new events is suspended, so that the library
+// does not poll it.
 #include "view_events.h"
 
 #include <stdlib.h>

@@ -6,11 +6,11 @@
 #include "view_files.h"
 
 struct view_page {
-    char *text; // the page, from malloc
+    char *text; // the page, allocated with malloc
     size_t size;
     char *words; // the options of the command line, each word with a terminating zero
     size_t words_size;
-    char *module; // the module with threads, which the page requests, from malloc; or NULL
+    char *module; // the module with threads, which the page requests, allocated with malloc; or NULL
     size_t module_size;
     char *fragment; // the options as the end of an address, "&--background%3Dwhite"; or ""
 };

@@ -10,7 +10,7 @@ struct view_peers {
     int tables[2];
 };
 
-void view_peers_open(struct view_peers *peers); // call it before the sandbox is entered
+void view_peers_open(struct view_peers *peers); // must be called before the sandbox is entered
 void view_peers_close(struct view_peers *peers);
 
 // Returns whether the other end of a connection from 127.0.0.1:`other_port` to 127.0.0.1:`port` belongs to this

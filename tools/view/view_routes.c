@@ -1,6 +1,6 @@
 // view_routes.c: decides which requests are answered. A page of another site can send requests here, and its host name
-// can resolve to this machine. But such a page does not know the token, its Host and Origin headers differ, and it
-// cannot read the answers (view_answer.c).
+// can resolve to this machine. However, that page does not know the token, the Host and Origin headers of its requests
+// differ, and it cannot read the answers (view_answer.c).
 #include "view_routes.h"
 
 #include <arpa/inet.h>
@@ -63,8 +63,8 @@ static bool is_own_host(const struct view *view, const char *host)
     return false;
 }
 
-// Returns whether the browser's headers say that the request is for this server and comes from one of its pages. Each
-// header may occur only once, because a relay may have checked another occurrence.
+// Returns whether, according to the browser's headers, the request is for this server and comes from one of its pages.
+// Each header may occur only once, because a relay may have checked another occurrence.
 static bool is_from_here(const struct view_connection *c)
 {
     const struct header host = header(c, "Host"), origin = header(c, "Origin"), site = header(c, "Sec-Fetch-Site");

@@ -1,4 +1,5 @@
-// session.c: draws pictures of command lines, one after another, for a page that changes them. A model is loaded once.
+// session.c: draws the pictures of command lines, one after another, for a page that changes the command line. A model
+// is loaded once.
 #include "session.h"
 
 #include <stdio.h>
@@ -28,7 +29,7 @@ static struct {
     int isa, threads;                       // of the device
     struct environment_cache *environments; // for the current files
     lam_image image;                        // of the last picture
-    uint64_t memory_limit_bytes;            // 0: none
+    uint64_t memory_limit_bytes;            // 0 means no limit
     struct progress progress;
 } session;
 
@@ -117,7 +118,7 @@ static int answer(struct job *job, bool ok, const lam_error *error)
     json_close(&json, '}');
     putc('\n', stdout);
     fflush(stdout);
-    job->scene = NULL; // the session's
+    job->scene = NULL; // the session owns the scene
     lam_image_free(&session.image);
     session.image = job->image;
     job->image = (lam_image){0};

@@ -7,7 +7,7 @@
 
 #include "host.h"
 
-// Memory for the words of the next call. NULL if memory is insufficient.
+// Returns memory for the words of the next call, or NULL if memory runs out.
 char *web_words(uint32_t bytes) WEB_EXPORT(web_words);
 
 // Limits the memory for reading a model to this number of bytes, and the memory for drawing it to the same number, if

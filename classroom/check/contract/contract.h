@@ -64,8 +64,8 @@ struct contract_constant {
     enum uniform_semantic semantic;
 };
 
-// The lighting of a contract's shaders with metalness and roughness. The defaults are glTF 2.0's, appendix B; other
-// forms are recognised, and are accepted if they are equally correct (fault_table.c).
+// The lighting of a contract's shaders with metalness and roughness. The defaults follow glTF 2.0, appendix B. Other
+// forms are recognised, and equally correct forms are accepted (fault_table.c).
 enum masking {
     MASKING_SMITH,  // Smith's masking for GGX, height-correlated
     MASKING_SCHLICK // Schlick's approximation, k = (roughness + 1)²/8
@@ -89,7 +89,7 @@ struct map_convention {
     // If true, colour maps are encoded with pow(x, 1/2.2), and the shader decodes them. If false, the shader reads
     // linear colours, as from textures with an sRGB format.
     bool encoded;
-    // v increases downwards in the picture, as in glTF files. On a patch whose u points right and whose normal points
+    // v increases downwards in the texture, as in glTF files. On a patch whose u points right and whose normal points
     // to the eye, v points down.
     bool v_down;
 };
@@ -106,14 +106,14 @@ enum contract_term { TERM_AMBIENT = 1, TERM_DIFFUSE = 2, TERM_SPECULAR = 4 };
 enum { MAX_LIGHT_GROUPS = 8, MAX_WEIGHTS = 32 };
 
 struct contract {
-    const char *name, *title, *text;         // `text` is the file
+    const char *name, *title, *text;         // `text` is the contents of the file
     uint64_t hash;                           // the hash of `text`
     const char *versions;                    // GLSL versions, separated by ", "; "" if not stated
     const struct contract_name *names;       // ends with NULL
     const struct contract_varying *varyings; // ends with NULL
     // Built-in names whose use identifies the contract. Ends with NULL.
     const char *const *built_ins;
-    // The structs and arrays of lights: "lights[]", "sun"; "" for names outside of these.
+    // The structs and arrays of lights, such as "lights[]" and "sun"; "" for names outside them.
     const char *groups[MAX_LIGHT_GROUPS];
     int group_count;
     unsigned supports;     // bits of reference_need
@@ -128,8 +128,8 @@ struct contract {
     struct physical_convention physical; // used by shaders with metalness and roughness
     struct map_convention maps;
     const struct contract_constant *constants; // ends with NULL
-    // The lines that an engine inserts before the text of a shader. Such a text contains no version line and declares
-    // none of these names. May be NULL.
+    // The lines that an engine inserts before the source of a shader. Such a source contains no version line and
+    // declares none of these names. May be NULL.
     const char *prefix_vertex, *prefix_fragment;
     const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL if not stated
     bool has_attenuation;    // names or constants determine the attenuation
@@ -139,7 +139,7 @@ struct contract {
     // (fixed_state.h).
     bool fixed_state;
     const double *weights; // the points for each reference scene
-    bool printed;          // the contract of `lambent shader`, whose loops contain the kind of their lights
+    bool printed;          // the contract of `lambent shader`, whose shaders contain one loop for each kind of light
 };
 
 // A contract that owns its memory.
@@ -152,15 +152,15 @@ enum { MAX_CONTRACTS = 16 };
 // Reads the shipped contracts. The caller frees them with lam_check_contract_free.
 bool contracts_read(lam_check_contract *out[MAX_CONTRACTS], int *count, lam_error *error);
 
-// Returns the row of a name, or NULL if it is unknown. "lights[0].lightColor" is looked up as "lights[].lightColor".
-// `index` (may be NULL) gets the array index, or 0 for other names.
+// Returns the row of a name, or NULL if the name is unknown. "lights[0].lightColor" is looked up as
+// "lights[].lightColor". `index` (may be NULL) gets the array index, or 0 for other names.
 const struct contract_name *contract_find(const struct contract *contract, const char *name, bool attribute,
                                           int *index);
 
-// Returns the row of a varying's name, or NULL if it is unknown.
+// Returns the row of a varying's name, or NULL if the name is unknown.
 const struct contract_varying *contract_varying(const struct contract *contract, const char *name);
 
-// Returns the contract's name most similar to an unknown one, or NULL if none is similar.
+// Returns the name in the contract that is most similar to an unknown name, or NULL if no name is similar.
 const char *contract_nearest(const struct contract *contract, const char *name);
 
 // Returns the name for a semantic: the name that the shaders declare, otherwise the contract's name, otherwise NULL. A
@@ -168,7 +168,7 @@ const char *contract_nearest(const struct contract *contract, const char *name);
 const char *contract_name_used(const struct contract *contract, enum uniform_semantic semantic,
                                const struct declarations *vertex, const struct declarations *fragment);
 
-// The value of a uniform. Matrices are stored by columns.
+// The value of a uniform. Matrices are stored in column-major order.
 struct uniform_value {
     float v[16];
 };

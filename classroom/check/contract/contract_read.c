@@ -118,8 +118,8 @@ static void complete_defaults(struct contract *c)
             *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
-// Returns the space of the lights: the space of the first name of a light, otherwise of the default light, otherwise of
-// the lighting.
+// Returns the space of the lights: the space of the first name that belongs to a light. If there is no such name,
+// returns the space of the default light. Without a default light, returns the space of the lighting.
 static lam_light_frame light_frame_of(const struct contract *c)
 {
     const struct contract_defaults *d = &c->defaults;
@@ -150,7 +150,7 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
                   (has(c, SEMANTIC_FLAT) ? NEED_FLAT : 0);
     for (const struct contract_name *n = c->names; n->name; n++) {
         if (n->semantic == SEMANTIC_LIGHT_POSITION && strcmp(n->type, "vec4") == 0)
-            c->supports |= NEED_DIRECTIONAL; // w 0
+            c->supports |= NEED_DIRECTIONAL; // w may be 0
         if (n->group >= 0 && strstr(n->name, "[]"))
             c->supports |= NEED_LIGHTS;
     }

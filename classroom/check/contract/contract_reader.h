@@ -15,7 +15,7 @@ struct contract_reader {
 
 extern const struct json_choice contract_spaces[]; // eye, world, object
 
-// Returns whether the comment of an object, if there is one, is a string or a list of strings. The content of the
+// Returns whether the comment of an object, if there is one, is a string or an array of strings. The content of the
 // comment is ignored.
 bool contract_check_comment(struct contract_reader *r, const struct place *place, const json_t *object);
 
@@ -25,7 +25,7 @@ bool contract_no_memory(const struct contract_reader *r);
 // Returns whether a text can be a name in GLSL. With `plain`, members and arrays are not allowed.
 bool contract_check_name(const struct contract_reader *r, const struct place *place, const char *name, bool plain);
 
-// Reads a list of strings and joins them with `between`; returns NULL if the list is empty. With `of_names`, each
+// Reads an array of strings and joins them with `between`; returns NULL if the array is empty. With `of_names`, each
 // string must be a valid name.
 bool contract_read_list(struct contract_reader *r, const struct place *place, const json_t *list, const char *between,
                         bool of_names, bool plain, const char **out);

@@ -1,8 +1,8 @@
-// maps.h: the maps of a shader in a reference scene: one texel, which differs between scenes, so that filters, wraps
-// and levels of detail have no effect.
+// maps.h: the maps of a shader in a reference scene. Each map has one texel, so that filters, wraps and levels of
+// detail have no effect. The texel differs between scenes.
 //
 // If a shader reads a map instead of a number, the texel is the number. If a shader multiplies a factor by a map, the
-// product of factor and texel is the number. The two then differ from each other and from 1.
+// product of the factor and the texel is the number. The factor and the texel then differ from each other and from 1.
 #ifndef MAPS_H
 #define MAPS_H
 
@@ -16,7 +16,7 @@ static inline bool is_map(enum uniform_semantic semantic)
 // Returns the bit of a map in reference_scene.maps and .factors.
 static inline unsigned map_bit(enum uniform_semantic map) { return 1u << (map - SEMANTIC_BASE_COLOR_MAP); }
 
-// The numbers of a material that a map can multiply.
+// The values of a material that a map can multiply.
 enum map_number { NUMBER_BASE_COLOR, NUMBER_METALLIC, NUMBER_ROUGHNESS, NUMBER_OCCLUSION, NUMBER_EMISSION };
 
 // Returns the factor that multiplies the texel: 1 if the map replaces the number, the number itself if there is no map.

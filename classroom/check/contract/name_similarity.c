@@ -90,7 +90,8 @@ static bool has_word(const struct name_words *a, const struct name_words *b, int
     return false;
 }
 
-// Returns whether two words, one of each name and both of one class, contradict each other.
+// Returns whether a word of one name contradicts a word of the other name. Only words of the same class can contradict
+// each other.
 static bool contradict(const struct name_words *a, const struct name_words *b)
 {
     for (int i = 0; i < a->count; i++)

@@ -1,4 +1,4 @@
-// role.h: the roles (meanings) that a contract can give to a name.
+// role.h: the roles (meanings) that a contract can assign to a name.
 #ifndef ROLE_H
 #define ROLE_H
 
@@ -52,7 +52,7 @@ enum uniform_semantic {
     SEMANTIC_EMISSION_MAP,
     // a row of the matrix from the mesh's texture coordinates to a map's coordinates; the texel is multiplied by w
     SEMANTIC_MAP_ROW_U,
-    SEMANTIC_MAP_ROW_V, // the other row; w is added to the texel
+    SEMANTIC_MAP_ROW_V, // the second row of this matrix; w is added to the texel
     // the position with w = 1 or, for a directional light, the direction towards the light with w = 0
     SEMANTIC_LIGHT_POSITION,
     SEMANTIC_LIGHT_X,
@@ -68,7 +68,7 @@ enum uniform_semantic {
     SEMANTIC_ATTENUATION_QUADRATIC,
     SEMANTIC_ATTENUATION,  // constant, linear, quadratic, 0
     SEMANTIC_CONE,         // cosine of the cutoff, exponent, cosine of the outer angle, 1/width
-    SEMANTIC_CUTOFF,       // cosine of the cutoff; −1 if there is no spot
+    SEMANTIC_CUTOFF,       // cosine of the cutoff; −1 if the light is not a spot light
     SEMANTIC_OUTER_CUTOFF, // cosine of an angle just outside the cutoff
     SEMANTIC_SPOT_EXPONENT,
     SEMANTIC_AMBIENT_LIGHT, // the sum over all lights
@@ -89,7 +89,7 @@ enum role_use {
     // belongs to one light: the element of an array lights[i], or the light whose struct contains the name
     ROLE_LIGHT = 4,
     ROLE_IN_SPACE = 8, // a position or direction in a space
-    ROLE_CONSTANT = 16 // a shader may write it as a number
+    ROLE_CONSTANT = 16 // a shader may contain a number for this role
 };
 enum role_type {
     TYPE_SCALAR = 1, // float, int, bool

@@ -13,7 +13,7 @@ static struct uniform_value vector(lam_vec3 v, float w)
     return (struct uniform_value){{(float)v.x, (float)v.y, (float)v.z, w}};
 }
 
-// Returns the factor that a map multiplies, so that the product is a colour.
+// Returns the factor whose product with the map's texel is the given colour.
 static struct uniform_value color_factor(const struct reference_scene *s, enum map_number number, lam_rgb c,
                                          float alpha)
 {
@@ -123,8 +123,8 @@ struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int 
         [SEMANTIC_AMBIENT] = without_texel(s, color(s->ambient, s->ka, 1)),
         [SEMANTIC_AMBIENT_PRODUCT] = without_texel(s, color(product(s->ambient, total_ambient(s)), s->ka, 1)),
         [SEMANTIC_DIFFUSE] = s->physical ? base : color(s->diffuse, s->kd, s->alpha),
-        // A metal does not scatter light, so this product is 0 for it. `metallic` is 0 if the shader has no name for
-        // it.
+        // A metal does not scatter light, so the diffuse product of a metal is 0. `metallic` is 0 if the shader has no
+        // name for it.
         [SEMANTIC_DIFFUSE_PRODUCT] = color(product(s->diffuse, light->color), s->kd * (1 - s->metallic), s->alpha),
         [SEMANTIC_SPECULAR] = color(s->specular, s->ks, 1),
         [SEMANTIC_SPECULAR_PRODUCT] = color(product(s->specular, light->specular), s->ks, 1),

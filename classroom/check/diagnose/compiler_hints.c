@@ -1,4 +1,4 @@
-// compiler_hints.c: rules that explain a compiler's message from the text of the shader.
+// compiler_hints.c: rules that explain a compiler's message by means of the shader's source.
 #include "compiler_hints.h"
 
 #include <ctype.h>
@@ -97,8 +97,8 @@ static bool is_es(const struct declarations *d)
     return strcmp(d->profile, "es") == 0 || d->version == 100 || (!d->version && declarations_uses(d, "precision"));
 }
 
-// Explains a function that is missing in the shader's version of GLSL. Returns false if the name is not such a
-// function.
+// Explains that a function is missing in the shader's version of GLSL. Returns false if `name` is not a function of a
+// later version.
 static bool hint_young_function(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                 int line, const char *name)
 {

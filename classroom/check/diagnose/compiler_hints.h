@@ -10,7 +10,7 @@
 void compiler_hints_for_message(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                 int line, const char *message);
 
-// Adds hints for the text of a shader that does not compile.
+// Adds hints for the source of a shader that does not compile.
 void compiler_hints_for_text(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                              bool vertex);
 

@@ -7,7 +7,7 @@
 #include "arena.h"
 
 struct diagnostics {
-    struct arena *arena; // owns the texts
+    struct arena *arena; // owns the strings
     lam_check_diagnostic *items;
     int count;
     bool failed; // out of memory

@@ -4,11 +4,11 @@
 
 #include "reference_scene.h"
 
-// The comparison of one scene. A pixel is compared if its 3×3 neighbours are all covered in the reference.
+// The comparison of one scene. A pixel is compared if the reference covers all pixels of its 3×3 neighbourhood.
 struct scene_comparison {
     const struct reference_scene *row;      // the row of the table
     struct reference_scene reference_scene; // the expected scene
-    const float *theirs;                    // straight RGBA
+    const float *theirs;                    // the picture of the shader under test: RGBA with straight alpha
     float *reference;                       // straight alpha
     uint32_t *inside;                       // indices of the compared pixels
     size_t inside_count;
@@ -22,7 +22,7 @@ struct scene_comparison {
 struct difference {
     double maximum, mean, share_over;
     uint64_t pixels;
-    bool fits; // within the tolerance: one pixel in 200 may exceed the tolerance, and the mean may be a quarter of it
+    bool fits; // at most one pixel in 200 exceeds the tolerance, and the mean is at most a quarter of the tolerance
 };
 
 // Finds the pixels to compare. The caller allocates `inside`, of size² elements.

@@ -29,14 +29,15 @@ static int line_of(const char *text, const char **words)
     return 0;
 }
 
-// Recognises Mesa's errors about the operands of an expression, which follow from an earlier error in the same line.
+// Recognises errors of Mesa about the operands of an expression. These errors follow from an earlier error in the same
+// line.
 static bool is_about_operands(const char *words)
 {
     return strstr(words, "operands to arithmetic operators") || strstr(words, "type mismatch");
 }
 
 // Recognises lines that do not explain the failure: warnings, the overloads that Mesa lists, and errors that follow
-// from an earlier one.
+// from an earlier error.
 static bool is_noise(const char *words)
 {
     return strncmp(words, "warning", 7) == 0 || strncmp(words, "error:    ", 10) == 0 || strstr(words, "(error") ||
@@ -159,8 +160,8 @@ void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_re
             } else if (!attribute)
                 report_type_mismatch(diagnostics, r, d, file);
         }
-    for (int i = 0; i < drawn->unknown_count; i++) { // the input is active but not in the text, because macros generate
-                                                     // it
+    for (int i = 0; i < drawn->unknown_count; i++) { // the input is active but not in the source, because macros
+                                                     // generate it
         bool seen = false;
         for (int s = 0; s < 2; s++)
             for (int k = 0; k < sides[s]->count; k++) {

@@ -14,8 +14,8 @@ struct visible_names {
     int count;
 };
 
-// Finds the names of variables (with `functions`, of the shader's own functions) that the statement at word `at` can
-// use. Its own declaration is not included, because its scope begins after the statement.
+// Finds the names of variables that the statement at word `at` can use or, with `functions`, the names of the shader's
+// own functions. A variable that the statement declares is not included, because its scope begins after the statement.
 void visible_names_at(const struct declarations *d, int at, bool functions, struct visible_names *out);
 
 #endif

@@ -7,8 +7,8 @@
 
 #include "fail.h"
 
-// For each varying, its expression in each space, a vec3, and its w. Varyings without a space have the same expression
-// in all spaces.
+// For each varying: its expression in each space (a vec3), and its w component. Varyings without a space have the same
+// expression in all spaces.
 static const struct {
     enum varying_semantic semantic;
     lam_light_frame space;

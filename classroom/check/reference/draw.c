@@ -29,8 +29,8 @@ struct shader_run {
     int position, normal, tangent; // indices of inputs, or −1
     struct map_inputs maps;
     struct uniform_binding *bindings; // one for each element of each uniform
-    lam_check_value *values;          // one per binding
-    float (*numbers)[16];             // the numbers of `values`
+    lam_check_value *values;          // one value per binding
+    float (*numbers)[16];             // the floats of `values`
     int binding_count;
 };
 
@@ -218,7 +218,7 @@ static double time_limit_s(int size)
 }
 #endif
 
-// Compiles and links the texts for the painter's compiler. `program` stays empty if they do not compile.
+// Compiles and links the sources with the painter's compiler. `program` stays empty if they do not compile.
 static bool compile(struct shader_run *run, const char *vertex, const char *fragment, lam_check_program *program,
                     lam_error *error)
 {
@@ -238,7 +238,7 @@ static bool compile(struct shader_run *run, const char *vertex, const char *frag
     return ok;
 }
 
-// Builds the program. Errors are recorded in run->drawn and refer to the unchanged texts. Both shaders are then built
+// Builds the program. Errors are recorded in run->drawn and refer to the unchanged sources. Both shaders are then built
 // with full precision, because a correct shader may use a lower precision (shader_dialect.h).
 static bool build(struct shader_run *run, lam_error *error)
 {
@@ -284,7 +284,8 @@ static bool draw_scenes(struct shader_run *run, float *pixels, lam_error *error)
             struct reference_scene scene = shader_interface_scene(&run->interface, &reference_scenes[i]);
             double taken = 0;
             for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
-                 turn++) { // a second turn if the first is too slow, because the driver may compile during it
+                 turn++) { // a second turn if the first is too slow, because the driver may compile during the first
+                           // turn
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
                 if (!draw_scene(run, &scene, pixels + at, error))
                     return false;

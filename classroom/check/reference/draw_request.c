@@ -1,5 +1,6 @@
 // draw_request.c: the request and its result as bytes. The same program writes and reads the bytes, so structs are
-// copied unchanged. The result is validated nevertheless, because the process that writes it has run untrusted shaders.
+// copied unchanged. The result is validated nevertheless, because the process that writes the result has run untrusted
+// shaders.
 #include "draw_request.h"
 
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "contract.h"
 
 struct draw_request {
-    const char *contract; // text of the file
+    const char *contract; // the contents of the file
     int light_frame;      // the lam_light_frame of all lights; WORLD means the frame in the contract
     int size;
     unsigned scenes; // bit i: reference_scenes[i]
@@ -34,7 +34,7 @@ struct draw_result {
 };
 
 bool draw_request_write(const struct draw_request *request, lam_bytes *out, lam_error *error);
-// Reads a request; its texts point into `bytes`.
+// Reads a request, whose strings point into `bytes`.
 bool draw_request_read(const void *bytes, size_t size, struct draw_request *request, lam_error *error);
 
 // Writes a result. `pictures` has size² × 4 floats for each scene of the request and may be NULL.

@@ -18,7 +18,7 @@ struct gl_mesh {
 };
 
 struct gl_place {
-    struct gl_context context; // its address must not change while it is current
+    struct gl_context context; // the struct must not move while the context is current
     struct gl_previous_context previous;
     int size;
     bool rests;     // the context is not current
@@ -138,7 +138,7 @@ static bool wake(void *place, lam_error *error)
 
 // --- programs
 
-// Compiles a shader. Returns 0 if the text does not compile; `log` then contains the driver's messages.
+// Compiles a shader. Returns 0 if the source does not compile; `log` then contains the driver's messages.
 static GLuint compile_text(const struct gl *gl, GLenum kind, const char *text, char log[4096])
 {
     GLuint shader = gl->CreateShader(kind);
@@ -490,7 +490,7 @@ static bool draw(void *place, const lam_check_drawing *d, float *pixels, lam_err
                 d->program->inputs[i].name);
     if (wrong)
         return fail(error, LAM_UNSUPPORTED, "%s reports error 0x%04x while drawing", t->context.renderer, wrong);
-    size_t row = 4 * (size_t)t->size; // OpenGL's first row is at the bottom
+    size_t row = 4 * (size_t)t->size; // in OpenGL, the first row is at the bottom
     for (int y = 0; y < t->size / 2; y++) {
         float *a = pixels + (size_t)y * row, *b = pixels + (size_t)(t->size - 1 - y) * row;
         for (size_t i = 0; i < row; i++) {

@@ -1,4 +1,4 @@
-// gl_painter.h: the painter that draws with OpenGL. It loads OpenGL at run time.
+// gl_painter.h: the painter that draws with OpenGL, which is loaded at run time.
 #ifndef GL_PAINTER_H
 #define GL_PAINTER_H
 

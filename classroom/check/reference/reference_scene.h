@@ -1,5 +1,5 @@
-// reference_scene.h: the reference scenes, each of which tests one feature. Other code gets them as scenes for the CPU
-// device and as values for a shader's uniforms.
+// reference_scene.h: the reference scenes, each of which tests one feature. Other code gets the reference scenes as
+// scenes for the CPU device and as values for a shader's uniforms.
 #ifndef REFERENCE_SCENE_H
 #define REFERENCE_SCENE_H
 
@@ -39,8 +39,8 @@ enum reference_need {
     NEED_EMISSION_MAP = 8192,
 };
 
-// Restrictions from the shader's text, stored in the same integer as reference_need: the kind of each light and whether
-// it is attenuated; no specular term; flat shading.
+// Restrictions that follow from the shader's source, stored in the same integer as reference_need: the kind of each
+// light and whether the light is attenuated, a missing specular term, and flat shading.
 enum reference_rule {
     RULE_POINT = 1,
     RULE_DIRECTIONAL = 2,
@@ -58,7 +58,7 @@ struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
     // For a directional light, the direction to the light. For a spot, the opposite of its axis. For a point light, the
-    // opposite of the axis for shaders that read one; zero means the direction from the camera's target.
+    // opposite of the axis for shaders that read an axis; zero means the direction from the camera's target.
     lam_vec3 to_light;
     lam_rgb color;        // Ld
     lam_rgb specular;     // Ls
@@ -78,7 +78,8 @@ struct reference_scene {
     float ka, kd, ks;                   // the strengths of the terms
     float alpha;                        // the alpha of the diffuse colour
     float shininess;
-    // Used by shaders with metalness and roughness. For these, `diffuse` is the base colour, and kd and ks are 1.
+    // Used by shaders with metalness and roughness. For these shaders, `diffuse` is the base colour, and kd and ks are
+    // 1.
     float metallic, roughness;
     bool physical;
     bool is_radiance; // the shader divides by pi, so its lights are pi times as bright
@@ -109,9 +110,9 @@ int reference_scene_find(const char *name); // returns −1 if not found
 // each triangle. The 16-bit indices of OpenGL ES 2 are sufficient. The arrays are allocated with malloc.
 struct reference_points {
     float *positions, *normals, *tangents;
-    // Data for maps. Texture coordinates consist of two floats. They are linear in the position, so their derivatives
-    // are nonzero everywhere. Tangents have four floats: the tangent and the sign of the bitangent. On a patch the
-    // tangent is the direction in which u increases.
+    // Data for maps. Texture coordinates consist of two floats. Texture coordinates are linear in the position, so
+    // their derivatives are nonzero everywhere. Tangents have four floats: the tangent and the sign of the bitangent.
+    // On a patch the tangent is the direction in which u increases.
     float *texture_coordinates, *surface_tangents, *bitangents;
     uint16_t *indices;
     int vertex_count, count; // `count` is the number of indices
@@ -122,7 +123,7 @@ void reference_points_free(struct reference_points *points);
 // Column vectors, m[row][column].
 struct reference_matrices {
     lam_mat4 model, view, model_view, projection, model_view_projection;
-    double normal[3][3]; // inverse transpose of the model-view's 3×3
+    double normal[3][3]; // inverse transpose of the upper left 3×3 block of the model-view matrix
     lam_mat4 normal4;    // inverse transpose of the whole model-view matrix, which some programs use instead
 };
 void reference_matrices(const struct reference_scene *reference_scene, struct reference_matrices *out);

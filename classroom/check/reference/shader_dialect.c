@@ -64,8 +64,8 @@ static const char *find_qualifier(const char *text, size_t *length)
     return NULL;
 }
 
-// Returns the end of the text's first `precision … float;`, after which another statement may follow, or NULL if there
-// is none.
+// Returns the end of the first `precision … float;` in the source, after which another statement may follow. Returns
+// NULL if there is no such statement.
 static const char *after_precision(const char *text)
 {
     static const char word[] = "precision";
@@ -77,7 +77,7 @@ static const char *after_precision(const char *text)
     return NULL;
 }
 
-// Returns whether textures are read with the default precision of samplers in ES, lowp.
+// Returns whether textures are read with lowp, the default precision of samplers in OpenGL ES.
 static bool reads_low(const char *text) { return strstr(text, "sampler2D") && after_precision(text); }
 
 bool shader_dialect_lowers_precision(const char *text)

@@ -7,7 +7,7 @@
 
 #include "fail.h"
 
-// OpenGL's built-in inputs. In the text, `gl_` becomes `fixed_`, and this declaration is added.
+// OpenGL's built-in inputs. In the source, `gl_` becomes `fixed_`, and this declaration is added.
 static const struct built_in {
     struct contract_name row;
     const char *declaration;
@@ -102,7 +102,7 @@ static void put_word(struct rewriting *r, const char *word, size_t length)
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-// Writes the text without its version line, with the keywords of ES 3.00.
+// Writes the source without its version line, with the keywords of ES 3.00.
 static void put_body(struct rewriting *r, const char *text)
 {
     bool begins = true; // whether the position is at the start of a line

@@ -13,14 +13,14 @@
 // A struct type of the source.
 struct struct_type {
     char name[64];
-    int first, count; // range of its members in reader.members
+    int first, count; // range of the struct's members in reader.members
 };
 
 enum { MAX_STRUCT_TYPES = 16, MAX_MEMBERS = 128 };
 
 struct declaration_parser {
     struct declarations *d;
-    bool vertex; // the text is a vertex shader
+    bool vertex; // the source is a vertex shader
     int at;      // index of the current word
     struct struct_type struct_types[MAX_STRUCT_TYPES];
     int struct_type_count;
@@ -42,7 +42,7 @@ static bool take(struct declaration_parser *r, const char *text)
     return there;
 }
 
-// Skips past the bracket that closes the previous one.
+// Skips past the bracket that closes the previous opening bracket.
 static void skip_to(struct declaration_parser *r, const char *open, const char *close)
 {
     for (int depth = 1; r->at < r->d->word_count && depth > 0; r->at++)
@@ -247,7 +247,7 @@ static struct word *first_of(const struct declarations *d, const char *text)
     return index ? &d->words[index - 1] : NULL;
 }
 
-// Counts equal words in advance, so that a text with many names does not take quadratic time.
+// Counts equal words in advance, so that a source with many names does not take quadratic time.
 static bool count_words(struct declarations *d)
 {
     d->slot_count = 16;

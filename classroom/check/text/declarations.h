@@ -1,7 +1,7 @@
 // declarations.h: the declarations of a GLSL source: uniforms, attributes, varyings.
 //
-// The declarations are parsed from the text instead of queried from the compiled program. The check also needs names
-// and lines for shaders that do not compile, and for uniforms that the compiler removes. preprocess.h splits the text
+// The declarations are parsed from the source, not queried from the compiled program. The check also needs names and
+// lines for shaders that do not compile, and for uniforms that the compiler removes. preprocess.h splits the source
 // into words.
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
@@ -38,14 +38,14 @@ struct declarations {
     char profile[16]; // "core", "compatibility", "es", or ""
     struct declaration *items;
     int count;
-    struct word *words; // the tokens of the whole text (preprocess.h)
+    struct word *words; // the tokens of the whole source (preprocess.h)
     int word_count;
     int *slots;     // a hash table that stores 1 + the index of the first equal word, or 0 if empty
     int slot_count; // a power of 2
 };
 
-// Parses a text. Varyings are outputs of a vertex shader (`vertex`) and inputs of a fragment shader. Returns false if
-// memory runs out.
+// Parses a shader's source. Varyings are outputs of a vertex shader (`vertex`) and inputs of a fragment shader. Returns
+// false if memory runs out.
 bool declarations_read(struct declarations *d, const char *text, bool vertex, lam_error *error);
 void declarations_free(struct declarations *d);
 

@@ -25,7 +25,7 @@ static bool lacks(const struct shader_interface *r, enum uniform_semantic semant
     return names(r, semantic) && !declares(r, semantic);
 }
 
-// Returns whether the contract fixes the colour of undeclared names.
+// Returns whether the contract defines the colour of undeclared names.
 static bool is_fixed(const struct default_color *color) { return color->source != COLOR_OF_SCENE; }
 
 static bool has_number(const struct shader_interface *r, enum uniform_semantic semantic)

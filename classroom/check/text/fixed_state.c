@@ -1,4 +1,4 @@
-// fixed_state.c: declares the fixed state that a text reads (GLSL 1.20, section 7.5).
+// fixed_state.c: declares the fixed state that a shader reads (GLSL 1.20, section 7.5).
 #include "fixed_state.h"
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 // Arrays have as many elements as the reference scenes have lights.
 static const struct {
     const char *name, *elements;
-    const char *members[13]; // each with its type; ends with NULL
+    const char *members[13]; // the members with their types; ends with NULL
 } states[] = {
     {"gl_LightSource",
      "[4]",
@@ -38,7 +38,7 @@ static int state_at(const char *text, const char *at)
     return -1;
 }
 
-// Returns whether a text contains a word.
+// Returns whether a source contains a word.
 static bool has_word(const char *text, const char *word)
 {
     size_t length = strlen(word);
@@ -48,8 +48,8 @@ static bool has_word(const char *text, const char *word)
     return false;
 }
 
-// Declares a state with the members that at least one of the two texts uses. Both texts get the same declaration.
-// Members that neither uses remain undeclared, so that their terms are not expected.
+// Declares a state with the members that at least one of the two sources uses. Both sources get the same declaration.
+// Members that neither source uses remain undeclared, so that their terms are not expected.
 static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
 {
     size_t at = strlen(out);

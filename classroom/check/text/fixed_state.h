@@ -5,9 +5,9 @@
 #include <lambent/base.h>
 
 // Rewrites a shader so that it reads uniforms such as fixed_LightSource[i].position, instead of gl_LightSource,
-// gl_FrontMaterial and similar state. A program can set these uniforms. `other` is the text of the other stage and may
-// be NULL. The result is from malloc. Returns NULL if the text reads no fixed state or, with `ok` false, if memory runs
-// out.
+// gl_FrontMaterial and similar state. A program can set these uniforms. `other` is the source of the other stage and
+// may be NULL. The result is allocated with malloc. Returns NULL if the shader reads no fixed state. Also returns NULL,
+// and sets *ok to false, if memory runs out.
 char *fixed_state_rewrite(const char *text, const char *other, bool *ok);
 
 // Returns whether a name is part of the fixed state or of one of its structs: gl_LightSource[].position.

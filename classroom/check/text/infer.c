@@ -235,7 +235,7 @@ static bool reads_w(const struct inference *f, const char *name)
     return false;
 }
 
-// Returns whether `-name` occurs. If it does, the vector points away from the light.
+// Returns whether `-name` occurs, which means that the vector points away from the light.
 static bool is_negated(const struct inference *f, const char *name)
 {
     const struct declarations *sides[] = {f->vertex, f->fragment};
@@ -408,10 +408,10 @@ static void find_attributes(struct inference *f)
     }
 }
 
-// --- numbers in the text
+// --- numbers in the source
 
-// Finds the `number`-th variable for a light's position or direction that the text sets to three numbers. Returns false
-// if there is none.
+// Finds the `number`-th variable for a light's position or direction that the source sets to three numbers. Returns
+// false if there is none.
 static bool find_vector_of_light(const struct declarations *d, int number, const char **name, double v[3])
 {
     for (int i = 0; i + 2 < d->word_count; i++) {

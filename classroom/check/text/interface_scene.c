@@ -87,7 +87,7 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
     bool shared = (!ambient && d->ambient_color.source == COLOR_OF_DIFFUSE) ||
                   (!own_specular && d->specular_color.source == COLOR_OF_DIFFUSE);
     bool lit_diffuse = declares(r, SEMANTIC_LIGHT_COLOR) && lit_specular;
-    // An ambient colour of the light includes its strength.
+    // If the light has an ambient colour, this colour includes the ambient strength.
     struct default_number ambient_strength = d->ambient_strength;
     if (lit_ambient && !(r->constants >> SEMANTIC_KA & 1))
         ambient_strength.value = 1;
@@ -101,8 +101,8 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
                      LIGHT_SPECULAR);
 }
 
-// Adapts a scene to metalness and roughness, for which there is no separate strength. If a scene shows only the ambient
-// term, its lights are dark instead.
+// Adapts a scene to shaders with metalness and roughness, which have no separate strengths of the terms. In a scene
+// that shows only the ambient term, the lights become black instead.
 static void adapt_physical(const struct shader_interface *r, struct reference_scene *s)
 {
     const struct contract_defaults *d = &r->defaults;
@@ -294,8 +294,8 @@ static void adapt_maps(const struct shader_interface *r, struct reference_scene 
         s->mesh += MESH_PATCH_DOWN - MESH_PATCH;
 }
 
-// If the shader has its own strengths and colours, each term gets a channel: ambient is red, diffuse green, specular
-// blue. The fit finds the factors of the terms.
+// If the shader has its own strengths and colours, each term gets a channel: the ambient term is red, the diffuse term
+// is green, and the specular term is blue. The fit finds the factors of the terms.
 static void separate_terms(struct reference_scene *s)
 {
     const lam_rgb white = {1, 1, 1}, black = {0, 0, 0};

@@ -11,7 +11,7 @@ struct range {
 };
 
 // Parses "i >= 1 && i < 3" or one half of such a condition. Without a condition, all lights are selected. Returns the
-// position after it.
+// position after the condition.
 static int read_condition(const struct declarations *d, int at, struct range *range)
 {
     *range = (struct range){0, MAX_SCENE_LIGHTS};

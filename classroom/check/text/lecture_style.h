@@ -11,7 +11,7 @@
 // Returns the restrictions on the kinds of lights (reference_rule), or 0 if the shader is not in the lecture style.
 unsigned lecture_light_rules(const struct declarations *lit);
 
-// Returns the reflection model of a shader in the lecture style; AUTO means Lambert's.
+// Returns the reflection model of a shader in the lecture style; AUTO means the Lambert model.
 lam_reflection lecture_model(const struct declarations *lit);
 
 // Returns whether a shader in the lecture style uses an infinitely distant viewer: the vector to the eye is then a

@@ -8,7 +8,7 @@
 #include "fixed_state.h"
 
 // Returns a copy in which line feeds replace single carriage returns, the line ends of old Macs. Returns NULL if the
-// text contains none or, with `ok` false, if memory runs out.
+// source contains no single carriage return. Also returns NULL, and sets *ok to false, if memory runs out.
 static char *mend_lines(const char *text, bool *ok)
 {
     const char *lone = text ? strchr(text, '\r') : NULL;

@@ -16,7 +16,7 @@ static bool shares_a_name(const struct declarations *a, const struct declaration
     return false;
 }
 
-// Gets whether the contract's engine completes this text.
+// Gets whether the contract's engine completes this source.
 static bool lacks_prefix(const char *prefix, const struct declarations *own, bool vertex, bool *lacks, lam_error *error)
 {
     struct declarations before = {0};
@@ -52,7 +52,8 @@ static int count_lines(const char *text)
     return count;
 }
 
-// Returns the prefix, a line that restores the text's own line numbers, and the text, from malloc.
+// Returns a new string: the prefix, then a line that restores the source's own line numbers, then the source. The
+// caller frees the string.
 static char *join(const char *prefix, const char *text)
 {
     size_t size = strlen(prefix) + strlen(text) + 20;
@@ -66,7 +67,7 @@ static char *join(const char *prefix, const char *text)
     return out;
 }
 
-// Returns whether a text reads a name that it does not declare.
+// Returns whether a source reads a name that it does not declare.
 static bool lacks(const char *text, bool vertex, const char *name)
 {
     static const char *const types[] = {"vec2", "vec3", "vec4", "float",     "int",

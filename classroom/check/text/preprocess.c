@@ -1,4 +1,4 @@
-// preprocess.c: splits a GLSL text into words, and executes the preprocessor's directives.
+// preprocess.c: splits a GLSL source into words, and executes the preprocessor's directives.
 #include "preprocess.h"
 
 #include <ctype.h>
@@ -69,7 +69,7 @@ static bool add_token(struct tokens *t, const char *from, size_t length, int lin
     return true;
 }
 
-// Returns the length of a backslash and the line end after it, or 0 if there is none here.
+// Returns the length of a backslash and the line end after it, or 0 if `c` does not start with them.
 static size_t continuation(const char *c)
 {
     return c[0] != '\\' ? 0 : c[1] == '\n' ? 2 : c[1] == '\r' && c[2] == '\n' ? 3 : 0;
@@ -477,7 +477,7 @@ bool preprocess(struct declarations *d, const char *text)
                 end++;
             run_directive(&p, &t->items[i + 1], end - i - 1);
             i = end + 1;
-        } else { // expands the text up to the next directive, because a macro's arguments may be on several lines
+        } else { // expands the source up to the next directive, because a macro's arguments may be on several lines
             while (end < t->count && !t->items[end].directive)
                 end++;
             if (is_active(&p))

@@ -36,7 +36,7 @@ static int score(const struct contract *contract, const struct declarations *d, 
     return points;
 }
 
-// Computes the score of texts after the contract's engine has completed them.
+// Computes the score of sources after the contract's engine has completed them.
 static bool score_completed(const struct contract *contract, const char *vertex, const char *fragment, int *points,
                             lam_error *error)
 {

@@ -12,8 +12,8 @@
 #include "maps.h"
 #include "shader_constants.h"
 
-// Returns whether the shader reads a declared uniform. A struct member counts as read only after a dot; other names
-// count anywhere.
+// Returns whether the shader reads a declared uniform. A struct member is read only if its name follows a dot; any
+// other name is read if it occurs.
 static bool is_used(const struct declarations *d, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -40,7 +40,7 @@ static void find_declared(struct shader_interface *r)
         }
 }
 
-// Finds the maps. Maps replace numbers of the material, so a number with a map counts as declared.
+// Finds the maps. Maps replace values of the material, so a value with a map is treated as declared.
 static void find_maps(struct shader_interface *r)
 {
     static const struct {
@@ -178,9 +178,9 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-// Finds the lighting of a shader printed by `lambent shader` from its functions. Lambert's lobe is ignored, because the
-// other lobes call it. If Lambert's lobe is the only one, the contract's own model applies, without a highlight. If
-// several rows match, the last one is used, because a coat adds GGX's lobe to another base.
+// Finds the lighting of a shader printed by `lambent shader` from its functions. The Lambert lobe is ignored, because
+// the other lobes call it. If the Lambert lobe is the only lobe, the contract's own model applies, without a highlight.
+// If several rows match, the last row is used, because a coat adds the GGX lobe to another base.
 static void find_printed(struct shader_interface *r)
 {
     static const struct {
@@ -281,7 +281,8 @@ static unsigned kind_of(enum uniform_semantic semantic, const char *type)
     }
 }
 
-// Returns the number of elements of an array that the texts read, if all indices are constants; otherwise `count`.
+// Returns the number of elements of an array that the shaders read, if all indices are constants. Otherwise, returns
+// `count`.
 static int read_elements(const struct shader_interface *r, const char *name, int count)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};
@@ -341,7 +342,7 @@ static void find_lights(struct shader_interface *r)
         }
         all |= group->count ? group->kinds : 0;
     }
-    if (!all) // if none is found, the position is in the vertex shader or is a constant
+    if (!all) // if no light has a position, the position is in the vertex shader or is a constant
         r->groups[placeless < 0 ? 0 : placeless] = (struct light_group){
             .count = 1, .kinds = r->contract->supports & (NEED_POINT | NEED_DIRECTIONAL), .list = false};
 }

@@ -5,7 +5,7 @@
 
 #include "prefix.h"
 
-// The lights of one struct or list of a contract.
+// The lights of one struct or array of a contract.
 struct light_group {
     int count;      // number of lights that the shaders declare, or 0
     unsigned kinds; // the possible kinds of the lights: NEED_POINT, NEED_DIRECTIONAL, NEED_SPOT
@@ -17,8 +17,8 @@ struct shader_interface {
     const struct contract *contract;
     uint64_t declared, used; // bit i is set if a shader declares, or reads, a uniform of semantic i
     uint64_t constants;      // bit i is set if a shader contains a constant of semantic i
-    // The maps that the shaders read (map_bit), and the maps whose factor they also declare. A number with a map counts
-    // as declared.
+    // The maps that the shaders read (map_bit), and the maps whose factor they also declare. A value with a map is
+    // treated as declared.
     unsigned maps, factors;
     bool has_tangents; // tangents are attributes, so the frame of a normal map does not require derivatives
     // The contract's values, or the numbers that the shaders contain.
@@ -32,14 +32,14 @@ struct shader_interface {
     bool vertex_lit; // the fragment shader declares no name of a material or light
     bool physical;   // the shaders use metalness and roughness; contract->physical describes the lighting
     // For a shader printed by `lambent shader`: its reflection model, tone curve, and whether it has multiple
-    // scattering. They are AUTO, AUTO and false for other shaders and for Lambert's model.
+    // scattering. For other shaders and for the Lambert model, the values are AUTO, AUTO and false.
     lam_reflection printed_model;
     lam_tone printed_tone;
     bool multiple_scattering;
     bool infinite_viewer, gl1; // set for printed shaders: --viewer infinite, --gl1
 };
 
-// Makes the interface of a program's texts. `contract` must outlive it.
+// Makes the interface of a program from its sources. `contract` must outlive the interface.
 bool shader_interface_make(struct shader_interface *interface, const struct complete_texts *texts,
                            const struct contract *contract, lam_error *error);
 void shader_interface_free(struct shader_interface *interface);
@@ -48,7 +48,7 @@ void shader_interface_free(struct shader_interface *interface);
 bool shader_interface_declares(const struct shader_interface *interface, enum uniform_semantic semantic);
 bool shader_interface_uses(const struct shader_interface *interface, enum uniform_semantic semantic);
 
-// If the text does not state the size of an array, raises the size to the size that the driver reports.
+// If the source does not state the size of an array, raises the size to the size that the driver reports.
 void shader_interface_set_counts(struct shader_interface *interface, const int counts[MAX_LIGHT_GROUPS]);
 
 // Returns the number of lights that the shaders support, at least 1.
@@ -59,7 +59,8 @@ int shader_interface_light_count(const struct shader_interface *interface);
 struct reference_scene shader_interface_scene(const struct shader_interface *interface,
                                               const struct reference_scene *reference_scene);
 
-// Returns the light of such a scene that belongs to element `element` of a group, or −1 if the element is black.
+// Returns the light of a scene from shader_interface_scene that belongs to element `element` of a group, or −1 if the
+// element is black.
 int shader_interface_light(const struct shader_interface *interface, const struct reference_scene *scene, int group,
                            int element);
 

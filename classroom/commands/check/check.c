@@ -16,8 +16,8 @@
 enum { MAX_SCENES = 32 };
 static const size_t max_cache_bytes = (size_t)384 << 20; // the cache of pictures, shared by the shaders of one command
 
-// Loads the contract that the command line gives by name or as a file. Leaves *contract NULL if the check must detect
-// the contract.
+// Loads the contract that the command line specifies by name or as a file. Leaves *contract NULL if the check must
+// detect the contract.
 static bool read_contract(const char *name, lam_check_contract **contract, lam_error *error)
 {
     if (!name || strcmp(name, "auto") == 0)
@@ -142,7 +142,7 @@ static bool open_tables(struct check_command *c, lam_error *error)
     return true;
 }
 
-// Creates the folder of the page and the sheets. The command prints the verdicts even if this fails.
+// Creates the folder of the page and the sheets. The command prints the verdicts even if the folder cannot be created.
 static bool prepare_page(struct check_command *c, lam_error *error)
 {
     char *page = check_page_path(c->options->picture.output, error);

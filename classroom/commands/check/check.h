@@ -1,4 +1,4 @@
-// check.h: declares the parts of the command `check`.
+// check.h: declares the functions and types of the command `check`.
 #ifndef TOOLS_CHECK_H
 #define TOOLS_CHECK_H
 
@@ -10,8 +10,8 @@
 
 // --- the drawing process (check_process.c)
 
-// The first argument of a drawing process. It is not in the table of commands. The second argument is the memory limit
-// in bytes.
+// The first argument of a drawing process. The table of commands does not contain this argument. The second argument is
+// the memory limit in bytes.
 #define CHECK_WORKER "check-worker"
 
 // Runs the drawing process, which reads a request from standard input and writes the result to standard output.
@@ -44,7 +44,7 @@ bool check_is_fragment(const char *path); // decided by the extension: .frag, .f
                                           // .glsl
 
 // Pairs the files of a command line. A vertex shader belongs to the fragment shader with the same folder and name.
-// Fragment shaders without such a vertex shader use `vertex`. Returns the number of submissions, or −1 on failure.
+// Fragment shaders without a matching vertex shader use `vertex`. Returns the number of submissions, or −1 on failure.
 int check_pair(int count, char **files, const char *vertex, struct check_submission **submissions, lam_error *error);
 
 // Finds the submissions of a class in alphabetical order. Returns their number, or −1 on failure.
@@ -69,8 +69,8 @@ struct check_result {
     int code;                // the exit code that results from this shader
 };
 
-// Returns a scene's result in one or two words: "same", "differs", or "black" if it equals a black reference and earns
-// no points.
+// Returns a scene's result in one or two words: "same", "differs", or "black" if the picture equals a black reference
+// and earns no points.
 const char *check_scene_word(const lam_check_scene *scene);
 
 // Returns the points of a scene: its weight, 0, or −1 if the scene earns no points because the exercise requires none
@@ -105,7 +105,8 @@ const char *check_says(const lam_check_report *report);
 // Writes a CSV value, in quotes if necessary. Escapes names that a spreadsheet would evaluate as formulas.
 void check_csv_text(FILE *file, const char *text);
 
-// Write the rows of a CSV file and of Moodle's worksheet. They return 0, or the errno of a file that cannot be written.
+// Write the rows of a CSV file and of Moodle's worksheet. The functions return 0, or the errno of a file that cannot be
+// written.
 int check_csv_head(FILE *file);
 int check_csv_row(FILE *file, const struct check_result *result);
 int check_moodle_head(FILE *file);

@@ -14,8 +14,8 @@ static double share_of(const struct check_result *result)
     return !result->error.code && points.possible > 0 ? points.earned / points.possible : 0;
 }
 
-// Parses Moodle's names of downloaded submissions, such as "Full Name_1234567_assignsubmission_file", where 1234567 is
-// the participant's number.
+// Parses the names that Moodle gives to downloaded submissions, such as "Full Name_1234567_assignsubmission_file",
+// where 1234567 is the participant's number.
 static bool read_participant(const char *name, char full[128], char number[24])
 {
     const char *end = strstr(name, "_assignsubmission");

@@ -137,14 +137,14 @@ static double now_s(void)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Sets a limit of processor time that the system enforces even if the parent process dies.
+// Sets a limit on the processor time that the system enforces even if the parent process dies.
 static void bound_time(double limit_s)
 {
     rlim_t seconds = (rlim_t)limit_s + 2;
     setrlimit(RLIMIT_CPU, &(struct rlimit){seconds, seconds + 1});
 }
 
-// Returns the processor time of all threads, or 0 if it is unknown.
+// Returns the processor time of all threads, or 0 if the time is unknown.
 static double processor_time_s(pid_t pid)
 {
     clockid_t clock;
@@ -161,8 +161,8 @@ static void become_worker(const char *memory, const char *path)
     execl(path, "lambent", CHECK_WORKER, memory, (char *)NULL);
 }
 
-// The arguments of the drawing process. They are written before it starts, because a copy of a process with threads may
-// only make system calls.
+// The arguments of the drawing process. The arguments are written before the process starts, because a copy of a
+// process with threads may only make system calls.
 struct worker {
     double time_limit_s;
     const char *path;

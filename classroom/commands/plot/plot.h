@@ -18,14 +18,14 @@ struct curve {
     lam_light light; // the argument of `value` for attenuation and spot
     lam_reflection reflection;
     float shininess;
-    double below; // the smallest x where the curve is below 1/255; infinite if it never is
-    bool marked;  // whether a dot with the number `below` is drawn there
+    double below; // the smallest x at which the curve is below 1/255, or infinity
+    bool marked;  // whether a dot labelled with `below` is drawn at this x
 };
 
 struct plot {
     const char *kind, *title, *x_label, *y_label;
     double x_max, y_max; // both axes start at 0
-    double level;        // the height of a dashed line; 0 if there is none
+    double level;        // the height of a dashed line; 0 means no line
     const char *level_label;
     bool files_inside;   // whether scene files are restricted to their folder
     lam_control control; // the limits for reading files

@@ -84,7 +84,7 @@ uint64_t call_expansion_limit(const struct call_control *call)
     return or_default(call ? call->control.expansion_limit : 0, LAM_EXPANSION_LIMIT);
 }
 
-// Returns how many bytes of memory may be used to read files of this size.
+// Returns the number of bytes of memory that may be used to read files of this size.
 static uint64_t expansion_bytes(const struct call_control *call)
 {
     uint64_t bytes = call_input_bytes(call);

@@ -26,16 +26,16 @@ struct call_control {
 // Starts a call. `control` may be NULL.
 void call_start(struct call_control *call, const lam_control *control);
 
-// Returns false if the call must stop: it was cancelled, it exceeded its time, or its control sets a field that this
-// version does not know. The check takes about 25 ns, so loops can repeat it every few thousand items. Any thread may
-// call this function. `call` may be NULL.
+// Returns false if the call must stop: it was cancelled, it exceeded its time limit, or its control sets a field that
+// this version does not know. The check takes about 25 ns, so loops can repeat it every few thousand items. Any thread
+// may call this function. `call` may be NULL.
 bool call_should_continue(struct call_control *call);
 
 // Fills the error with the reason why call_should_continue returned false, and returns false.
 bool call_error(struct call_control *call, lam_error *error);
 
-// Charge memory to the call, or refund it. call_charge returns false if the memory exceeds the budget. Any thread may
-// call these functions.
+// These functions charge memory to the call, or refund it. call_charge returns false if the memory exceeds the budget.
+// Any thread may call these functions.
 bool call_charge(struct call_control *call, size_t bytes);
 // Charges memory that the call does not strictly need: if the budget is exceeded, the call still continues.
 bool call_charge_spare(struct call_control *call, size_t bytes);
@@ -49,7 +49,7 @@ bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error
 void call_add_input(struct call_control *call, uint64_t bytes);
 uint64_t call_input_bytes(const struct call_control *call);
 
-// Return the limits of lam_control, or their defaults. UINT64_MAX means no limit. `call` may be NULL.
+// These functions return the limits of lam_control, or their defaults. UINT64_MAX means no limit. `call` may be NULL.
 uint64_t call_triangle_limit(const struct call_control *call);
 uint64_t call_expansion_limit(const struct call_control *call);
 uint64_t call_pixel_limit(const struct call_control *call);
@@ -71,8 +71,8 @@ bool call_check_expanded(const struct call_control *call, const char *name, uint
 // Checks that a file of this size may be read. Fails with LAM_LIMIT if the file is too large.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
-// Calls the progress callback. Only the thread that made the call may use this function. Reported shares never
-// decrease.
+// Calls the progress callback. Only the thread that made the call may use this function. The reported progress never
+// decreases.
 void call_progress(struct call_control *call, double share, const char *step);
 
 // Returns the time of the monotonic clock in nanoseconds.

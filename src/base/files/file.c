@@ -238,7 +238,7 @@ enum { OPEN_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
 
 // Opens a path whose first `folder` bytes name a folder. The rest of the path is opened below that folder, so that a
 // link created after the path was checked cannot point outside the folder. Kernels before 5.6 do not support openat2;
-// there the checked path is opened directly.
+// on these kernels, the checked path is opened directly.
 static int open_beneath(const char *path, size_t folder)
 {
 #ifdef SYS_openat2

@@ -16,7 +16,7 @@ struct file_bytes {
     const uint8_t *data;
     size_t size;
     size_t held;               // size of the address range at `data`; 0 if `data` is not owned
-    struct call_control *call; // the bytes are charged to it until they are released; may be NULL
+    struct call_control *call; // the bytes are charged to this call until they are released; may be NULL
 };
 
 // Reads a regular file, or standard input if the path is "-". Folders, pipes, devices and sockets are never opened,
@@ -43,7 +43,7 @@ bool file_check_regular(const char *path, lam_error *error);
 // result, including its '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
-// A large open file. Any thread may read sections of it.
+// A large open file, of which any thread may read sections.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
 struct file_parts {
     int file;
@@ -58,8 +58,8 @@ bool file_read_part(const struct file_parts *parts, const char *path, size_t off
                     lam_error *error);
 void file_close_parts(struct file_parts *parts);
 
-// Allocate padded memory in the form that file_read returns. file_hold fills it with zeros; file_copy fills it with a
-// copy of `bytes`.
+// These functions allocate padded memory in the form that file_read returns. file_hold fills it with zeros; file_copy
+// fills it with a copy of `bytes`.
 bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
@@ -83,7 +83,7 @@ enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // FILE_DU
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);
 
-// Return the last component of a path, and its extension after the last '.' ("" if there is none).
+// These functions return the last component of a path, and its extension after the last '.' ("" if there is none).
 const char *path_name(const char *path);
 const char *path_ending(const char *path);
 

@@ -137,8 +137,7 @@ static char *folder_of(const char *path)
 }
 
 // Returns an unused hidden file name in the folder of the target, allocated with malloc. The name contains the host
-// name, because several hosts may write to one folder. Process numbers are not unique; in containers the number is
-// often 1.
+// name, because several hosts may write to one folder. Process IDs are not unique; in containers, the ID is often 1.
 static char *name_beside(const char *target)
 {
     char *name, host[65] = "";

@@ -16,7 +16,7 @@ double math_floor(double x)
     return whole > x ? whole - 1 : whole;
 }
 
-// Computes x · 2^n for |n| ≤ 2200. Only the last of its multiplications can overflow or round.
+// Computes x · 2^n for |n| ≤ 2200. Only the last multiplication can overflow or round.
 static double scaled(double x, int n)
 {
     for (; n > 1000; n -= 1000)

@@ -42,7 +42,7 @@ typedef float num __attribute__((vector_size(LANES * 4)));
 typedef int32_t inum __attribute__((vector_size(LANES * 4)));
 typedef inum mask; // each lane is 0 or −1
 typedef uint32_t unsigned_lanes __attribute__((vector_size(LANES * 4)));
-// The same types for memory that is aligned to 4 bytes or more. Loads and stores use them.
+// The same types for memory that is aligned to 4 bytes or more. Loads and stores use these types.
 typedef float num_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 typedef int32_t inum_memory __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
 #endif
@@ -431,8 +431,8 @@ static const uint8_t packed_bytes[16][16] __attribute__((unused)) = {
 #undef NO_LANE
 #endif
 
-// Stores the lanes selected by `bits` (bit i selects lane i) consecutively, in order, and returns how many it stored.
-// LANES elements must be writable.
+// Stores the lanes selected by `bits` (bit i selects lane i) consecutively, in order, and returns the number of stored
+// lanes. LANES elements must be writable.
 LANE_FN uint32_t pack_lanes(int32_t *to, unsigned bits, inum x)
 {
 #if LANES == 16 && defined(__AVX512F__)

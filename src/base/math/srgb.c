@@ -29,7 +29,7 @@ double srgb_linear(double encoded)
     return square * fifth_root(square); // base^2.4
 }
 
-// By bisection, because the curve is monotonic.
+// Uses bisection, because the curve is monotonic.
 uint8_t srgb_byte(double linear)
 {
     int low = 0, high = 255;

@@ -13,7 +13,7 @@ enum {
     OWN_PAGES = 1 << 20,     // larger requests get pages of their own
 };
 
-// A block's header. The memory of small blocks follows it; large blocks point to pages.
+// A block's header. The memory of small blocks follows the header; large blocks point to pages.
 struct arena_block {
     struct arena_block *next;
     uint8_t *memory;

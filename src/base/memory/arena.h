@@ -1,7 +1,7 @@
 // arena.h: memory that is freed all at once.
 //
 // Small requests are allocated from shared blocks, whose size grows up to the size of a huge page. Requests of 1 MiB
-// and more get pages of their own. The system is asked to make these huge pages, so that the first access is three
+// and more get pages of their own. The arena asks the system for huge pages, because the first access is then three
 // times as fast. Memory is not zeroed unless the function's comment states it. Only one thread at a time may use an
 // arena.
 #ifndef ARENA_H
@@ -15,7 +15,7 @@
 struct arena_block;
 struct arena {
     struct arena_block *blocks;
-    struct call_control *call; // allocations are charged to it; may be NULL
+    struct call_control *call; // allocations are charged to this call; may be NULL
     size_t total;              // bytes allocated
     bool large;                // the first block has the largest size
 };
@@ -23,8 +23,8 @@ struct arena {
 void arena_start(struct arena *arena, struct call_control *call);
 void arena_start_large(struct arena *arena, struct call_control *call); // Starts with a block of the largest size.
 void arena_free(struct arena *arena); // frees everything; the arena is then empty and can be used again
-// Allocate and free an arena on the heap. arena_new returns NULL if memory runs out; arena_delete frees everything in
-// the arena and accepts NULL.
+// These functions allocate and free an arena on the heap. arena_new returns NULL if memory runs out; arena_delete frees
+// everything in the arena and accepts NULL.
 struct arena *arena_new(struct call_control *call);
 void arena_delete(struct arena *arena);
 
@@ -36,7 +36,8 @@ void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
 // Allocates `count` items of `size` bytes. Also returns NULL if the product overflows.
 void *arena_array(struct arena *arena, size_t count, size_t size);
 
-// Copy a string (NULL gives NULL), copy the first `length` bytes of a text as a string, or format a string.
+// These functions copy a string (NULL gives NULL), copy the first `length` bytes of a text as a string, or format a
+// string.
 char *arena_string(struct arena *arena, const char *text);
 char *arena_string_of(struct arena *arena, const char *text, size_t length);
 char *arena_vformat(struct arena *arena, const char *format, va_list arguments);

@@ -15,8 +15,8 @@ int pool_threads(const struct pool *pool); // 1 if `pool` is NULL
 
 // Calls task(user, index, thread) once for each index in [0, count), distributed over the threads of the pool, and
 // returns when all calls are done. `thread` is 0 … pool_threads − 1 and selects the thread's own scratch memory.
-// Threads take the indices in order, one at a time. The caller should therefore divide the work into some hundred tasks
-// whose size does not depend on the thread count. Every thread runs with the library's floating-point state
+// Threads take the indices in order, one at a time. The caller should therefore divide the work into a few hundred
+// tasks whose size does not depend on the thread count. Every thread runs with the library's floating-point state
 // (float_state.h). If `pool` is NULL, the calling thread runs all tasks. Only one pool_run may run on a pool at a time.
 typedef void pool_task(void *user, size_t index, int thread);
 void pool_run(struct pool *pool, size_t count, pool_task *task, void *user);

@@ -16,7 +16,7 @@ void *library_open_own(const char *name);
 void library_close(void *library); // NULL is allowed
 
 // Stores the address of a function at `function`, a pointer to a function pointer. Returns false if the library does
-// not contain it.
+// not contain the function.
 bool library_find(void *library, const char *name, void *function);
 
 // A module lists the functions of a library that it calls as a macro, FUNCTIONS(each), and declares a struct of a handle

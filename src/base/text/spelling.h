@@ -4,11 +4,11 @@
 
 #include <lambent/base.h>
 
-// A search for the known name that a typed word most likely means, by lam_word_distance.
+// A search for the known name that is most similar to a typed word, by lam_word_distance.
 struct spelling {
     const char *word;    // as typed
     const char *nearest; // the most similar word so far, or NULL
-    int limit;           // a word must be nearer to replace `nearest`, or as near and shorter
+    int limit;           // the distance of `nearest`, or at first the smallest distance that is too large
 };
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
@@ -17,7 +17,7 @@ void spelling_try(struct spelling *spelling, const char *candidate);
 // of the length of `word`, plus one.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
-// Returns the known name among `words` that a typed word means, or NULL if none is close enough.
+// Returns the known name among `words` that a typed word most likely means, or NULL if none is close enough.
 const char *meant_word(const char *word, const char *const *words, int count);
 
 #endif

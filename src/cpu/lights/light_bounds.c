@@ -28,7 +28,7 @@ static uint32_t spread_bits(uint32_t x)
     return (x | x << 2) & 0x09249249;
 }
 
-// Quantizes x from the range low…high to 0…1023; NaN gives 0.
+// Quantizes x from the range low…high to 0…1023; NaN becomes 0.
 static uint32_t quantize(float x, float low, float high)
 {
     float part = (x - low) / (high - low) * (float)((1 << KEY_BITS) - 1);
@@ -103,7 +103,7 @@ static float min_cosine(const struct frame_light *light)
     }
 }
 
-// Allocates rows from a block, each a multiple of 64 bytes. If `at` is NULL, it only computes the total size.
+// Allocates rows from a block, each a multiple of 64 bytes. If `at` is NULL, only the total size is computed.
 struct rows {
     float *at;
     size_t used;

@@ -13,8 +13,8 @@ enum {
     LIGHTS_ALL_SUMMED = 16, // in frames with at most this many lights, only lights that add nothing are dropped
 };
 
-// Lights with a range come first, in Morton order (1966), followed by the others. The rows are padded to a multiple of
-// LIGHTS_IN_GROUP with lights that reach no point.
+// Lights with a range come first, in Morton order (1966). Lights without a range follow. The rows are padded to a
+// multiple of LIGHTS_IN_GROUP with lights that reach no point.
 struct light_bounds {
     int count, capacity;      // number of lights, without and with the padding of the last group
     const uint32_t *number;   // index in the frame

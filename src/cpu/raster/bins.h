@@ -10,9 +10,9 @@
 // each back face is tested first (occlusion.inc).
 enum {
     TILE_BINS = 2,       // tile t has bin 2·t, and 2·t + 1 for back faces
-    BIN_BLOCK_IDS = 128, // this and the next are multiples of LANES_MAX, so that whole packets can be read
+    BIN_BLOCK_IDS = 128, // this size and the next size are multiples of LANES_MAX, so that whole packets can be read
     BIN_BLOCK_BACK_FACES = 64,
-    SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit 32 bits
+    SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit into 32 bits
 };
 #define CLIPPED 0x80000000u // flag in a bin entry: the triangle was clipped
 

@@ -4,7 +4,7 @@
 
 #include "bins.h"
 
-// For a vertex that needs clipping, x is NaN, whose low bits say outside which planes the vertex is.
+// For a vertex that needs clipping, x is a NaN. Its low bits are flags for the planes that the vertex is outside of.
 enum outside {
     OUTSIDE_LEFT = 1,
     OUTSIDE_RIGHT = 2,
@@ -16,8 +16,8 @@ enum outside {
 };
 #define OUTSIDE_NAN 0x7fc00000
 
-// Clips triangle t of a draw (with the number `id`) against each plane that has a corner of the triangle outside. Bins
-// the resulting triangles.
+// Clips triangle t of a draw (with the number `id`) against each plane that at least one of its corners is outside of.
+// Bins the resulting triangles.
 void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
                    uint32_t t, uint32_t id);
 

@@ -7,7 +7,7 @@
 #include "tile.h"
 #include "work.h"
 
-// Sizes of parallel tasks: a range of vertices or triangles of one draw.
+// The sizes of parallel tasks. A task is a range of vertices or triangles of one draw.
 enum { VERTEX_CHUNK = 8192, TRIANGLE_CHUNK = 4096 };
 struct chunk {
     uint32_t draw, first, count;
@@ -17,9 +17,9 @@ struct chunk {
 struct raster_frame {
     const struct frame *frame;
     const struct sample_pattern *pattern;
-    struct work *work; // every worker adds to it
+    struct work *work; // the frame's work, to which every worker adds
     int tiles_across, tiles_down;
-    bool without_glass; // surfaces that transmit light are omitted, to draw the picture behind them
+    bool without_glass; // surfaces that transmit light are omitted, to draw the picture behind these surfaces
     // The guard band: the largest |x| and |y| of a vertex for which a triangle needs no clipping. x and y are measured
     // from the window's centre, in multiples of w.
     float guard[2];

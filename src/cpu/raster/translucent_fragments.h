@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 struct layer_rows {
-    uint16_t *samples; // for each fragment, a bit for each sample that shows it
+    uint16_t *samples; // for each fragment, bits of the samples that show the fragment
     float *keys;       // for each fragment, a depth key for each sample
     // Some triangles were clipped into several triangles, of which two may share a pixel.
     bool clipped;

@@ -14,7 +14,7 @@ struct behind {
     int levels;
     int width[BEHIND_LEVELS], height[BEHIND_LEVELS];
     float *texels[BEHIND_LEVELS];
-    uint8_t *glass; // for each tile of the picture, whether surfaces were omitted in it
+    uint8_t *glass; // for each tile of the picture, whether surfaces were omitted in the tile
 };
 
 // Allocates all levels for a picture, and clears the first level and the flags of the tiles. Returns false if memory

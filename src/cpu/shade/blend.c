@@ -121,7 +121,8 @@ static void join_clipped_parts(const struct fragments *fragments, struct layer_r
     }
 }
 
-// Removes fragments without samples, which were joined or masked, and updates the nearest samples of the others.
+// Removes fragments without samples, which were joined or masked, and updates the nearest samples of the remaining
+// fragments.
 static void drop_empty(const struct sample_pattern *pattern, struct fragments *fragments, struct layer_rows *rows)
 {
     size_t samples = (size_t)pattern->count, kept = 0;

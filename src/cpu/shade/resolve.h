@@ -9,7 +9,7 @@
 // The picture, and the value of a pixel without fragments.
 struct resolve_target {
     const struct frame *frame;
-    lam_image *image;     // in a working format (pixels.h); it has no pixels if `converted` is set
+    lam_image *image;     // the picture in a working format (pixels.h), without pixels if `converted` is set
     lam_image *converted; // the caller's picture in another format, into which tiles are converted; or NULL
     uint8_t empty_pixel[16];
     const struct behind *behind; // if not NULL, its first level receives the sums instead of the picture

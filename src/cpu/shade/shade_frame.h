@@ -7,7 +7,7 @@
 #include "frame.h"
 #include "visible_normals.h"
 
-// The products of a light and a material for the sum (conventions, "The sum").
+// The products of a light and a material for the sum of terms (docs/lighting.md).
 struct light_products {
     float diffuse[3], specular[3]; // kd ⊙ Ld, ks ⊙ Ls
     float ambient[3];              // ka ⊙ La, used if ambient light is attenuated (gl1)
@@ -19,7 +19,7 @@ struct material_products {
     float reflectivity[3]; // kr
     bool mirrors;          // there is an environment, kr is not 0, and the material is classic
     const lam_material *given;
-    unsigned maps;                       // the maps that shading uses: a bit 1 << LAM_MAP_… for each
+    unsigned maps;                       // the maps that shading uses, as bits 1 << LAM_MAP_…
     bool converted;                      // a metallic-roughness material with maps that is lit with a classic model
     float shininess;                     // after match_highlights and gl1
     int layers;                          // LAYER_…; 0 for a plain metallic-roughness surface or a classic material

@@ -22,8 +22,8 @@ enum { RUN_CORNERS = 0, RUN_INTERPOLANT = 9, RUN_EXTRA = 18, RUN_ROWS = 21 };
 struct triangle_runs {
     int count;
     uint32_t triangle[BATCH_MAX + LANES_MAX];
-    int32_t first[BATCH_MAX];  // for each group of LANES fragments, the run of the first
-    int32_t offset[BATCH_MAX]; // for each fragment, the number of its run minus that run
+    int32_t first[BATCH_MAX];  // for each group of LANES fragments, the run of its first fragment
+    int32_t offset[BATCH_MAX]; // for each fragment, its run minus the run in `first`
     float row[RUN_ROWS][BATCH_MAX + LANES_MAX];
 };
 
@@ -88,9 +88,9 @@ struct vertex_cache {
     uint32_t (*key)[4]; // identity of a vertex: position, normal, colour, tangent element
     float (*color)[4];  // r, g, b, a
     // For materials with maps, `color` is the ambient and diffuse light, which the diffuse map multiplies. `rest` is
-    // all other light: the highlights, the reflection, and the emission unless it has a map.
+    // all other light: the highlights, the reflection, and the emission if no map multiplies the emission.
     float (*rest)[3];
-    uint32_t *run_vertex; // 3 for each run of fragments, stored in the rows fragments->scratch
+    uint32_t *run_vertex; // three vertices for each run of fragments, stored in the rows fragments->scratch
     uint32_t count;
 };
 

@@ -110,7 +110,7 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct fan_corner *c)
     c->normal[0] = spans ? x * scale : 0;
     c->normal[1] = spans ? y * scale : 0;
     c->normal[2] = spans ? z * scale : 0;
-    // |a × b| and a·b are the sine and cosine of the angle times the same lengths. The weight is below 1e78, and above
+    // |a × b| and a·b are the sine and the cosine of the angle, both times |a| |b|. The weight is below 1e78, and above
     // 1e-90 if it is not 0, so neither a sum of weighted normals nor its square overflows or underflows, regardless of
     // the unit.
     c->weight = spans ? length * angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
@@ -210,7 +210,7 @@ static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count
 }
 
 // Replaces the root of each corner with the number of its fan; fans are numbered in the order of their first corners.
-// Returns how many fans there are.
+// Returns the number of fans.
 static uint32_t number_fans(struct fan_corner *around, uint32_t count, uint32_t *number)
 {
     uint32_t fans = 0;

@@ -15,13 +15,13 @@
 // normals of its joined fan, in triangle order. Each face normal is weighted by the triangle's area × the angle at the
 // corner. (If the weight were the angle alone, the slivers of CAD files would have as much weight as the faces beside
 // them. The normals of slivers are mostly rounding errors, so surfaces would show streaks.) A triangle without area
-// adds nothing, and its corners get their neighbours' normal, or else zero. Two neighbours are never joined if their
-// common edge has the same direction in both (inconsistent winding).
+// adds nothing. Its corners get their neighbours' normal, or zero if there is no such normal. Two neighbours are never
+// joined if their common edge has the same direction in both (inconsistent winding).
 //
 // A vertex is closed if three to eight corners use its index, and if each edge at the vertex belongs to exactly two of
-// their triangles, in opposite directions. The ends of edges are compared by position. The corners of a closed vertex
-// are not welded to other vertices, so that closed surfaces at the same position do not affect each other. An open
-// vertex is welded to all corners at its position. Meshes with fewer than three corners per vertex have no closed
+// these corners' triangles, in opposite directions. The ends of edges are compared by position. The corners of a closed
+// vertex are not welded to other vertices, so that closed surfaces at the same position do not affect each other. An
+// open vertex is welded to all corners at its position. Meshes with fewer than three corners per vertex have no closed
 // vertices.
 //
 // A crease angle of at most FACET_CREASE_RAD splits the surface at every edge, so the normals are facet normals.

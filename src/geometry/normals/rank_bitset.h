@@ -39,7 +39,7 @@ static inline uint32_t count_bits(uint64_t x)
     return (uint32_t)(x * UINT64_C(0x0101010101010101) >> 56);
 }
 
-// Returns how many members are below a number. If the number is a member, this is its index.
+// Returns the number of members below a number. If this number is a member, the result is its index.
 static inline uint32_t rank_bitset_rank(const struct rank_bitset *set, size_t number)
 {
     return set->ranks[number / 64] + count_bits(set->bits[number / 64] & (((uint64_t)1 << number % 64) - 1));

@@ -13,7 +13,7 @@ struct scratch_memory {
 };
 
 // Allocates from the scratch memory, or from the arena if the scratch memory is exhausted. Returns NULL if memory runs
-// out. Any thread may call it.
+// out. Any thread may call this function.
 void *scratch_take(struct scratch_memory *scratch, struct arena *arena, size_t count, size_t size);
 
 // Borrows the end of the scratch memory until scratch_return. Returns NULL if the scratch memory is too small. Until

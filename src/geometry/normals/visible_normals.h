@@ -17,8 +17,8 @@
 struct visible_normals {
     struct rank_bitset triangles;
     uint32_t *elements; // 3 · triangles.count
-    // Capacity for 3 · triangles.count normals. `used` of them are filled, which is far fewer if corners share normals.
-    // The order of the normals depends on the threads.
+    // Capacity for 3 · triangles.count normals. Only `used` of them are filled: far fewer than the capacity if corners
+    // share normals. The order of the normals depends on the threads.
     float (*normals)[3];
     uint32_t used;
     uint32_t *first_corners; // a corner of the mesh for each normal, with the same capacity; NULL if not needed
@@ -30,7 +30,7 @@ static inline uint32_t visible_element(const struct visible_normals *visible, si
     return visible->elements[3 * (size_t)rank_bitset_rank(&visible->triangles, triangle) + k];
 }
 
-// The resources of the computation. The result does not depend on them.
+// The resources of the computation, which do not affect the result.
 struct normals_work {
     struct scratch_memory scratch; // memory to reuse; zeroed if there is none
     int lanes;                     // the maximum number of floats that are processed at a time

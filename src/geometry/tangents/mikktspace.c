@@ -1,8 +1,8 @@
 // mikktspace.c: finds the groups of triangles around each corner, and computes the tangents of the groups.
 //
-// Triangles are processed in order, and each corner without a group starts one. The group grows first across the edges
-// that start at the corner, then across the edges that end at it. A triangle without an orientation gets the
-// orientation of the first group that reaches it, so this order is part of the definition.
+// Triangles are processed in order, and each corner without a group starts a new group. The group grows first across
+// the edges that start at the corner, then across the edges that end at the corner. A triangle without an orientation
+// gets the orientation of the first group that reaches it, so this order is part of the definition.
 #include "mikktspace.h"
 
 #include "cpu_features.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 
 enum { CHECK_INTERVAL = 1 << 13 }; // triangles or corners between two checks of the call
-// a sum this short, of summands with a total length of 1, is zero except for rounding errors
+// if the lengths of the summands add up to 1, a sum shorter than this is zero except for rounding errors
 #define ZERO_SUM 1e-6
 
 struct tangent_maker {

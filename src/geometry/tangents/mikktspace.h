@@ -15,8 +15,8 @@
 // 5. A triangle with two equal positions joins no group and has no neighbours.
 //
 // A corner that no group reaches gets the tangent of the first equal corner that has a group. If there is no such
-// corner, or if a group's sum is zero, the tangent is that of meshes without texture coordinates, a direction around
-// the y axis. Mikkelsen's code returns (1, 0, 0) or zero in these cases.
+// corner, or if a group's sum is zero, the tangent is the same as in meshes without texture coordinates: a direction
+// around the y axis. Mikkelsen's code returns (1, 0, 0) or zero in these cases.
 //
 // The summands are computed in double and summed as floats, in the order of the corners. The derivatives are floats, as
 // in Mikkelsen's code, because the groups depend on whether a derivative is zero.

@@ -46,8 +46,8 @@ static bool is_selected(const struct frame *frame, const struct frame_draw_range
     return !draw->strokes && (object < 0 || draw->object == object);
 }
 
-// Merges the maps of another material. A map that one of the materials lacks is 1 everywhere for it (glsl_map_values).
-// Returns false if one source cannot read both.
+// Merges the maps of another material. If one of the materials lacks a map, the map's value is 1 everywhere for that
+// material (glsl_map_values). Returns false if one shader cannot read both.
 static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
 {
     bool same = true;
@@ -187,7 +187,8 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
 
 // --- values
 
-// Writes the matrix from mesh positions to clip space, by columns; the frame's rows are in pixels, y down.
+// Writes the matrix from mesh positions to clip space in column-major order. The frame's rows are in pixels, with y
+// downwards.
 static int put_projection(float out[16], const struct frame_draw *draw, int width, int height)
 {
     for (int j = 0; j < 4; j++) {

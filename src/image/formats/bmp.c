@@ -76,7 +76,7 @@ static bool read_masks(struct bmp *bmp, lam_error *error)
             return false;
     }
     if (own && bmp->header == INFO_HEADER)
-        bmp->header += 4 * (size_t)count; // if there is a palette, it follows the masks
+        bmp->header += 4 * (size_t)count; // the palette, if there is one, follows the masks
     return true;
 }
 
@@ -236,9 +236,9 @@ static bool put_rows(const struct bmp *bmp, const lam_image *image, lam_error *e
     return true;
 }
 
-// Decodes run lengths, two bytes at a time. Usually the bytes are a count and a color (with 4 bits, two alternating
-// colors). If the count is 0, 0 0 means end of row, 0 1 means end of picture, 0 2 x y means move right and up, and 0 n
-// means that n colors follow, padded to two bytes.
+// Decodes run lengths, two bytes at a time. Usually the bytes are a count and a colour (with 4 bits, two alternating
+// colours). A count of 0 has special meanings: 0 0 is the end of the row, 0 1 is the end of the picture, 0 2 x y moves
+// right and up, and 0 n means that n colours follow, padded to two bytes.
 static bool put_runs(const struct bmp *bmp, const lam_image *image, lam_error *error)
 {
     const uint8_t *at = bmp->file->bytes + bmp->pixels, *end = bmp->file->bytes + bmp->file->size;

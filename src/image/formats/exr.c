@@ -1,8 +1,8 @@
-// exr.c: reads and writes OpenEXR files, which store floats in named layers. The C library OpenEXRCore is used, which
-// is loaded on demand (dlopen). Written files contain one part of scanlines, with 32-bit floats and ZIP compression.
-// The picture's channels are R, G, B and A, linear and premultiplied, as OpenEXR defines them. The channels of a layer
-// are NAME.R and so on. Neither a time nor a path is stored, so with the same library the same picture gives the same
-// bytes.
+// exr.c: reads and writes OpenEXR files, which store floats in named layers. This file uses the C library OpenEXRCore,
+// which is loaded on demand (dlopen). Written files contain one part of scanlines, with 32-bit floats and ZIP
+// compression. The picture's channels are R, G, B and A, linear and premultiplied, as OpenEXR defines them. The
+// channels of a layer are NAME.R and so on. Neither a time nor a path is stored, so the bytes depend only on the
+// picture and on the version of the library.
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"

@@ -92,7 +92,7 @@ static bool read_header(const uint8_t *bytes, size_t size, const char *name, str
 }
 
 // The next functions read a row, and return the end of the row in the file. If the row is invalid, or if the file ends
-// within the row, they return NULL. `row` receives 4 bytes per pixel.
+// within the row, these functions return NULL. `row` receives 4 bytes per pixel.
 
 static const uint8_t *read_new_runs(const uint8_t *at, const uint8_t *end, int width, uint8_t *row)
 {

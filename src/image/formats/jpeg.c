@@ -1,5 +1,5 @@
-// jpeg.c: defines the entry for JPEG in the table of formats, and reads JPEG files with libjpeg-turbo. The accurate
-// integer transform gives bit-identical pictures on every processor.
+// jpeg.c: defines the entry for JPEG in the table of formats, and reads JPEG files with libjpeg-turbo. With the
+// accurate integer transform, pictures are bit-identical on every processor.
 #include "codec.h"
 #include "fail.h"
 #include "pixels.h"
@@ -119,7 +119,7 @@ static bool decode(struct jpeg_decoder *reader, lam_image *image, lam_error *err
     jpeg->do_fancy_upsampling =
         TRUE; // chroma at half the size is interpolated linearly, with integers, which is identical on every machine
     jpeg->do_block_smoothing = FALSE; // only affects files with missing scans, which are rejected
-    // The picture is allocated first, because no memory for coefficients is needed if this fails.
+    // The picture is allocated first, because no memory for coefficients is needed if this allocation fails.
     if (!picture_make(file, jpeg->image_width, jpeg->image_height, format, image, error) ||
         !charge_coefficients(reader, error))
         return false;
@@ -182,7 +182,7 @@ static bool jpeg_read_wide(const struct picture_file *file, lam_image *image, bo
     return jpeg_read_as(true, file, image, error);
 }
 
-// Returns whether the comment after the markers SOI and JFIF says that Lambent wrote the file.
+// Returns whether the comment after the markers SOI and JFIF states that Lambent wrote the file.
 static bool jpeg_ours(const uint8_t *bytes, size_t size)
 {
     static const char remark[] = "\xff\xfe\0\x09" JPEG_REMARK;

@@ -24,9 +24,9 @@ struct writer {
     struct call_control call;
     const lam_image *image;
     int quality;
-    unsigned char *bytes; // from malloc
+    unsigned char *bytes; // allocated with malloc
     unsigned long size;
-    bool has_bytes; // jpeg_mem_dest has returned; if it runs out of memory, it does not set its members
+    bool has_bytes; // whether jpeg_mem_dest has returned; if memory runs out, this function does not set its members
     uint8_t *row;
 };
 

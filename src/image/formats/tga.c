@@ -26,7 +26,7 @@ struct tga {
 
 static bool is_color_bits(uint32_t bits) { return bits == 15 || bits == 16 || bits == 24 || bits == 32; }
 
-// Parses the header. Returns false if it is not a TGA header; `error` (may be NULL) then says why.
+// Parses the header. Returns false if the bytes are not a TGA header; `error` (may be NULL) then contains the reason.
 static bool take_header(const struct picture_file *file, struct tga *tga, lam_error *error)
 {
     const uint8_t *bytes = file->bytes;
@@ -126,8 +126,8 @@ static bool fail_end(const struct tga *tga, const char *within, lam_error *error
 }
 
 // Decodes packets. A packet begins with one byte, which contains a count (1 to 128) and a flag (bit 7). If the flag is
-// set, one pixel follows, which is repeated; otherwise, as many pixels follow as the count says. In version 2 of the
-// format, packets end at the end of a row; in older files they may continue in the next row.
+// set, one pixel follows, which is repeated. Otherwise, the count is the number of pixels that follow. In version 2 of
+// the format, packets end at the end of a row; in older files they may continue in the next row.
 static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image *image, lam_error *error)
 {
     const uint8_t *end = tga->file->bytes + tga->file->size;

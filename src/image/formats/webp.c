@@ -1,6 +1,7 @@
-// webp.c: reads and writes WebP files, lossy and lossless, with alpha. The library libwebp is used, which is loaded on
-// demand (dlopen). Files are read chunk by chunk, so that a long decoding can be stopped. Animations are not supported.
-// The written bytes depend on the version of libwebp. https://developers.google.com/speed/webp/docs/riff_container
+// webp.c: reads and writes WebP files, lossy and lossless, with alpha. This file uses the library libwebp, which is
+// loaded on demand (dlopen). Files are read chunk by chunk, so that a long decoding can be stopped. Animations are not
+// supported. The written bytes depend on the version of libwebp.
+// https://developers.google.com/speed/webp/docs/riff_container
 #include "codec.h"
 #include "dynamic_library.h"
 #include "fail.h"
@@ -13,7 +14,7 @@
 
 enum {
     RIFF_HEADER = 12,
-    CHUNK_BYTES = 1 << 14, // bytes per step, or fewer if they contain more than CHUNK_PIXELS pixels on average
+    CHUNK_BYTES = 1 << 14, // bytes per step; fewer if these bytes contain more than CHUNK_PIXELS pixels on average
     CHUNK_PIXELS = 1 << 22,
     PLAIN_PIXELS = 1 << 24, // pixels that a file of any size may have, because 4096×4096 pixels of one colour need only
                             // a few bytes
@@ -121,7 +122,7 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
             file->name, features.width, features.height, (unsigned long long)most, file->size);
     if (!picture_make(file, (uint32_t)features.width, (uint32_t)features.height, LAM_RGBA8, image, error))
         return false;
-    // libwebp decodes all pixels of a lossless picture at once, and also the alpha of a lossy picture. `own` is the
+    // libwebp decodes all pixels of a lossless picture, or the alpha of a lossy picture, in one step. `own` is the
     // memory that libwebp needs for these pixels.
     enum { LOSSLESS = 2 };
     size_t own = (size_t)pixels * (features.format == LOSSLESS ? 4 : features.has_alpha ? 2 : 0);
@@ -156,7 +157,7 @@ bool webp_check_size(int width, int height, lam_error *error)
 }
 
 struct sink {
-    uint8_t *bytes; // from malloc
+    uint8_t *bytes; // allocated with malloc
     size_t size, capacity;
     bool full; // memory ran out
 };

@@ -1,4 +1,4 @@
-// webp_library.h: gives other encoders access to libwebp, which webp.c loads.
+// webp_library.h: provides other encoders with access to libwebp, which webp.c loads.
 #ifndef WEBP_LIBRARY_H
 #define WEBP_LIBRARY_H
 
@@ -37,7 +37,7 @@ bool webp_open(struct webp_library *webp, const char *file, lam_error *error);
 bool webp_configure(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
                     struct call_control *call, WebPConfig *config, WebPPicture *picture, lam_error *error);
 
-// Checks that WebP supports the size. Fails with LAM_LIMIT if it does not.
+// Checks that WebP supports the size. Otherwise fails with LAM_LIMIT.
 bool webp_check_size(int width, int height, lam_error *error);
 
 #endif

@@ -28,7 +28,7 @@ struct apng_frame {
 
 struct apng {
     struct animation_settings settings;
-    lam_image before; // the previous frame; it has no pixels before the first frame
+    lam_image before; // the previous frame; empty before the first frame
     struct apng_frame *frames;
     int count, capacity;
     uint64_t held; // bytes of the frames
@@ -149,7 +149,7 @@ static bool widen(struct apng_frame *frame, int channels, const lam_save_params 
 // --- the file
 
 struct writer {
-    uint8_t *bytes; // from malloc
+    uint8_t *bytes; // allocated with malloc
     size_t size;
     struct crc_tables crc;
     uint32_t sequence;
@@ -182,8 +182,8 @@ static void put_animation_control(struct writer *writer, const struct apng *apng
 }
 
 // Writes the duration of a frame as a fraction of two 16-bit numbers. The duration is exact for a whole number of
-// frames per second. Otherwise the rate is rounded to a thousandth of a frame per second (from 65 frames per second, to
-// a hundredth).
+// frames per second. Otherwise the rate is rounded to a thousandth of a frame per second or, above 65 frames per
+// second, to a hundredth.
 static void put_delay(double frames_per_second, uint8_t out[4])
 {
     const bool whole = frames_per_second == (double)(int)frames_per_second;

@@ -35,7 +35,7 @@ static void make_codes(struct codes *codes, const struct deflate *deflate)
     codes_make(codes, counts, distance_counts, extra_bits);
 }
 
-// The code of a kind.
+// The bits that encode a kind, and their number.
 struct entry {
     uint32_t bits, count;
 };

@@ -29,8 +29,8 @@ struct png_method {
     // Sets `capacity` and `threads`.
     bool (*start)(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
 
-    // Writes one strip as deflate blocks, none of which is marked as the last, and which end on a byte boundary. Adds
-    // the strip's filtered rows to `adler`. Returns the number of bytes, or 0 if memory runs out or the call must stop.
+    // Writes one strip as deflate blocks that end on a byte boundary. No block is marked as the last. Adds the strip's
+    // filtered rows to `adler`. Returns the number of bytes, or 0 if memory runs out or the call must stop.
     size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
     // Frees memory that the arena does not own. This function is also called if `start` failed. The pointer is NULL if

@@ -9,7 +9,7 @@ enum png_filter {
     PNG_FILTER_NONE,
     PNG_FILTER_SUB,     // minus the pixel to the left
     PNG_FILTER_UP,      // minus the pixel above
-    PNG_FILTER_AVERAGE, // minus the mean of both pixels
+    PNG_FILTER_AVERAGE, // minus the mean of the left pixel and the pixel above
     // Minus the left, upper or upper left pixel, whichever is nearest to left + upper − upper left.
     PNG_FILTER_PAETH,
 };
@@ -21,8 +21,8 @@ enum png_filter {
 void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, int bytes_per_pixel,
                     uint32_t *out);
 
-// The pixels of a row from `first` up to, but not including, `end`. All other pixels of the row are zero: they are
-// transparent background, which many pictures mainly consist of. If `first` and `end` are equal, all pixels are zero.
+// The pixels of a row from `first` up to, but not including, `end`. All other pixels of the row are zero: transparent
+// background, which makes up most of many pictures. If `first` and `end` are equal, all pixels are zero.
 struct png_span {
     int first, end;
 };

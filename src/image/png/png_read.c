@@ -43,8 +43,8 @@ static bool fits(const struct spng_ihdr *header, size_t size)
     return (bits / 8 + 1) * header->height / 1032 <= size;
 }
 
-// Converts 16-bit numbers to floats. The numbers are in the second half of the pixels' memory, so in ascending order no
-// number is overwritten before it is read.
+// Converts 16-bit values to floats. The values are in the second half of the pixels' memory, so no value is overwritten
+// before it is read if the values are converted in ascending order.
 static void widen(lam_image *image)
 {
     size_t count = (size_t)image->width * (size_t)image->height;

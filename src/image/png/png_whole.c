@@ -1,5 +1,5 @@
-// png_whole.c: decompresses all pixels of a PNG file at once with libdeflate, which is opened on first use, and then
-// unfilters them. This method takes a third of the time of libspng, which reads row by row with zlib.
+// png_whole.c: decompresses all pixels of a PNG file in one step with libdeflate, which is opened on first use, and
+// then unfilters them. This method takes a third of the time of libspng, which reads row by row with zlib.
 //
 // Only common pictures are supported: grey, RGB or RGBA with 8 bits per channel, without a transparent colour, not
 // interlaced, and without chunks between the pixels and the end. libspng reads all other pictures and damaged pictures,
@@ -57,8 +57,8 @@ static size_t find_pixels(const struct picture_file *file)
     return 0;
 }
 
-// Joins the compressed bytes of the pixel chunks and returns their number. Returns 0 if they are not followed by the
-// end chunk.
+// Joins the compressed bytes of the pixel chunks and returns their number. Returns 0 if the end chunk does not follow
+// the pixel chunks.
 static size_t join_pixels(const struct inflater *d, const struct picture_file *file, size_t at, uint8_t *joined)
 {
     size_t used = 0;

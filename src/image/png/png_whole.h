@@ -1,4 +1,4 @@
-// png_whole.h: reads the pixels of common PNG files at once.
+// png_whole.h: reads all pixels of common PNG files in one step.
 #ifndef PNG_WHOLE_H
 #define PNG_WHOLE_H
 

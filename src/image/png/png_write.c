@@ -15,13 +15,13 @@ enum {
     BATCH_STRIPS = 256, // strips per batch, which limits the memory reserved for the worst case
     CHUNK_BYTES = 12,   // a chunk's length, type and CRC
     ZLIB_HEADER = 2,    // bytes in the chunk of the first strip
-    HEAD_BYTES = 128,   // maximum
+    HEAD_BYTES = 128,   // the maximum size of the header
     TAIL_BYTES = 6 + 2 * CHUNK_BYTES,
 };
 
 struct png_strip {
     struct adler_part adler;
-    size_t size; // size of its chunk; 0 if it was not encoded
+    size_t size; // size of the strip's chunk; 0 if the strip was not encoded
 };
 
 struct png_writer {
@@ -156,7 +156,8 @@ static size_t put_tail(const struct png_writer *writer, const struct adler_part 
 }
 
 // Encodes the strips of a batch, and stores their chunks consecutively at bytes + *size. Each strip is first encoded at
-// its own address, with space for the worst case. Unused pages are never accessed, so this needs only address space.
+// its own address, with space for the worst case. Unused pages are never accessed, so the reserved space needs only
+// addresses, not memory.
 static bool encode_batch(struct png_writer *writer, int count, struct pool *pool, uint8_t *bytes, size_t *size,
                          struct adler_part *adler, lam_error *error)
 {

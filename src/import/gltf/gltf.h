@@ -3,12 +3,12 @@
 // The JSON text (gltf_json.c) of a .gltf, or of a .glb (gltf_container.c), describes buffers (gltf_buffers.c,
 // gltf_views.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). The arrays become meshes
 // (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
-// (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_cameras.c). Materials (gltf_materials.c) read
+// (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_cameras.c). Materials (gltf_materials.c) request
 // textures, whose pictures are decoded together (gltf_textures.c). Before the nodes are placed, an animation sets their
 // transforms (gltf_animation.c). For morph targets and skins (gltf_deform.c, gltf_skins.c), a mesh gets its own copy of
 // the positions.
 //
-// Every count and index of the file is checked on reading, and an error names its position: "ship.gltf:
+// Every count and index is checked when it is read. Errors name the position in the file: "ship.gltf:
 // meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers refer to the specification,
 // https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 #ifndef GLTF_H
@@ -17,7 +17,7 @@
 #include "importer.h"
 #include "json_reader.h"
 
-// A buffer: the file's own bytes, a file beside it, or a data URI. The buffer is read on first use.
+// A buffer: the model file's own bytes, another file, or a data URI. The buffer is read on first use.
 struct gltf_buffer {
     const uint8_t *data; // NULL if not read yet
     size_t size;
@@ -64,7 +64,7 @@ struct gltf {
     struct arena *scratch; // freed after the load
     struct json_reader json;
     json_t *root;
-    size_t json_bytes;     // size of the memory of `root`, charged to the call
+    size_t json_bytes;     // size of the memory that `root` uses, charged to the call
     const uint8_t *binary; // the .glb's BIN chunk, or NULL
     size_t binary_size;
     bool source_kept; // the scene's arrays point into the model file's own bytes
@@ -85,7 +85,8 @@ struct gltf {
     lam_file_image *file_images;   // one element for each image (gltf_file_info.h)
     struct gltf_picture *pictures; // gltf_textures.h: two for each image of the file
     struct gltf_map *maps;         // the maps of materials, latest first
-    // for each material, the file's texture coordinate sets that are its first and second set; −1 if unused
+    // for each material, the file's texture coordinate sets that the material uses as its first and second set; −1 if
+    // unused
     int (*texcoord_sets)[2];
 
     struct gltf_node *nodes; // gltf_nodes.h
@@ -101,7 +102,7 @@ struct gltf {
 
 #define GLTF_ALLOC(gltf, count, type) ((type *)arena_alloc_zeroed((gltf)->scratch, (size_t)(count) * sizeof(type)))
 
-// Reports that memory for `bytes` is missing. Returns false.
+// Reports that `bytes` bytes of memory could not be allocated. Returns false.
 bool gltf_no_memory(struct gltf *gltf, size_t bytes);
 
 #endif

@@ -1,4 +1,5 @@
-// gltf_container.c: reads .glb: a header, and chunks that contain the JSON text and the binary buffer (section 4).
+// gltf_container.c: reads .glb files: a header, and chunks that contain the JSON text and the binary buffer (section
+// 4).
 #include "gltf_container.h"
 
 #include "fail.h"

@@ -12,7 +12,7 @@ void gltf_json_free(struct gltf *gltf);
 size_t gltf_list_size(const struct gltf *gltf, const char *list);
 const json_t *gltf_list_item(const struct gltf *gltf, const char *list, int index);
 
-// Returns the extension with this name of an object, or NULL if the object does not use it.
+// Returns an object's extension with this name, or NULL if the object does not use the extension.
 const json_t *gltf_extension(const json_t *object, const char *name);
 
 // Gets a whole number in [min, max]. *out is unchanged if the key is missing. Returns false if the value is wrong.
@@ -28,8 +28,8 @@ bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *v
 bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double *out);
 
-// Gets a factor of `count` numbers whose range the standard limits. Numbers outside [min, max] are clamped. If a number
-// lies outside by more than a rounding error, the file causes one warning.
+// Gets a factor of `count` numbers whose range the standard limits. Numbers outside [min, max] are clamped. If the
+// difference is more than a rounding error, one warning is added for the whole file.
 bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double min, double max, double *out);
 
@@ -47,9 +47,9 @@ const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const
 // (*ok becomes false).
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok);
 
-// Returns the index of the element of `list` (NULL means empty) whose name is `wanted`; if there is none, `wanted` may
-// also be an index. If neither exists, returns −1 with an error that lists the elements; `what` is the noun for an
-// element.
+// Returns the index of the element of `list` (NULL means empty) whose name is `wanted`. If no name matches, `wanted`
+// may be an index. If there is no such element, returns −1 with an error that lists the elements; `what` is the noun
+// for an element.
 int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, const char *what);
 
 #endif

@@ -20,7 +20,7 @@ struct gltf_node {
 // Reads all nodes, checks that they form trees, and marks the nodes of the requested scene.
 bool gltf_nodes_read(struct gltf *gltf);
 
-// Computes node->world and node->visible of all nodes.
+// Computes node->world and node->visible for all nodes.
 bool gltf_nodes_place(struct gltf *gltf);
 
 // Normalises a quaternion; a zero quaternion becomes the identity.

@@ -48,7 +48,7 @@ struct instances {
     size_t count;
 };
 
-// Returns whether all instances are within the call's limits, before any of them is created.
+// Checks, before any instance is created, that the call's limits allow all of them.
 static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, size_t count)
 {
     struct call_control *call = gltf->source->call;

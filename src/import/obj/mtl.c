@@ -12,7 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
-// The state of reading one file.
+// The state while a file is read.
 struct mtl_parser {
     struct mtl_set *set;
     struct lam_scene *scene;

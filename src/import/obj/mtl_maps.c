@@ -14,7 +14,7 @@
 #include <string.h>
 #include <strings.h>
 
-// A picture of one or more maps, identified by its confined name and by whether its numbers are colours.
+// A picture that one or more maps use, identified by its confined name and by whether its values are colours.
 struct picture {
     const char *name;
     lam_texture_values values;

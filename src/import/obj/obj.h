@@ -11,8 +11,8 @@
 //   obj_stream.c               large files on disk: one pass, chunk by chunk
 //
 // The file is split at line ends into chunks of about OBJ_CHUNK bytes, and each pass processes the chunks in parallel.
-// Pass one counts the elements of each chunk. Prefix sums of the counts are each chunk's first index in every array, so
-// pass two can write each number to its final position. The result does not depend on the number of threads.
+// Pass one counts the elements of each chunk. The prefix sums of the counts are the first indices of each chunk in the
+// arrays, so pass two can write each number to its final position. The result does not depend on the number of threads.
 #ifndef OBJ_H
 #define OBJ_H
 
@@ -121,13 +121,13 @@ struct obj {
 
 // obj_scan.c. Returns the start of the next logical line, or `end`. A backslash before '\n' continues a line.
 const uint8_t *obj_next_line(const uint8_t *at, const uint8_t *end);
-// Returns the next word of the statement, or its end ('\n' or `end`). Skips white space, line continuations and a
-// comment.
+// Returns the next word of the statement, or the end of the statement ('\n' or `end`). Skips white space, line
+// continuations and a comment.
 const uint8_t *obj_next_word_slow(const uint8_t *at, const uint8_t *end);
 bool obj_split(struct obj *obj, size_t chunk_bytes, lam_error *error);
 bool obj_scan(struct obj *obj, lam_error *error); // pass one
 
-// The state of reading one chunk.
+// The state while a chunk is read.
 struct obj_reader {
     struct obj *obj;
     struct obj_chunk *chunk;

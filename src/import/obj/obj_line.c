@@ -55,8 +55,8 @@ static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8
 
 static float non_negative(float x) { return x > 0 ? x : 0; } // NaN becomes 0
 
-// Reads the numbers after x y z, if there are any: a weight w, which only rational curves use, or a colour r g b, which
-// further numbers may follow.
+// Reads the numbers after x y z, if there are any: a weight w, which only rational curves use, or a colour r g b,
+// possibly followed by further numbers.
 static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, float *color)
 {
     const uint8_t *end = reader->end;
@@ -123,8 +123,8 @@ static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at
     return at;
 }
 
-// Reads a texture coordinate or a normal. Vectors with numbers that are not finite become 0 with one warning, because
-// some exporters write "nan".
+// Reads a texture coordinate or a normal. Vectors with numbers that are not finite become 0, because some exporters
+// write "nan". One warning is added for all of them.
 static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *at, bool normal)
 {
     struct obj *obj = reader->obj;

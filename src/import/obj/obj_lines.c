@@ -1,6 +1,6 @@
 // obj_lines.c: a fast path for the most frequent lines, "v x y z" and "f a b c"; obj_line.c reads all other lines. The
-// file is compiled for several instruction sets (meson.build defines ISA). The results are identical, because numbers
-// whose last bit is uncertain are left to base/number.c.
+// file is compiled for several instruction sets (meson.build defines ISA). The results are identical, because
+// base/number.c parses all numbers whose last bit is uncertain.
 #include "byte_masks.h"
 #include "number_scan.h"
 #include "obj.h"

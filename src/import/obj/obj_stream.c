@@ -4,8 +4,8 @@
 // previous chunks are counted, the thread knows the indices of its elements and copies the elements to the final
 // arrays. The text is thus read once, and the file is never in memory as a whole. The final arrays reserve the address
 // space that a file of this size could fill; untouched pages are released. obj.c reads all other files: with vertex
-// colours, relative indices, lines, points, corners both with and without normals, or text lines longer than TAIL. It
-// also reads files with errors, and files with warnings that name a line.
+// colours, relative indices, lines, points, corners both with and without normals, or text lines longer than TAIL.
+// obj.c also reads files with errors, and files with warnings that name a line.
 #include "loop_status.h"
 #include "obj.h"
 #include "origin.h"
@@ -38,8 +38,8 @@ struct chunk_scratch {
     uint8_t *text;
     void *arrays[ARRAYS];
     struct obj_statement statements[STATEMENTS];
-    bool texcoords, normals; // whether faces use texture coordinates, and normals
-    uint32_t index_max[3];   // largest index in the faces: of a position, a texture coordinate and a normal
+    bool texcoords, normals; // whether faces use texture coordinates, and whether they use normals
+    uint32_t index_max[3];   // the largest indices in the faces: of positions, texture coordinates and normals
 };
 
 struct stream_statement {
@@ -58,7 +58,7 @@ struct stream {
     size_t next_chunk; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
     struct obj_counts total;
     size_t charged;
-    int layout; // 1 + texture coordinates + 2 · normals in the faces; 0 means no face so far
+    int layout; // 1, plus 1 if faces have texture coordinates, plus 2 if they have normals; 0: no face so far
     float low[3], high[3];
     struct stream_statement *statements;
     uint8_t *texts; // the texts of the statements, concatenated
@@ -320,7 +320,7 @@ static bool reserve_arrays(struct stream *stream)
     return true;
 }
 
-// Returns whether all indices of the faces exist, and the counts are in range.
+// Returns whether all indices in the faces refer to existing elements, and whether the counts are in range.
 static bool indices_valid(const struct stream *stream)
 {
     const struct obj_counts *total = &stream->total;

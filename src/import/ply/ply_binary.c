@@ -51,7 +51,7 @@ static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_er
     uint32_t *items = reader->items + 3 * first, limit = reader->request->item_limit;
     bool swapped = reader->table->swapped;
 
-    // The case of a one-byte count and three 32-bit items is branch-free. Read as unsigned numbers, negative items
+    // The case of a one-byte count and three 32-bit items is branch-free. Negative items, read as unsigned numbers,
     // exceed the limit too.
     if (count_size == 1 && ply_type_size(list->type) == 4 && !swapped) {
         uint32_t other = 0, wrong = 0;

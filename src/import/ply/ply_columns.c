@@ -86,7 +86,7 @@ static void clean_vector(enum kind kind, float *v)
             v[c] = v[c] >= 0.0f ? (v[c] <= FLT_MAX ? v[c] : FLT_MAX) : 0.0f; // NaN becomes 0
             if (c == 3)
                 v[c] = v[c] < 1.0f ? v[c] : 1.0f;
-            // the sRGB curve is not defined above 1, so such a value is used as linear
+            // the sRGB curve is not defined above 1, so larger values are treated as linear
             else if (kind == COLORS && v[c] <= 1.0f)
                 v[c] = (float)srgb_linear((double)v[c]);
         }

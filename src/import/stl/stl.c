@@ -16,13 +16,13 @@ static uint32_t declared_facets(const uint8_t *bytes)
 
 enum { SAMPLE = 1024 }; // number of bytes that are inspected
 
-// Text contains no zero byte. A binary STL with fewer than 16 million facets contains one, because the high byte of its
-// number of facets is zero.
+// Text contains no zero byte. A binary STL with fewer than 16 million facets contains a zero byte, because the high
+// byte of its number of facets is zero.
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
 // ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone is
-// not enough: many binary files begin with it too. A file with a zero byte is treated as text if the byte is between
-// the words of a facet; the text reader then reports the byte.
+// not enough, because many binary files also begin with this word. A file with a zero byte is treated as text if the
+// byte is between the words of a facet; the text reader then reports the byte.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {
     const uint8_t *end = bytes + (size < SAMPLE ? size : SAMPLE), *at = bytes;

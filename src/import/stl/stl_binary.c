@@ -84,9 +84,9 @@ static bool color_chunk(void *user, size_t index, const uint8_t *facet, lam_erro
 }
 
 // Returns whether facets have colours, and sets dialect and fallback. If the header contains "COLOR=", the attribute
-// words are colours. If all of them are zero, the header's colour applies to the whole file instead (*uniform). Without
-// "COLOR=", the words are colours if bit 15 is set in some of them, and the others are zero or all equal (a default
-// value).
+// words are colours. If all attribute words are zero, the header's colour applies to the whole file instead (*uniform).
+// Without "COLOR=", the words are colours if bit 15 is set in some of them, and the others are zero or all equal (a
+// default value).
 static bool colors_of(struct stl_binary_reader *reader, const struct stl_words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";

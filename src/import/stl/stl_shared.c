@@ -1,8 +1,9 @@
 // stl_shared.c: reads the positions of a large binary STL as vertices that several facets share.
 //
-// A binary STL stores three corners for each facet. Programs store neighbouring facets soon after one another, so a
-// small table of recent vertices finds nearly all corners that are at one position. The mesh then needs half of the
-// memory, and later steps process each vertex once. Facet normals need no shared vertices, and are faster without them.
+// A binary STL stores three corners for each facet. Programs store neighbouring facets close to one another in the
+// file, so a small table of recent vertices finds nearly all corners at the same position. The mesh then needs half the
+// memory, and later steps process each vertex once. If the caller requests facet normals, vertices are not shared,
+// because later steps are then faster.
 //
 // The facets are divided into windows, and vertices are shared only within a window. One thread reads the chunks of a
 // window in order. Once the vertices of the previous window are counted, the thread knows the numbers of its vertices
@@ -22,7 +23,8 @@ enum {
     TABLE_BITS = 15,      // the table has 2^TABLE_BITS entries: 512 KiB
 };
 
-// The last vertex with a hash. An empty entry contains the bits of NaN, so it differs from every valid position.
+// The most recent vertex with a given hash. An empty entry contains the bits of NaN, so it differs from every valid
+// position.
 struct recent_vertex {
     uint64_t xy; // bits of the position
     uint32_t z, vertex;
@@ -35,7 +37,7 @@ struct share_worker {
     uint8_t *rows;            // the facets of a chunk, if the file is read in parts
 };
 
-// The loop over all windows.
+// The state of the loop over all windows.
 struct sharing {
     const struct import_source *source;
     struct loop_status loop;
@@ -50,12 +52,12 @@ struct sharing {
     pthread_mutex_t mutex;                       // protects the members below
     pthread_cond_t counted;
     size_t next_window; // the next window to count
-    uint32_t vertices;  // number of vertices in the windows before it
+    uint32_t vertices;  // number of vertices in the windows before next_window
 };
 
 // Finds the vertices of some facets. `count` is the number of vertices so far. Returns the new number. The processor
 // cannot predict whether a position occurred before, so there is no branch. No address that is read depends on an
-// earlier comparison, so that the processor need not wait for it.
+// earlier comparison, so the processor does not wait for the comparison.
 static uint32_t share_facets(const struct share_worker *worker, const uint8_t *facet, size_t facets, uint32_t count,
                              uint32_t *restrict indices, struct stl_words *words)
 {
@@ -114,7 +116,8 @@ static void start_window(struct share_worker *worker)
     memset(worker->table, 0xff, sizeof *worker->table << TABLE_BITS);
 }
 
-// Waits until the previous window is counted, and counts this window. Returns the number of vertices before it.
+// Waits until the previous window is counted, and counts this window. Returns the number of vertices before this
+// window.
 static uint32_t count_window(struct sharing *s, size_t index, uint32_t count)
 {
     pthread_mutex_lock(&s->mutex);

@@ -1,7 +1,7 @@
 // threemf.h: internals of the 3MF importer.
 //
 // A 3MF file is a ZIP archive with model parts in XML. threemf_package.c opens the archive (libzip), and threemf_xml.c
-// parses a part (expat). threemf_model.c reads its elements, with threemf_properties.c, threemf_layers.c and
+// parses a part (expat). threemf_model.c reads the part's elements, with threemf_properties.c, threemf_layers.c and
 // threemf_display.c. threemf_mesh.c converts the part's objects to meshes, and threemf_build.c places the objects
 // according to the build items and their components.
 #ifndef THREEMF_H

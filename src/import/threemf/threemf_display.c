@@ -88,12 +88,12 @@ void display_finish(struct model_reader *reader)
     lam_material *materials = reader->file->scene->materials.items;
     for (size_t i = 0; i < reader->wishes.count; i++) {
         const struct threemf_resource *group = threemf_resource_at(reader->part, (int32_t)wishes[i].id);
-        // Display properties that are translucent or use textures are not drawn.
+        // Display properties that are translucent or use textures are ignored.
         if (group && group->kind == RESOURCE_DISPLAY && wishes[i].index < group->count)
             apply((const struct display *)reader->displays.items + group->first + wishes[i].index,
                   &materials[wishes[i].material]);
     }
-    // Mixed layers over a base material use the surface of that material.
+    // Mixed layers over a base material use the surface properties of that material.
     for (size_t i = 0; i < reader->part->resources.count && reader->wishes.count; i++) {
         const struct threemf_resource *group = model_resource(reader->part, (int32_t)i);
         if (group->kind != RESOURCE_MULTI || !group->layers || group->layers->base < 0 || group->faulty)

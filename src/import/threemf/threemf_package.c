@@ -11,7 +11,7 @@
 #include <string.h>
 #include <zip.h>
 
-// The libraries of Debian 12 and of Debian 13; the functions used here are the same in both.
+// The library's names in Debian 12 and in Debian 13. The functions used here are the same in both.
 #define LIBRARY       "libzip.so.4"
 #define NEWER_LIBRARY "libzip.so.5"
 
@@ -160,7 +160,7 @@ static bool fail_part(struct threemf *file, const char *name, const char *why)
 }
 
 // Returns the index of a part. Programs differ in the case of names, so a short list of entries is also searched
-// without regard to case. A long list is searched only by the hash of the exact name.
+// case-insensitively. A long list is searched only by the hash of the exact name.
 static zip_int64_t locate(const struct zip_library *zip, const char *name)
 {
     enum { FEW = 1000 };

@@ -8,7 +8,7 @@
 #include <lambent/light.h>
 #include <lambent/material.h>
 
-// When shaders read a field of a material.
+// The condition under which shaders read a field of a material.
 enum field_reader {
     FIELD_ALWAYS,
     FIELD_LIT,         // read for every lit surface
@@ -22,8 +22,8 @@ enum field_reader {
 
 struct material_field {
     lam_field field; // must be the first member
-    // Name and comment in shaders whose uniforms are products of materials and lights. NULL means that both are the
-    // same as in other shaders; "" means that the field occurs only in the products.
+    // The field's name and comment in shaders whose uniforms are products of materials and lights. NULL means that both
+    // are the same as in other shaders; "" means that the field occurs only in the products.
     const char *product, *product_summary;
     enum field_reader reader;
     bool optional; // a scene file omits the field if it is 0, the default
@@ -57,7 +57,7 @@ bool field_fits(const lam_field *field, const void *object, struct field_fault *
 bool field_equal(const lam_field *field, const void *a, const void *b);
 // Returns whether the bytes of the field are 0, which is the default of a flag.
 bool field_is_zero(const lam_field *field, const void *object);
-// whether the field has its default, compared as floats
+// Returns whether the field has its default value. Numbers are compared as floats.
 bool field_is_standard(const lam_field *field, const void *object);
 // These functions set a field to its default, or to any numbers, with angles in degrees.
 void field_set_standard(const lam_field *field, void *object);

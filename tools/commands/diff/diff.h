@@ -1,4 +1,4 @@
-// diff.h: the kinds of `lambent diff`, and the state of a comparison of models.
+// diff.h: the two kinds of comparison in `lambent diff`, and the state of a comparison of models.
 #ifndef DIFF_H
 #define DIFF_H
 
@@ -28,7 +28,7 @@ struct model_diff {
     const struct options *options;
     const char *old, *new;        // as typed
     const char *page;             // the path of the page, or NULL; "-" is standard output
-    struct batch_plan olds, news; // the models of both sides, which own the paths
+    struct batch_plan olds, news; // the models of both sides; these plans own the paths
     struct batch_plan plan;       // one model for each pair
     struct model_pair *pairs;     // for each model of the plan
     bool folders;                 // compares two folders, not two models

@@ -20,7 +20,8 @@
 #include "sandbox_start.h"
 #include "terminal.h"
 
-// Reads digits up to the character `end`. Returns the text after it, or NULL if there are no digits or too many.
+// Reads digits up to the character `end`. Returns the text after `end`, or NULL if there are no digits or too many
+// digits.
 static const char *read_pixel_number(const char *text, char end, int *value)
 {
     const char *start = text;

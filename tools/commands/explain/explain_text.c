@@ -346,7 +346,7 @@ static void print_color(const lam_explanation *e, const lam_field *field, const 
         row_three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
 }
 
-// Prints the shininess, and other numbers that differ from their defaults.
+// Prints the shininess, and other values that differ from their defaults.
 static void print_number(const lam_explained_fragment *f, const lam_field *field, const lam_material *m)
 {
     double numbers[4];

@@ -169,7 +169,7 @@ struct result {
     size_t counts[STATE_COUNT];
 };
 
-// Prints the names of the models in one state, as a JSON list or one per line.
+// Prints the names of the models in one state, as a JSON array or one per line.
 static void tell_state(const struct hash_run *run, json_t *const *records, enum state state, struct json *json,
                        struct result *result)
 {
@@ -224,7 +224,7 @@ static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error 
 
 static bool write_file(struct hash_run *run, json_t *const *records, char *options_text, lam_error *error)
 {
-    struct hash_file out = {.version = (char *)(uintptr_t)lam_version(), // only read
+    struct hash_file out = {.version = (char *)(uintptr_t)lam_version(), // not modified
                             .options = options_text,
                             .entries = calloc(run->plan.count + run->then.count + 1, sizeof *out.entries)};
     bool ok = out.entries || complain(error, LAM_LIMIT, "out of memory");
@@ -273,7 +273,7 @@ static void head_json(struct json *json, const struct hash_run *run, const char 
     json_text(json, "file_options", run->then.options);
 }
 
-// Writes the hashes and the sheet of old and new pictures, whose number of rows it stores.
+// Writes the hashes and the sheet of old and new pictures. Sets *rows to the number of pictures on the sheet.
 static bool write_results(struct hash_run *run, json_t *const *records, char *options_text, int *rows, lam_error *error)
 {
     return (!run->options->hash.update || hash_sheet_write(run, records, rows, error)) &&
@@ -295,7 +295,7 @@ static void say_result(const struct hash_run *run, const struct result *result, 
     }
 }
 
-// Returns whether a model in the hash file failed, which --failures-ok does not allow.
+// Returns whether a model in the hash file failed. --failures-ok does not permit such failures.
 static bool lost_models(const struct hash_run *run, json_t *const *records)
 {
     bool lost = false;

@@ -16,11 +16,11 @@ struct hash_run {
     struct hash_file then;   // the old contents of the file; empty unless `checks`
     struct hash_file now;    // the new contents
     struct batch_plan plan;  // the models
-    char **names;            // the models' names in the file, from malloc
-    bool by_file;            // the file names the models, not the command line
+    char **names;            // the models' names in the file, allocated with malloc
+    bool by_file;            // the hash file, not the command line, names the models
     struct hash_file sorted; // `names`, sorted
     bool *kept;              // for each entry of the file: the model exists but is not in the plan
-    char *sheet;             // the path of the sheet for --update, from malloc
+    char *sheet;             // the path of the sheet for --update, allocated with malloc
     atomic_int *rows;        // the number of pictures kept for the sheet of --update
 };
 
@@ -30,8 +30,8 @@ struct hash_run {
 bool hash_options_take(const struct hash_file *file, const char *path, const struct options *given, struct options *own,
                        char **kept, lam_error *error);
 
-// Returns the options that change the picture as a command line, from malloc; the files that they name become relative
-// to the folder of the hash file (`path`). Returns NULL if memory runs out.
+// Returns the options that change the picture as a command line, allocated with malloc. File names in the options
+// become relative to the folder of the hash file (`path`). Returns NULL if memory runs out.
 char *hash_options_text(const struct options *options, const char *path);
 
 // hash_sheet.c
@@ -52,8 +52,8 @@ void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t reco
 // written.
 bool hash_sheet_write(const struct hash_run *run, json_t *const *records, int *rows, lam_error *error);
 
-// Returns the XXH64 of a picture's pixels: rows from the top, each red, green, blue and alpha. The picture must be
-// LAM_RGBA8 without padding.
+// Returns the XXH64 of a picture's pixels: rows from the top, with red, green, blue and alpha for each pixel. The
+// picture must be LAM_RGBA8 without padding.
 uint64_t hash_of_pixels(const lam_image *image);
 
 #endif

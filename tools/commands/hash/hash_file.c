@@ -41,7 +41,7 @@ void hash_file_sort(struct hash_file *file)
 
 const struct hash_entry *hash_file_find(const struct hash_file *file, const char *name)
 {
-    struct hash_entry key = {(char *)(uintptr_t)name, 0}; // only read
+    struct hash_entry key = {(char *)(uintptr_t)name, 0}; // bsearch does not modify the key
     return file->count ? bsearch(&key, file->entries, file->count, sizeof *file->entries, by_name) : NULL;
 }
 

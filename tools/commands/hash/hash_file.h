@@ -16,12 +16,12 @@
 enum { HASH_FILE_MAX = 64 << 20 }; // bytes
 
 struct hash_entry {
-    char *name; // from malloc
+    char *name; // allocated with malloc
     uint64_t hash;
 };
 
 struct hash_file {
-    char *version, *options;    // from malloc
+    char *version, *options;    // allocated with malloc
     struct hash_entry *entries; // sorted by name
     size_t count;
 };

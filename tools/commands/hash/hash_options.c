@@ -36,8 +36,8 @@ static int split(char *text, char **words)
     return count;
 }
 
-// The picture options that name files: `environment` names one or six files, `look` names one file. Both also accept
-// built-in names.
+// The picture options that name files: `environment` names one or six files, `look` names one file. Both options also
+// accept built-in names.
 static const char *const of_files[] = {"environment", "look"};
 
 // Writes the value of an option in of_files, with each path replaced by the result of `map`. Frees the results.
@@ -92,8 +92,8 @@ char *hash_options_text(const struct options *options, const char *path)
     return text;
 }
 
-// Returns whether the hash file `path` may name the files in the value of an option. Their paths are relative to the
-// current folder.
+// Returns whether the hash file `path` may name the files in the value of an option. The paths in the value are
+// relative to the current folder.
 static bool may_name(const char *path, const char *name, const char *value, const struct options *o, lam_error *error)
 {
     bool environment = strcmp(name, "environment") == 0, ok = true;

@@ -12,10 +12,10 @@
 struct info_texture {
     const lam_texture *texture;  // NULL if no material uses the picture or the picture cannot be read
     const lam_file_image *image; // NULL if the file does not list its pictures
-    unsigned slots;              // bit m: a material uses it as map m (lam_map)
+    unsigned slots;              // bit m is set if a material uses the texture as map m (lam_map)
 };
 struct info_textures {
-    struct info_texture *items; // from malloc
+    struct info_texture *items; // allocated with malloc
     int count;
 };
 bool info_textures_list(const lam_scene *scene, struct info_textures *textures, lam_error *error);
@@ -33,7 +33,7 @@ struct info_name {
     int order; // the position of the name's first use
 };
 struct info_names {
-    struct info_name *items; // from malloc
+    struct info_name *items; // allocated with malloc
     int count;
 };
 bool info_names_list(const lam_scene *scene, struct info_names *names, lam_error *error);
@@ -46,13 +46,13 @@ struct info {
     const struct info_textures *textures;
     const struct info_names *names;
     uint64_t
-        // the memory for drawing a picture of INFO_SIDE² pixels, including the picture; 0 if it cannot be drawn
+        // the memory for drawing a picture of INFO_SIDE² pixels, including the picture; 0 if drawing failed
         drawing_bytes;
     int drawing_threads;
 };
 enum { INFO_SIDE = 1024 };
 
-// Counts of stored data. A mesh counts once even if several objects show it.
+// Counts of stored data. A mesh is counted once, even if several objects use it.
 struct info_counts {
     uint64_t parts, triangles, vertices;
 };
@@ -73,7 +73,7 @@ struct info_measure {
     // True if every edge belongs to the same number of triangles in each direction, so that the surface encloses a
     // volume.
     bool closed;
-    double volume; // only valid if `closed`; overlapping objects count twice
+    double volume; // only valid if `closed`; volume shared by two objects is counted twice
 };
 struct info_measure info_measure(const lam_scene *scene);
 

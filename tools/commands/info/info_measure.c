@@ -37,8 +37,8 @@ static uint64_t position_hash(const lam_mesh *mesh, uint32_t vertex)
     return hash;
 }
 
-// Returns a hash of a directed edge. The hash of the opposite direction is negated. The hashes of a closed surface add
-// up to 0. The hashes of any other surface add up to 0 with a probability of 2⁻⁶⁴.
+// Returns a hash of a directed edge. The edge in the opposite direction has the negated hash. The hashes of a closed
+// surface add up to 0. The hashes of any other surface add up to 0 with a probability of 2⁻⁶⁴.
 static uint64_t edge_hash(uint64_t from, uint64_t to)
 {
     return from < to ? mix(from + mix(to)) : from > to ? 0 - mix(to + mix(from)) : 0;

@@ -1,4 +1,5 @@
-// info_text.c: prints a model as text on one screen. A longer list shows ROWS rows and the number of omitted rows.
+// info_text.c: prints a model as text on one screen. If a list has more than ROWS rows, prints ROWS rows and the number
+// of omitted rows.
 #include "info.h"
 
 #include <inttypes.h>

@@ -16,7 +16,7 @@ struct batch_job {
     struct batch_plan plan; // the plan of one model
     lam_bytes bytes;        // the model's bytes; data is NULL for a file
     bool in_answer;         // the answer contains the pictures' files
-    char *output;           // `options` points to it
+    char *output;           // the job's output name, to which `options` points
     char *options_text;     // the options as text for keys, or NULL
     lam_cancel cancel;      // set to cancel the job
     bool cancelled;         // whether the job was cancelled
@@ -25,7 +25,7 @@ struct batch_job {
 // Settings common to all jobs.
 struct batch_job_rules {
     const struct options *options; // the options of the worker
-    int threads, in_flight;        // threads of a job, and jobs drawn at once
+    int threads, in_flight;        // the number of threads of a job, and of jobs drawn at the same time
     const struct job_roots *roots; // allowed folders for files
     bool has_keys;                 // whether there is a journal
 };

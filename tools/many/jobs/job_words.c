@@ -13,7 +13,8 @@ enum { WORDS_MAX = 1000 };
 
 // --- from JSON to words
 
-// Appends a word from malloc and takes ownership of it; the word is NULL if memory ran out.
+// Appends a word that was allocated with malloc, and takes ownership of the word. Fails if the word is NULL, because
+// memory ran out.
 static bool append(char ***words, int *count, char *argument, lam_error *error)
 {
     char **more = argument && *count < WORDS_MAX ? realloc(*words, ((size_t)*count + 2) * sizeof *more) : NULL;

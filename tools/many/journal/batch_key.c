@@ -70,7 +70,7 @@ static void print_value(FILE *out, const struct option *option, const struct opt
     else if (is_texts(option))
         for (int i = 0; i < ((const struct texts *)field)->count; i++)
             fprintf(out, "%s%s", i ? " | " : "", ((const struct texts *)field)->items[i]);
-    else if (o->values[option - option_table]) // all other options keep their text
+    else if (o->values[option - option_table]) // for all other options, the text of the value is used
         fputs(o->values[option - option_table], out);
 }
 

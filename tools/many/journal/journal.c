@@ -27,7 +27,7 @@ enum { SLOT = 8192 };
 // The latest line of a picture.
 struct entry {
     uint64_t output;  // the hash of the picture's path
-    const char *line; // NULL if free
+    const char *line; // NULL if the entry is free
 };
 
 struct journal {
@@ -35,7 +35,7 @@ struct journal {
     char *folder; // journal_run.folder
     enum journal_way way;
     int file, running;
-    char *text; // contents when the journal was opened, with lines ended by zeros
+    char *text; // the contents when the journal was opened; each line ends with a zero byte
     struct entry *entries;
     size_t capacity; // a power of 2
     size_t count;
@@ -147,7 +147,8 @@ char *journal_read(const char *path, size_t *size)
 // Returns the options of a line that begins a run, or NULL for other lines.
 static const char *options_of(const json_t *line) { return json_string_value(json_object_get(line, "options")); }
 
-// Parses the lines. Ignores a line that is not JSON, because it was truncated, or written after a truncated line.
+// Parses the lines. Ignores a line that is not JSON, because the line was truncated, or was written after a truncated
+// line.
 static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
 {
     json_t *folder = NULL; // the folder in the latest line that names a folder

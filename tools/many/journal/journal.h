@@ -21,11 +21,11 @@ struct journal_run {
     const char *options; // batch_options_text, and the names of the pictures
     const char *folder;  // the common folder of the pictures, with its '/', as in the key `output` of the lines
     const char *shard;   // "2/3"; NULL if there are no shards
-    size_t pictures;     // the pictures of the whole run, including those already written
+    size_t pictures;     // the number of pictures of the whole run, including pictures that are already written
 };
 
-// Opens a journal. `slots` is the maximum number of models drawn at once. Fails with LAM_BAD_ARGUMENT (different
-// options, or in use by another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE or LAM_LIMIT.
+// Opens a journal. `slots` is the maximum number of models drawn at the same time. Fails with LAM_BAD_ARGUMENT
+// (different options, or in use by another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE or LAM_LIMIT.
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
@@ -42,32 +42,32 @@ const char *journal_value(const json_t *record, const char *key);
 // Sets a key of a record to a text (journal_text), or to null for NULL.
 void journal_set_text(json_t *record, const char *key, const char *text);
 
-// Returns a record as a line with its line end, from malloc, or NULL if memory runs out.
+// Returns a record as a line with its line end, allocated with malloc, or NULL if memory runs out.
 char *journal_line(const json_t *record);
 
 // Returns the path of FILE.running, which journal_close removes.
 const char *journal_running_path(const struct journal *journal);
 
-// Records in a slot that a process draws a model. A NULL model frees the slot.
+// Records in a slot which model a process draws. A NULL model frees the slot.
 void journal_begin(struct journal *journal, int slot, int process, const char *model);
 
 // Calls `visit` for each model that a killed run was drawing, with its process and machine.
 void journal_each_running(const struct journal *journal,
                           void (*visit)(void *user, const char *model, int process, const char *host), void *user);
 
-// Reads a whole file into memory from malloc, and appends a zero. Returns NULL and sets errno on failure; errno is 0 if
-// the file does not exist.
+// Reads a whole file into memory allocated with malloc, and appends a zero. Returns NULL and sets errno on failure;
+// errno is 0 if the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
 // Closes the journal. `done` means that the run was completed. FILE.running is removed, also after a failed run, unless
 // the run was interrupted while drawing. NULL is allowed.
 void journal_close(struct journal *journal, bool done, bool interrupted);
 
-// Converts text for JSON, from malloc: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. Returns NULL
-// if memory runs out.
+// Converts text for JSON: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. The result is allocated
+// with malloc. Returns NULL if memory runs out.
 char *journal_text(const char *text);
 
-// Returns the path from which journal_text made `text`, from malloc. Returns NULL if memory runs out.
+// Returns the path from which journal_text made `text`, allocated with malloc. Returns NULL if memory runs out.
 char *journal_path(const char *text);
 
 #endif

@@ -8,7 +8,7 @@
 
 // The state of one journal after its last run.
 struct journal_part {
-    char *path, *build, *options; // from malloc
+    char *path, *build, *options; // allocated with malloc
     struct batch_shard shard;     // all zero if the batch has no shards
     size_t pictures;              // the number of planned pictures
     size_t written, failed;       // numbers of pictures
@@ -33,9 +33,9 @@ struct journal_sum {
     struct journal_entry *entries; // in the order of the journals
     size_t count, capacity;
     size_t written, failed;
-    size_t *slots, slot_count; // a hash table of indices in `entries`, plus 1
-    size_t doubles;            // number of pictures in two journals
-    char *first_double;        // "x.png is in a.jsonl and in b.jsonl", from malloc, or NULL
+    size_t *slots, slot_count; // a hash table; a slot contains an index in `entries` plus 1, or 0
+    size_t doubles;            // number of pictures that are in two journals
+    char *first_double;        // "x.png is in a.jsonl and in b.jsonl", allocated with malloc, or NULL
 };
 
 // Adds a journal. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT (not a journal, or its options or its number of shards

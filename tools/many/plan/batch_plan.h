@@ -6,8 +6,8 @@
 #include "job.h"
 
 struct batch_model {
-    char *path; // from malloc
-    char *root; // {dir} is relative to this folder, from malloc; NULL means the path's own folder
+    char *path; // allocated with malloc
+    char *root; // the folder to which {dir} is relative, allocated with malloc; NULL means the path's own folder
     // The model is a link that was found in a folder and leads to a file that is neither below this folder nor below a
     // folder of --allow-path. The program reports an error instead of drawing this file, because the user did not name
     // it.
@@ -36,19 +36,19 @@ bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root,
 // Removes the last model.
 void batch_plan_drop_last(struct batch_plan *plan);
 
-// Reports that the pictures of models `a` and `b` have the same name. If a and b are equal, says that the model is
-// listed twice. Returns false.
+// Reports that the pictures of models `a` and `b` have the same name. If a and b are equal, the error states that the
+// model is listed twice. Returns false.
 bool batch_same_output(const char *a, const char *b, const char *output, lam_error *error);
 
-// Completes the plan. Rejects equal names of pictures in all shards, and names that cannot be written. Then keeps only
-// the models of this shard. Fails with LAM_BAD_ARGUMENT or LAM_UNSUPPORTED.
+// Completes the plan. Rejects pictures with equal names, even in different shards, and names that cannot be written.
+// Then keeps only the models of this shard. Fails with LAM_BAD_ARGUMENT or LAM_UNSUPPORTED.
 bool batch_plan_check(struct batch_plan *plan, lam_error *error);
 
-// Returns the path of a picture, from malloc. Returns NULL if memory runs out.
+// Returns the path of a picture, allocated with malloc. Returns NULL if memory runs out.
 char *batch_plan_output(const struct batch_plan *plan, size_t model, int view);
 
-// Returns the common folder of all pictures with its '/', allocated with malloc. The current folder is "". Returns NULL
-// if memory runs out.
+// Returns the common folder of all pictures with a final '/', allocated with malloc. The current folder is "". Returns
+// NULL if memory runs out.
 char *batch_plan_folder(const struct batch_plan *plan);
 
 void batch_plan_free(struct batch_plan *plan);

@@ -1,8 +1,8 @@
 // batch_shard.c: selects this process's models if several processes share the work.
 //
 // A model's shard depends only on its name, so shards need no communication, and adding a model does not move other
-// models to another shard. Environment variables are only read with --shard auto, and only if they are unambiguous: a
-// wrong guess would silently skip models.
+// models to another shard. The program reads environment variables only with --shard auto, and accepts only unambiguous
+// variables: a wrong guess would silently skip models.
 #include "batch_shard.h"
 
 #include <dirent.h>
@@ -139,7 +139,7 @@ bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *erro
 
 // --- names
 
-// Returns the path relative to a folder, or the whole path if it is not below the folder.
+// Returns the path relative to a folder, or the whole path if the path is not below the folder.
 static const char *below(const char *path, const char *root)
 {
     size_t length = root ? strlen(root) : 0;

@@ -13,15 +13,15 @@ struct batch_shard {
 // Open MPI. Fails with LAM_BAD_ARGUMENT if there is no such shard, or if the environment does not determine the shard.
 bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *error);
 
-// Returns the name that determines a model's shard, from malloc: its path below `root` or, if `root` is NULL, the whole
-// path, without ".", "..", doubled slashes and a leading slash. Returns NULL if memory runs out.
+// Returns the name that determines a model's shard, allocated with malloc: its path below `root` or, if `root` is NULL,
+// the whole path, without ".", "..", doubled slashes and a leading slash. Returns NULL if memory runs out.
 char *batch_shard_name(const char *path, const char *root);
 
 // Returns the shard of a name, counted from 1: XXH64 of its bytes, modulo `count`, plus 1.
 int batch_shard_of_name(const char *name, int count);
 
-// Returns the path of a shard's own file, from malloc: "lambent-017-of-300.jsonl" for "lambent.jsonl". Returns NULL if
-// memory runs out.
+// Returns the path of a shard's own file, allocated with malloc: "lambent-017-of-300.jsonl" for "lambent.jsonl".
+// Returns NULL if memory runs out.
 char *batch_shard_path(const char *path, const struct batch_shard *shard);
 
 // Returns the number of shards in a file name ("lambent-017-of-300.jsonl"), or 0 if there is none.

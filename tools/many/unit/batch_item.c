@@ -84,11 +84,11 @@ static void name_model(const struct job *job, lam_error *error)
 struct files {
     int count;
     char (*hashes)[XXH64_TEXT];
-    const char **texts; // the texts of the hashes
+    const char **texts; // the hashes as text
     bool changed;       // a file has changed since it was read, so the hashes are not valid
 };
 
-// Returns whether a file may have changed after `start`, a time of the file systems' clock.
+// Returns whether a file may have changed after the time `start` of the file systems' clock.
 static bool changed_since(const char *path, const struct timespec *start)
 {
     struct stat about;
@@ -250,7 +250,7 @@ struct model_run {
     struct timespec start; // the start on the file systems' clock
     struct files files;
     bool hashed;
-    json_t *found; // the data that batch_use.draw adds to the record; NULL if the picture is written
+    json_t *found; // the data that batch_use.draw adds to the record; NULL if the picture is written to a file
 };
 
 // Prints and records the result of a picture.
@@ -330,7 +330,7 @@ static void run_views(struct model_run *r, struct job *job, struct progress *pro
 static void draw(struct model_run *r)
 {
     const struct batch_item *item = r->item;
-    struct options own = *item->options; // several sizes on the command line count as --size
+    struct options own = *item->options; // several sizes on the command line are treated like --size
     own.picture.has_size |= own.batch.size_count > 0;
     struct job job = {.options = item->several ? &own : item->options,
                       .model = item->model,

@@ -17,14 +17,14 @@ struct batch_item {
     const lam_bytes *model_bytes; // the bytes of the model that `model` names; NULL if the model is a file
     const struct job_view *views; // the views of the pictures
     char *const *outputs;         // the paths of the pictures
-    lam_bytes *contents;          // receive the pictures; NULL if they are written to the paths
+    lam_bytes *contents;          // receives the pictures; NULL if the pictures are written to the paths
     const int *attempts;          // the attempt number of each picture, starting at 1
     int view_count;
     bool one_of_many;            // several models are drawn with the same options
     bool several;                // the command line has several views or sizes
     bool makes_folders;          // also create the folders of explicitly named pictures
     const lam_cancel *cancel;    // stops the drawing; if NULL, only Ctrl-C does
-    const struct batch_use *use; // receives the picture; NULL if it is written to a file
+    const struct batch_use *use; // receives the picture; NULL if the picture is written to a file
     size_t index;                // the index of the model in the plan, for `use`
 };
 
@@ -39,7 +39,7 @@ struct batch_artist {
 
 struct batch_outcome {
     enum { BATCH_INTERRUPTED, BATCH_WRITTEN, BATCH_FAILED } kind;
-    const char *class; // the name of its exit code
+    const char *class; // the name of the picture's exit code
 };
 
 struct batch_result {

@@ -13,8 +13,8 @@
 enum picture_outcome {
     PICTURE_OPEN, // not drawn yet
     PICTURE_WRITTEN,
-    PICTURE_SAME,          // --skip-same: unchanged, so it is not drawn again
-    PICTURE_BEFORE,        // --resume: an earlier run has written it
+    PICTURE_SAME,          // --skip-same: the picture is unchanged and is not drawn again
+    PICTURE_BEFORE,        // --resume: an earlier run has written the picture
     PICTURE_FAILED,        // failed, but may be retried
     PICTURE_FAILED_BEFORE, // failed in an earlier run and is not retried
 };
@@ -42,7 +42,7 @@ struct batch {
     bool is_batch;
     char *options_text;          // NULL if there are no keys
     struct batch_jobs *jobs;     // --jobs (batch_jobs.h); NULL if the plan contains all models
-    const struct batch_use *use; // receives the pictures; NULL if they are written
+    const struct batch_use *use; // receives the pictures; NULL if the pictures are written to files
     enum journal_way way;
     struct journal *journal;
     int workers, threads;                   // threads of each worker
@@ -53,7 +53,7 @@ struct batch {
     pthread_cond_t moved;           // `next` is at `read_from`, or a worker is done
     struct batch_picture *pictures; // the pictures of all models in order
     json_t **records;               // the records of all pictures, in the same order; NULL if not needed
-    bool *taken;                    // for each model, whether this pass has given it to a worker
+    bool *taken;                    // for each model, whether a worker has taken the model in this pass
     size_t next;                    // the next model that this pass considers
     size_t read_from;               // the position of the thread that reads ahead
     int drawing;                    // the number of busy workers

@@ -42,8 +42,8 @@ struct batch_text {
     bool ready;
 };
 
-// The messages of all models. They are printed in the order of the models, regardless of the order in which models
-// finish.
+// The messages of all models. The messages are printed in the order of the models, regardless of the order in which
+// models finish.
 struct batch_texts {
     struct batch_text *list;
     size_t count, next;

@@ -87,7 +87,7 @@ static char *path_now(const char *recorded, const char *recorded_model, const ch
     return now;
 }
 
-// Returns whether the model's files and the options still result in the key of the record.
+// Returns whether the key in the record still matches the model's files and the options.
 static bool has_same_key(const json_t *record, const struct batch_unit *u, int view)
 {
     const json_t *files = json_object_get(record, "files"), *file;

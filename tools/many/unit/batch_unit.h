@@ -14,12 +14,12 @@ struct batch_unit {
     const char **classes;           // for failed pictures, the static name of the exit code
     json_t **records;               // new records for the journal, or old records for the page (see is_new)
     bool *is_new;
-    char *out, *err; // the messages; NULL if they were printed directly
+    char *out, *err; // the messages; NULL if the messages were printed directly
     int code, warnings;
     bool interrupted;
 };
 
-// Makes a unit for a task and the states of its pictures. Fails with LAM_LIMIT.
+// Makes a unit for a task, with the states of the task's pictures. Fails with LAM_LIMIT.
 bool batch_unit_start(struct batch_unit *unit, const struct batch *batch, const struct batch_task *task,
                       lam_error *error);
 void batch_unit_free(struct batch_unit *unit);
@@ -28,8 +28,8 @@ void batch_unit_free(struct batch_unit *unit);
 // to be drawn. Any thread may call it.
 bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 
-// Draws the open pictures. `cancel` stops the drawing; if it is NULL, Ctrl-C does. With `capture`, messages are stored.
-// Otherwise they are printed immediately, and a terminal shows a progress bar.
+// Draws the open pictures. `cancel` stops the drawing. If `cancel` is NULL, Ctrl-C stops the drawing. With `capture`,
+// messages are stored. Otherwise messages are printed immediately, and a terminal shows a progress bar.
 void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const struct options *options,
                      lam_device *device, const lam_cancel *cancel, bool capture);
 

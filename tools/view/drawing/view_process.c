@@ -14,7 +14,7 @@
 
 enum {
     CANCEL_MS = 2000,
-    FILES_MAX = 4096, // above all handles of the server, whose connections are limited
+    FILES_MAX = 4096, // larger than any file handle of the server, which limits its connections
 };
 static const uint64_t data_max = (uint64_t)1 << 33; // the maximum size of an answer
 

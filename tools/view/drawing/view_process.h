@@ -28,8 +28,8 @@ void view_process_cancel(struct view_process *process);
 // Returns 0 if the answer is incomplete, and −1 if the process has ended or sent an invalid answer.
 int view_process_receive(struct view_process *process, struct view_reply *reply);
 
-// Returns the notes and the data of a complete answer. The caller owns the memory, which is from malloc. The process
-// can then handle the next request.
+// Returns the notes and the data of a complete answer. The caller owns the memory, which is allocated with malloc. The
+// process can then handle the next request.
 char *view_process_take(struct view_process *process);
 
 // Kills the process and waits for its end.

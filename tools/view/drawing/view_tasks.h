@@ -10,14 +10,15 @@ enum { VIEW_PROCESSES_MAX = 64 };
 // The result of a task.
 struct view_result {
     int status;  // the HTTP status
-    char *bytes; // the reply with its notes and data, from malloc; may be NULL
+    char *bytes; // the reply with its notes and data, allocated with malloc; may be NULL
     size_t notes_at, notes, data;
 };
 
 struct view_task {
     struct view_request request;
-    char *words;  // from malloc
-    char *client; // the requesting page, whose newer request cancels an older one, from malloc; NULL for a thumbnail
+    char *words;  // allocated with malloc
+    char *client; // identifies the page, whose newer request cancels an older one; allocated with malloc; NULL for a
+                  // thumbnail
     void *user;   // NULL if nobody waits for the result any more
     bool running;
     bool superseded; // replaced by a newer task

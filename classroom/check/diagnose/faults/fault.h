@@ -1,4 +1,4 @@
-// fault.h: the known mistakes. Each is a fault: a set of switches of the fault shader.
+// fault.h: the known mistakes. Each mistake is a fault: a set of switches of the fault shader.
 //
 // The fault shader (fault_light.glsl) computes the lighting correctly or with faults switched on. The fault shader does
 // not use the library's own equations, which contain no such switches.
@@ -85,8 +85,8 @@ enum fault_where {
                              // vertices are lit
     WHERE_CLASSIC = 2048,    // highlights with an exponent
     WHERE_PHYSICAL = 4096,   // metalness and roughness
-    WHERE_SCHLICK = 8192,    // the contract's masking is Schlick's
-    WHERE_SMITH = 16384,     // the contract's masking is Smith's
+    WHERE_SCHLICK = 8192,    // the contract uses Schlick's masking
+    WHERE_SMITH = 16384,     // the contract uses Smith's masking
     WHERE_SHARED = 32768,    // the contract's diffuse part is reduced by the Fresnel factor
     WHERE_TONED = 65536,     // the contract's shaders have a tone curve
     WHERE_UNTONED = 131072,  // the contract's shaders have no tone curve
@@ -101,7 +101,7 @@ enum fault_where {
 enum fault_maps {
     MAPS_BASE = 1,                // the shader reads a map of the base colour
     MAPS_METALLIC_ROUGHNESS = 2,  // a map of roughness and metalness
-    MAPS_DATA = 4,                // a map of both, or a map of only metalness or roughness
+    MAPS_DATA = 4,                // one map of metalness and roughness, or a map of only one of them
     MAPS_NORMAL = 8,              // a normal map
     MAPS_OCCLUSION = 16,          // an occlusion map, which multiplies an ambient term
     MAPS_EMISSION = 32,           // an emission map
@@ -132,7 +132,7 @@ struct fault {
     uint8_t bits[MAX_FAULT_BITS]; // values of fault_bit, ends with BIT_NONE
     unsigned where;               // bits of fault_where
     unsigned needs;               // a reference_need that one of the scenes in use must have
-    const char *explanation;      // `needs` is a reference_need that one of the scenes in use must have
+    const char *explanation;      // a clause for the report, expanded like the correction
     const char *correction;       // one line; {place} is replaced by the shader's own name (fault_text)
     unsigned maps;                // bits of fault_maps
     float factor;                 // the factor of the exponent, or 0
@@ -147,7 +147,7 @@ struct fault {
 extern const struct fault faults[];
 extern const int fault_count;
 
-// Returns the set with one more fault of the table.
+// Returns the set after adding a fault of the table.
 fault_set fault_set_add(const fault_set *set, const struct fault *fault);
 
 // Returns whether the fault can occur in these shaders.

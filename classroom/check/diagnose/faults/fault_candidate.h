@@ -4,8 +4,7 @@
 
 #include "fault_measure.h"
 
-// A scene, or all scenes together, count as explained if at most this fraction of the difference without faults
-// remains.
+// A scene, or the set of all scenes, is explained if at most this fraction of the difference without faults remains.
 static const double max_ratio_explained = 0.125;
 // Used as the limit of a mean difference if there is no limit.
 static const double no_limit = 1e9;
@@ -25,9 +24,9 @@ struct candidate {
 // The effect of a single fault.
 struct outcome {
     struct found_fault fault;
-    double mean, score;       // same as in a candidate
-    double parts[MAX_SCENES]; // the same, for the scenes that differ
-    int order[MAX_SCENES];    // the scenes: differing ones first, starting with the most affected ones
+    double mean, score;       // as in struct candidate
+    double parts[MAX_SCENES]; // the contribution of each differing scene to the score
+    int order[MAX_SCENES];    // scene indices: differing scenes first, the most affected scene at the beginning
     int changed_count;        // number of differing scenes that the fault changes
     uint32_t explained;       // the differing scenes that the fault explains
     uint32_t exactly;         // number of scenes explained up to rounding
@@ -42,16 +41,16 @@ struct state {
     struct fault_search *s;
     struct fault_measure m;
     struct outcome *outcomes; // one for each row of the table
-    // The difference of each scene without faults, in the measured pixels. Only few pixels are measured. In a scene
-    // that passes, more of them than the tolerance allows may therefore differ.
+    // The difference of each scene without faults, in the measured pixels. Only a few pixels are measured. Even in a
+    // scene that passes, more of these pixels may therefore differ than the tolerance allows.
     struct difference without[MAX_SCENES];
 };
 
 // Returns whether the search has reached its limit of pictures.
 bool search_is_spent(struct state *t);
 
-// Returns the contribution of one scene to a candidate's score. A scene that gets worse counts as unchanged, because
-// one of several faults may spoil the scene if it is applied alone.
+// Returns the contribution of one scene to a candidate's score. A scene that gets worse is treated as unchanged,
+// because one of several faults may spoil the scene if it is applied alone.
 double candidate_score_of(const struct state *t, int index, const struct difference *d);
 
 // Measures a candidate in all scenes. Stops when the mean exceeds its limit.
@@ -76,8 +75,9 @@ bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error);
 // Returns the result of a row of the table.
 struct outcome *outcome_of(const struct state *t, const struct fault *row);
 
-// Combines faults that each explain different scenes, starting with the faults that explain most. With `all`, the
-// faults must explain every picture. Otherwise faults are added as long as they explain further scenes and spoil none.
+// Combines faults that each explain different scenes, starting with the faults that explain the most scenes. With
+// `all`, the faults must explain every picture. Otherwise faults are added as long as they explain further scenes and
+// spoil none.
 bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error);
 
 // Runs the beam search for sets of two, three and four faults.

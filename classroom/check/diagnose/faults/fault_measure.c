@@ -30,7 +30,7 @@ static void reduce_scene(const struct fault_measure *t, const struct scene_compa
     }
 }
 
-// Orders scenes: differing ones first, by descending difference.
+// Orders scenes: differing scenes first, by descending difference.
 static void order_scenes(struct fault_measure *t)
 {
     const struct scene_comparison *scenes = t->scenes;
@@ -51,9 +51,9 @@ static void order_scenes(struct fault_measure *t)
 
 bool fault_measure_open(struct fault_measure *t, struct fault_search *s, lam_error *error)
 {
-    // In large pictures, every second or third pixel of every second or third row is enough: 35² to 48² of them. This
-    // does not apply if a GPU may round corners to 1/16 of a pixel, because in a smaller picture that is a larger
-    // error.
+    // In large pictures, every second or third pixel of every second or third row is enough: 35² to 48² of them. If a
+    // GPU may round corners to 1/16 of a pixel, all pixels are measured, because this error is larger in a smaller
+    // picture.
     int stride = s->size >= 96 ? (s->size + 20) / 43 : s->size >= 70 ? 2 : 1;
     *t = (struct fault_measure){.s = s, .stride = s->painter->es_only ? 1 : stride};
     t->size = fault_shader_size(s->size, t->stride);

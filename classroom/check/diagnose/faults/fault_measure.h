@@ -10,7 +10,7 @@ struct fault_measure {
     int stride, size;                // the stride and size of the fault shader's pictures
     struct fault_shader *shader;     // opened on first use
     float *pixels, *samples, *memory;
-    int order[MAX_SCENES]; // the scenes to use: differing ones first, by descending difference
+    int order[MAX_SCENES]; // indices of the scenes to use: differing scenes first, by descending difference
     int scene_count, differ_count;
     uint64_t pictures; // the number of pictures measured so far
 };

@@ -13,7 +13,7 @@
 
 const float PI = 3.14159265358979;
 
-// The cosines of a point, clamped. `cosine` is the n.l that the sum over the lights uses; a fault may leave it
+// The clamped cosines at a point. `cosine` is the n.l that the sum over the lights uses; a fault may leave it
 // unclamped.
 struct Angles { float nl, nv, nh, vh, cosine; };
 

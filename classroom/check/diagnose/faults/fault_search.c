@@ -6,8 +6,8 @@
 // reports the faults that explain some pictures and spoil none.
 //
 // Nearly all of the time is spent drawing, so hopeless sets are abandoned after few pictures: an added fault must
-// improve the first scenes that it changes (is_idle). The search stops when it reaches its limit of pictures. Cached
-// pictures count too, so that the result does not depend on the cache.
+// improve the first scenes that it changes (is_idle). The search stops when it reaches its limit of pictures. The limit
+// includes cached pictures, so that the result does not depend on the cache.
 #include "fault_candidate.h"
 
 #include <stdlib.h>
@@ -123,8 +123,8 @@ static bool complete_each(struct state *t, lam_error *error)
     return true;
 }
 
-// Tries the sets of accepted forms that a contract may forbid. It tries them before any mistake, because these forms
-// often occur together.
+// Tries the sets of accepted forms that a contract may forbid. The search tries these sets before any mistake, because
+// accepted forms often occur together.
 static bool try_forms(struct state *t, struct candidate *best, lam_error *error)
 {
     struct found_fault forms[MAX_FOUND_FAULTS];

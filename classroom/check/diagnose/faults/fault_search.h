@@ -12,7 +12,7 @@ enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32, MAX_ALSO = 3 };
 struct found_fault {
     const struct fault *row;
     float exponent;                     // fitted factor of the exponent, or fitted constant; 0 if nothing was fitted
-    double after;                       // mean difference over all scenes with this fault and the previous ones
+    double after;                       // mean difference over all scenes with this fault and all previous faults
     const struct fault *also[MAX_ALSO]; // faults that draw the same pictures
     int also_count;
 };

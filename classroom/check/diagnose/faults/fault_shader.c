@@ -28,7 +28,7 @@ struct specialization {
 
 struct program {
     struct specialization made_for;
-    lam_check_program *built; // from malloc
+    lam_check_program *built; // allocated with malloc
 };
 enum { MAX_PROGRAMS = 32 };
 
@@ -60,8 +60,8 @@ static enum switch_group group_of(int bit)
     return bit <= BIT_MEAN_DISTANCE ? GROUP_VECTORS : bit <= BIT_USE_ACES ? GROUP_OUTPUT : GROUP_TERMS;
 }
 
-// Returns whether a switch can be on in a program. This depends on whether the program is for shaders with an exponent,
-// or with metalness and roughness.
+// Returns whether a switch can be on in a program. The possible switches differ between programs for shaders with an
+// exponent, and programs for shaders with metalness and roughness.
 static bool is_possible(const struct specialization *made_for, int bit)
 {
     if (!made_for->groups[group_of(bit)])
@@ -108,7 +108,7 @@ static size_t write_constants(const struct specialization *s, bool es, char *out
     return at;
 }
 
-// Returns the text of a stage, from malloc.
+// Returns the source of a stage, allocated with malloc.
 static char *write_text(const struct specialization *made_for, bool es, bool fragment, lam_error *error)
 {
     const char *body = fragment ? text_fault_fragment_glsl : text_fault_vertex_glsl;
@@ -177,8 +177,8 @@ static lam_check_program *make_program(struct fault_shader *m, const struct spec
     return NULL;
 }
 
-// Makes the program for these constants current. If there are more than MAX_PROGRAMS, the least recently used one is
-// freed.
+// Makes the program for these constants current. If there are more than MAX_PROGRAMS, the least recently used program
+// is freed.
 static bool build(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
 {
     int at = 0;

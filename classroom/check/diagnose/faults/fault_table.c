@@ -14,7 +14,7 @@ enum {
 };
 
 #define BITS(...) {__VA_ARGS__}
-// The last arguments are the correction, and members by name.
+// The last arguments are the correction, then other members as designated initializers.
 #define ROW(id, bits, where, needs, explanation, ...) {id, bits, where, needs, explanation, .correction = __VA_ARGS__}
 
 const struct fault faults[] = {

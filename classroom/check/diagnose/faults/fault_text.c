@@ -154,7 +154,8 @@ static void put_shininess(struct line *line)
         put(line, "%.1f", r->defaults.shininess.given ? (double)r->defaults.shininess.value : 64.0);
 }
 
-// Returns the declared name of a material's colour: the course's name for this term, or else the colour of the surface.
+// Returns the declared name of a material's colour: the name for this term or, if it is not declared, the name for the
+// colour of the surface.
 static const char *term_name(const struct line *line, enum uniform_semantic semantic)
 {
     const struct shader_interface *r = line->interface;
@@ -166,7 +167,7 @@ static const char *term_name(const struct line *line, enum uniform_semantic sema
     return name && !declared && colored ? color : name;
 }
 
-// Returns a map of metalness or roughness: one map for both, or a separate one.
+// Returns a map of metalness or roughness: one map for both, or a separate map.
 static const char *data_map(const struct line *line, enum uniform_semantic alone)
 {
     const char *name =

@@ -31,8 +31,8 @@ static inline uint32_t position_of_corner(const struct position_search *s, uint3
     return corner == NONE ? NONE : 3 * triangles_before(s, corner / 3) + corner % 3;
 }
 
-// Of at most BATCH corners, starting with `first`, lists those whose positions are in the table. Positions that were
-// looked up recently are found in the cache.
+// Looks up at most BATCH corners, starting with `first`, and lists the corners whose positions are in the table.
+// Positions that were looked up recently are found in the cache.
 static uint32_t look_up(const struct position_search *s, uint32_t first, uint32_t count, struct cached_position *cache,
                         uint32_t corners[BATCH], uint32_t positions[BATCH], size_t *probes)
 {

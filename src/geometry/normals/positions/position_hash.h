@@ -39,7 +39,7 @@ static inline uint32_t position_hash_part(const struct position_hash *table, uin
     return (uint32_t)((uint64_t)hash << table->part_bits >> 32);
 }
 
-// Returns the line at which the search for a hash starts.
+// Returns the cache line at which the search for a hash starts.
 static inline size_t position_hash_start(const struct position_hash *table, uint32_t hash)
 {
     return (size_t)(hash * ((uint64_t)table->part_lines << table->part_bits) >> 32);
@@ -54,7 +54,7 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
 }
 
 // Returns the vertex that represents a position, or NONE if the position is not in the table. Adds the number of probes
-// after the first line to *probes.
+// after the first cache line to *probes.
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
 // Fills one section of the table with the entries of its bin in each thread's list, then empties these bins. With

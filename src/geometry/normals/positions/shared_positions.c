@@ -197,7 +197,8 @@ static void clear_caches(struct position_search *s)
         memset(s->caches[i], 0xff, (s->caches_mask + (size_t)1) * sizeof **s->caches);
 }
 
-// Starts the caches. In meshes without indices, the same positions occur several times, usually soon after one another.
+// Initialises the caches. In meshes without indices, the same positions occur several times, usually soon after one
+// another.
 static bool start_caches(struct position_search *s)
 {
     size_t threads = (size_t)pool_threads(s->pool), capacity = 64;
@@ -251,8 +252,8 @@ static bool fill_table(struct position_search *s)
 
 // --- the other vertices of indexed meshes
 
-// In some words of the set, looks up the few vertices that are not wanted but pass the filter. Returns the number of
-// probes.
+// In words [word, end) of the set, looks up the few vertices that are not wanted but pass the filter. Returns the
+// number of probes.
 static size_t place_some(const struct position_search *s, size_t word, size_t end)
 {
     uint32_t looked_up[WORD * TOGETHER], hash[WORD * TOGETHER], lookups = 0;

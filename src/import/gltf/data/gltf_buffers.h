@@ -6,7 +6,7 @@
 
 bool gltf_buffers_start(struct gltf *gltf);
 
-// Returns the bufferView with a checked index (gltf_take_index), after reading its buffer. Returns NULL on error.
+// Returns the bufferView with this index, which gltf_take_index has checked. Reads its buffer. Returns NULL on error.
 const struct gltf_view *gltf_view_at(struct gltf *gltf, int index);
 
 // Gets a range of bytes of a buffer, and reads the buffer on first use. Returns false if the range is outside the

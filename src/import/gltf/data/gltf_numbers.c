@@ -356,7 +356,7 @@ bool gltf_colors(struct gltf *gltf, const struct place *place, struct gltf_acces
         out->items = a->colors[opaque] = a->data;
         return true;
     }
-    // Floats of four channels are clamped in place.
+    // Colours of four floats are clamped in place.
     coloring.out = bytes || opaque ? arena_array(&gltf->scene->arena, a->count, bytes ? 4 : 4 * sizeof(float))
                                    : (float *)(uintptr_t)coloring.floats;
     if (!coloring.out)

@@ -182,7 +182,7 @@ const draco_functions functions = {DRACO_MODULE_VERSION, decode, attribute, tria
 } // namespace
 
 // These operators serve this shared object and Draco's library, which it loaded. They use malloc and free, so that
-// another operator delete may free blocks from this operator new, and the reverse.
+// another operator delete may free blocks from this operator new, and vice versa.
 void *operator new(std::size_t size)
 {
     void *block = take(size);

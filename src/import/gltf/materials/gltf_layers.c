@@ -25,7 +25,7 @@ static bool take_numbers(struct gltf *gltf, const struct place *place, const jso
         for (int k = 0; k < khr_numbers[i].count; k++)
             member[k] = (float)values[k];
     }
-    // Removes whole turns, which do not change a direction.
+    // Removes full rotations, which do not change the direction.
     double turn = 2 * math_radians(180), angle = (double)material->anisotropy_rotation_rad;
     material->anisotropy_rotation_rad = (float)(angle - turn * (double)(int64_t)(angle / turn));
     return true;

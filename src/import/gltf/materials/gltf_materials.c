@@ -11,7 +11,7 @@
 
 #define FACTOR_MAX 1e30 // for factors without an upper bound in the standard
 
-// The numbers of a material in the file, with the defaults of the specification.
+// The values of a material in the file, with the defaults of the specification.
 struct factors {
     double base[4];               // colour and alpha
     double metallic, roughness;   // 0…1
@@ -157,7 +157,7 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
 }
 
 // Finds the index of the requested variant; −1 if the caller requests no variant. Returns false if the file does not
-// contain it.
+// contain this variant.
 static bool find_variant(struct gltf *gltf)
 {
     const char *wanted = gltf->source->params->variant;
@@ -209,7 +209,7 @@ static bool take_variant(struct gltf *gltf, const struct place *place, const jso
     return ok;
 }
 
-// Returns the material for primitives without a material: the defaults of the specification.
+// Returns the material for primitives without a material, which has the defaults of the specification.
 static int default_material(struct gltf *gltf)
 {
     if (gltf->default_material < 0) {

@@ -1,6 +1,6 @@
-// draco_header.c: reads the declared sizes of a mesh compressed by Draco. https://google.github.io/draco/spec/ (version
-// 2.2), sections "Draco Header", "Metadata", "Sequential Connectivity Decode" and "EdgeBreaker Decode"; older versions
-// are read as in Draco's decoder.
+// draco_header.c: reads the declared sizes of a mesh compressed with Draco. https://google.github.io/draco/spec/
+// (version 2.2), sections "Draco Header", "Metadata", "Sequential Connectivity Decode" and "EdgeBreaker Decode"; older
+// versions are read as in Draco's decoder.
 #include "draco_header.h"
 
 #include <string.h>
@@ -34,7 +34,7 @@ static uint32_t read_u32(struct draco_cursor *r)
     return at ? at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24 : 0;
 }
 
-// Reads seven bits per byte, the lowest first.
+// Reads a number that is stored with seven bits per byte, the lowest bits first.
 static uint32_t read_varint(struct draco_cursor *r)
 {
     uint64_t number = 0;

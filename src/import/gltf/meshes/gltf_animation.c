@@ -1,4 +1,4 @@
-// gltf_animation.c: evaluates an animation at one time (section 3.11) and sets the results in the nodes.
+// gltf_animation.c: evaluates an animation at one time (section 3.11) and stores the results in the nodes.
 #include "gltf_animation.h"
 
 #include "gltf_accessors.h"

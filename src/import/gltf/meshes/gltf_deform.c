@@ -55,7 +55,7 @@ struct morph_target {
     size_t count; // the number of vertices
 };
 
-// Adds one attribute of a target to an array of the mesh. The first addition replaces the shared array by the mesh's
+// Adds one attribute of a target to an array of the mesh. The first addition replaces the shared array with the mesh's
 // own copy. `width` and `base_width` are the numbers of values per vertex in the target and in the mesh.
 static bool add_target(const struct morph_target *t, const char *name, int width, int base_width, const float **values,
                        bool *own)

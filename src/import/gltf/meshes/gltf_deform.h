@@ -13,7 +13,7 @@ struct gltf_deformation {
 };
 
 // If a skin, or morph targets with nonzero weights, change positions, normals, tangents or texture coordinates,
-// replaces these arrays of the mesh by changed copies. Sets *skinned to whether the positions are now in the file's
+// replaces these arrays of the mesh with changed copies. Sets *skinned to whether the positions are now in the file's
 // space.
 bool gltf_deform(struct gltf *gltf, const struct place *place, const json_t *primitive,
                  const struct gltf_deformation *deformation, lam_mesh *mesh, bool *skinned);

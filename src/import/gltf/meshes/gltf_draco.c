@@ -1,4 +1,4 @@
-// gltf_draco.c: reads primitives compressed by Draco. A separate module calls Draco's library; this file opens the
+// gltf_draco.c: reads primitives compressed with Draco. A separate module calls Draco's library; this file opens the
 // module on demand. https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_draco_mesh_compression
 #include "gltf_draco.h"
 
@@ -29,7 +29,7 @@ static void find_functions(struct gltf *gltf, const struct draco_functions **fun
         *functions = get();
 }
 
-// The state of decoding a primitive.
+// The state while a primitive is decoded.
 struct decoding {
     struct gltf *gltf;
     const struct place *place; // the position of the extension in the file
@@ -47,7 +47,7 @@ static bool succeeded(const struct decoding *d, const struct place *place, int r
                        : json_fail(&d->gltf->json, place, "the compressed bytes are damaged: %s", reason));
 }
 
-// Allocates the accessor's elements contiguously.
+// Allocates contiguous memory for the accessor's elements.
 static uint8_t *make_elements(const struct decoding *d, struct gltf_accessor *accessor)
 {
     accessor->stride = (size_t)accessor->width * gltf_component_size(accessor->component);
@@ -162,7 +162,7 @@ static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
     return there && json_object_get(gltf_list_item(gltf, "accessors", (int)number), "bufferView");
 }
 
-// Charges the memory that Draco's decoder will allocate itself to the call.
+// Charges the call for the memory that Draco's own code will allocate.
 static bool charge_claim(const struct decoding *d, const struct gltf_view *view, size_t *charged)
 {
     struct gltf *gltf = d->gltf;

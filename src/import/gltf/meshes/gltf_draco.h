@@ -1,4 +1,4 @@
-// gltf_draco.h: primitives compressed by Draco (KHR_draco_mesh_compression).
+// gltf_draco.h: primitives compressed with Draco (KHR_draco_mesh_compression).
 #ifndef GLTF_DRACO_H
 #define GLTF_DRACO_H
 

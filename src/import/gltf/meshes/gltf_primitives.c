@@ -130,7 +130,7 @@ static bool take_attributes(struct gltf *gltf, const struct place *place, const 
            take_floats(gltf, place, attributes, &tangent_rule, count, &mesh->tangents, &mesh->tangent_count);
 }
 
-// Adds the only part of the mesh, with the primitive's material.
+// Adds one part that covers the whole mesh, with the primitive's material.
 static bool add_part(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
 {
     lam_part *part = arena_alloc_zeroed(&gltf->scene->arena, sizeof *part);

@@ -9,8 +9,8 @@ struct gltf_skin {
     size_t count;
 };
 
-// Returns the skin with a checked index. Its matrices are computed from the current transforms of the nodes. Returns
-// NULL on error.
+// Returns the skin with this index, which must be valid. Its matrices are computed from the current transforms of the
+// nodes. Returns NULL on error.
 const struct gltf_skin *gltf_skin_at(struct gltf *gltf, int index);
 
 #endif

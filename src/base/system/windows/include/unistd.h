@@ -15,7 +15,8 @@ int windows_rmdir(const char *path);
 #define rmdir(path)        windows_rmdir(path)
 
 int fsync(int file);
-// Read or write at the offset `at`, independently of the file's own position. Any thread may call these two functions.
+// These functions read or write at the offset `at`, independently of the file's own position. Any thread may call these
+// two functions.
 ssize_t pread(int file, void *data, size_t size, off_t at);
 ssize_t pwrite(int file, const void *data, size_t size, off_t at);
 // Gets the name of this machine.

@@ -313,7 +313,8 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     double half = lam_scene_bounds(scene, &low, &high) ? 0.5 * v3_length(v3_sub(high, low)) : 0;
     frame->occlusion_radius =
         settings->occlusion > LAM_OCCLUSION_OFF ? rounded(setting_number(settings, "ao_radius") * half) : 0;
-    frame->cavity_radius = cavity ? rounded((frame->deepens ? CONTRAST_CAVITY_RADIUS : CAVITY_RADIUS) * half) : 0;
+    frame->cavity_radius =
+        cavity ? rounded((frame->narrow_valleys ? CONTRAST_CAVITY_RADIUS : CAVITY_RADIUS) * half) : 0;
     if (frame->cavity_radius > 0 && settings->occlusion == LAM_OCCLUSION_OFF)
         settings->occlusion = LAM_OCCLUSION_SCREEN;
     if (!(half > 0))
@@ -390,7 +391,8 @@ static void set_tone(struct frame *frame, const lam_scene *scene, bool physical)
     if (!settings->tone)
         settings->tone = physical && settings->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL : LAM_TONE_NONE;
     const bool contrast = settings->tone == LAM_TONE_CONTRAST;
-    frame->deepens = contrast && frame->triangle_count >= FINE;
+    frame->narrow_valleys = contrast && frame->triangle_count >= FINE;
+    frame->deep_valleys = frame->narrow_valleys || (!physical && scene_form(scene) == FORM_FLAT);
     frame->ridges = !contrast && lightens_ridges(frame);
     if (!lam_output_is_light(settings->output))
         settings->tone = LAM_TONE_NONE;

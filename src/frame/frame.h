@@ -137,7 +137,8 @@ struct frame {
     float occlusion_radius; // radius of ambient occlusion in eye units; 0 disables it
     float cavity_radius;    // radius of cavity shading in eye units; 0 disables it
     bool ridges;            // cavity shading lightens ridges
-    bool deepens;           // cavity shading makes valleys narrower and darker
+    bool narrow_valleys;    // cavity shading uses a smaller radius
+    bool deep_valleys;      // cavity shading makes valleys darker
     bool widens_highlights; // whether highlights of physical materials are widened (lam_specular_aa)
     bool translucent;       // whether any range is translucent
     bool passes_rays;       // whether any range has passes_rays

@@ -75,7 +75,7 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                                            .radius = frame->occlusion_radius,
                                            .cavity_radius = frame->cavity_radius,
                                            .ridges = frame->ridges,
-                                           .deepens = frame->deepens,
+                                           .deepens = frame->deep_valleys,
                                            .slope_x = planes[0],
                                            .slope_y = planes[1],
                                            .noisy = planes[2],

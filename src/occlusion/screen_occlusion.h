@@ -47,7 +47,7 @@ struct screen_occlusion {
 #define SCREEN_EMPTY 1.0e17f
 
 enum {
-    SCREEN_FINE = 512 * 512,
+    SCREEN_FINE = 768 * 768,
     OCCLUSION_ROWS = 16, // rows per task
 };
 

@@ -62,13 +62,12 @@ static void suit_contrast(lam_light *key, lam_light *fill, lam_light *sky, enum 
 {
     const double share = reflectance > GREY_SHOWN ? GREY_SHOWN / reflectance : 1;
     const bool curved = form == FORM_CURVED;
-    key->position = curved ? v3(-0.2, 0.3, 3.1) : v3(-0.5, -0.55, 3.0);
+    key->position = curved ? v3(-0.2, 0.3, 3.1) : v3(-0.45, -0.35, 3.1);
     key->attenuation = (lam_attenuation){1, 0, 0};
-    key->diffuse = grey((curved ? 0.88 : 1) * share);
+    key->diffuse = grey((curved ? 0.88 : 0.97) * share);
     key->specular = grey(0.2 * share);
-    key->occluded = 1;
     fill->diffuse = grey(0.03 * share);
-    sky->sky = grey((curved ? 0.11 : 0.04) * share);
+    sky->sky = grey((curved ? 0.11 : 0.07) * share);
     sky->ground = grey(0.02 * share);
 }
 
@@ -106,7 +105,6 @@ static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const str
     } else if (form == FORM_CURVED) {
         key->position = v3(-1.1, 1.1, 2.75);
         key->specular = grey(0.6);
-        key->occluded = 1;
         key->diffuse = grey(0.9);
         fill->diffuse = grey(0.03);
         sky->sky = grey(0.07);

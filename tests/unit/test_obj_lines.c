@@ -137,6 +137,154 @@ static void triangles(void **state)
     check(size, 0, LINES);
 }
 
+// Texture coordinates, normals, and faces of three to six corners that name what is kept: v/t, v//n or v/t/n.
+static void attributes(void **state)
+{
+    (void)state;
+    enum { CORNERS = 6, COUNT = LINES / 20 };
+    static uint32_t corners[3][3 * (CORNERS - 2) * COUNT], read[3][3 * (CORNERS - 2) * COUNT];
+    static struct mesh_polygon polygons[COUNT];
+    static float texcoords[2 * COUNT], normals[3 * COUNT], made[COUNT][5];
+    for (int layout = 1; layout < 4; layout++) { // 1: texture coordinates, 2: normals
+        size_t size = 0, triangles = 0, polygon_count = 0;
+        for (int i = 0; i < COUNT; i++) {
+            char number[5][32];
+            for (int k = 0; k < 5; k++) {
+                sprintf(number[k], i % 3 ? "%.9f" : "%.4g", (double)(next_random() % 2000000) / 1e6 - 1);
+                made[i][k] = strtof(number[k], NULL);
+            }
+            const char *line_end = i % 5 ? "\n" : i % 2 ? " \n" : "\r\n";
+            size += (size_t)sprintf(text + size, "vt %s %s%svn %s %s %s%sf", number[0], number[1], line_end, number[2],
+                                    number[3], number[4], line_end);
+            size_t count = i % 4 ? 3 : 3 + next_random() % (CORNERS - 2);
+            for (size_t c = 0; c < count; c++) {
+                uint32_t *to[3] = {&corners[0][3 * triangles + c], &corners[1][3 * triangles + c],
+                                   &corners[2][3 * triangles + c]};
+                for (int k = 0; k < 3; k++)
+                    *to[k] = (uint32_t)(next_random() % (k ? 20000000 : 20000));
+                size += (size_t)sprintf(text + size, " %u", *to[0] + 1);
+                if (layout & 1)
+                    size += (size_t)sprintf(text + size, "/%u", *to[1] + 1);
+                if (layout & 2)
+                    size += (size_t)sprintf(text + size, layout & 1 ? "/%u" : "//%u", *to[2] + 1);
+            }
+            size += (size_t)sprintf(text + size, "%s", line_end);
+            polygon_count += count > 3;
+            triangles += count - 2;
+        }
+        memset(text + size, 0, FILE_PADDING);
+        obj_lines_reader *all[2];
+        for (int r = readers(all) - 1; r >= 0; r--) {
+            const uint8_t *begin = (const uint8_t *)text, *end = begin + size;
+            struct obj obj = {.begin = begin,
+                              .end = end,
+                              .positions = found,
+                              .texcoords = texcoords,
+                              .normals = normals,
+                              .indices = read[0],
+                              .texcoord_indices = layout & 1 ? read[1] : NULL,
+                              .normal_indices = layout & 2 ? read[2] : NULL,
+                              .polygons = polygons,
+                              .total = {.positions = 20000, .texcoords = 20000000, .normals = 20000000}};
+            struct obj_chunk chunk = {.begin = begin, .end = end};
+            struct obj_counts limit = {
+                .texcoords = COUNT, .normals = COUNT, .triangles = triangles, .polygons = polygon_count};
+            struct obj_reader reader = {.obj = &obj, .chunk = &chunk, .end = end, .limit = limit};
+            memset(read, 0, sizeof read);
+            for (const uint8_t *at = begin; at < end;) {
+                at = all[r](&reader, at, end);
+                assert_non_null(at);
+            }
+            assert_memory_equal(&reader.next, &limit, sizeof limit);
+            assert_int_equal(chunk.texcoord_used, layout & 1);
+            assert_int_equal(chunk.normal_used, layout >> 1);
+            assert_false((layout & 1 && chunk.texcoord_missing) || (layout & 2 && chunk.normal_missing));
+            for (int i = 0; i < COUNT; i++) {
+                assert_memory_equal(texcoords + 2 * i, made[i], 2 * sizeof(float));
+                assert_memory_equal(normals + 3 * i, made[i] + 2, 3 * sizeof(float));
+            }
+            size_t p = 0, at = 0;
+            for (size_t t = 0; t < triangles;) {
+                size_t count = p < polygon_count && polygons[p].first_triangle == t ? polygons[p++].count : 3;
+                for (int k = 0; k < 3; k++)
+                    if (k == 0 || layout & k)
+                        assert_memory_equal(read[k] + 3 * t, corners[k] + 3 * t, count * sizeof(uint32_t));
+                t += count - 2;
+                at += count;
+            }
+            assert_int_equal(p, polygon_count);
+            assert_true(at >= 3 * COUNT);
+        }
+    }
+}
+
+// Every reader reads or refuses a damaged face exactly as obj_read_line, which has no fast path.
+static const uint8_t *read_line_by_line(struct obj_reader *reader, const uint8_t *line, const uint8_t *end)
+{
+    while (line && line < end)
+        line = obj_read_line(reader, line);
+    return line;
+}
+
+static void damaged_faces(void **state)
+{
+    (void)state;
+    enum { CORNERS = 16 };
+    static const char *const forms[] = {"f %u %u %u\n", "f %u/%u %u/%u %u/%u\n", "f %u//%u %u//%u %u//%u\r\n",
+                                        "f %u/%u/%u %u/%u/%u %u/%u/%u\n"};
+    static const char bytes[] = "0189/ -.x#\r\t/ 0";
+    obj_lines_reader *all[3] = {read_line_by_line};
+    const int count = 1 + readers(all + 1);
+    for (int i = 0; i < 4 * LINES; i++) {
+        const int layout = (int)(next_random() % 4); // 1: texture coordinates, 2: normals
+        uint32_t n[9];
+        for (int k = 0; k < 9; k++)
+            n[k] = (uint32_t)(next_random() % (next_random() % 2 ? 12 : 110000));
+        size_t size =
+            (size_t)sprintf(text, forms[next_random() % 4], n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]);
+        for (uint64_t damages = next_random() % 3; damages; damages--)
+            text[2 + next_random() % (size - 3)] = bytes[next_random() % (sizeof bytes - 1)];
+        memset(text + size, 0, FILE_PADDING);
+        uint32_t indices[3][3][CORNERS];
+        struct obj_chunk chunks[3];
+        struct obj_counts next[3];
+        bool read[3];
+        memset(indices, 0, sizeof indices);
+        memset(chunks, 0, sizeof chunks);
+        for (int r = 0; r < count; r++) {
+            struct mesh_polygon polygons[4];
+            const uint8_t *begin = (const uint8_t *)text, *end = begin + size;
+            struct obj obj = {.begin = begin,
+                              .end = end,
+                              .positions = found,
+                              .texcoords = found,
+                              .normals = found,
+                              .indices = indices[r][0],
+                              .texcoord_indices = layout & 1 ? indices[r][1] : NULL,
+                              .normal_indices = layout & 2 ? indices[r][2] : NULL,
+                              .polygons = polygons,
+                              .total = {.positions = 100000, .texcoords = 100001, .normals = 100002}};
+            struct obj_reader reader = {
+                .obj = &obj, .chunk = &chunks[r], .end = end, .limit = {.triangles = CORNERS / 3, .polygons = 4}};
+            const uint8_t *at = begin;
+            while (at && at < end)
+                at = all[r](&reader, at, end);
+            read[r] = at != NULL;
+            next[r] = reader.next;
+            // Only attributes that are kept can be missing.
+            chunks[r].texcoord_missing &= layout & 1;
+            chunks[r].normal_missing &= layout >> 1;
+            const size_t corners = reader.next.triangles + 2 * (reader.next.triangles > 0);
+            if (read[r] != read[0] || memcmp(&next[r], &next[0], sizeof next[0]) != 0 ||
+                memcmp(&chunks[r], &chunks[0], sizeof chunks[0]) != 0)
+                fail_msg("reader %d, layout %d: %s", r, layout, text);
+            for (int k = 0; read[r] && k < 3; k++)
+                if (memcmp(indices[r][k], indices[0][k], corners * sizeof(uint32_t)) != 0)
+                    fail_msg("reader %d, layout %d, indices %d: %s", r, layout, k, text);
+        }
+    }
+}
+
 // The fast path refuses lines of another form.
 static void others(void **state)
 {
@@ -232,10 +380,8 @@ static int stop(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(positions),
-        cmocka_unit_test(halves),
-        cmocka_unit_test(triangles),
-        cmocka_unit_test(others),
+        cmocka_unit_test(positions),  cmocka_unit_test(halves),        cmocka_unit_test(triangles),
+        cmocka_unit_test(attributes), cmocka_unit_test(damaged_faces), cmocka_unit_test(others),
     };
     return cmocka_run_group_tests_name("lines of OBJ files", tests, start, stop);
 }

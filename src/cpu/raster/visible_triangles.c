@@ -54,9 +54,15 @@ static void range_of_triangles(const struct fragments *fragments, uint32_t *lowe
 }
 
 // Adds the triangles of the fragments to `set`. The processor cannot predict whether a fragment's triangle differs from
-// the previous one, so the test has no branch.
+// the previous one, so the test has no branch. The bits of a word are combined before they are added, because an atomic
+// operation for each triangle takes longer than the rest.
 static void add_triangles(struct rank_bitset *set, const struct fragments *fragments)
 {
+    enum { WORDS = 128 };
+    struct {
+        size_t word;
+        uint64_t bits;
+    } combined[WORDS] = {0};
     uint32_t *ids = fragments->order; // not used yet
     uint32_t previous = NOTHING;
     int count = 0;
@@ -66,8 +72,17 @@ static void add_triangles(struct rank_bitset *set, const struct fragments *fragm
         count += id != previous;
         previous = id;
     }
-    for (int i = 0; i < count; i++)
-        rank_bitset_add(set, ids[i]);
+    for (int i = 0; i < count; i++) {
+        const size_t word = ids[i] / 64, k = word % WORDS;
+        if (combined[k].word != word) {
+            rank_bitset_add_bits(set, combined[k].word, combined[k].bits);
+            combined[k].word = word;
+            combined[k].bits = 0;
+        }
+        combined[k].bits |= (uint64_t)1 << ids[i] % 64;
+    }
+    for (int i = 0; i < WORDS; i++)
+        rank_bitset_add_bits(set, combined[i].word, combined[i].bits);
 }
 
 static void search_tile(void *user, size_t index, int number)

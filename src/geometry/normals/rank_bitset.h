@@ -16,12 +16,17 @@ struct rank_bitset {
 
 static inline size_t rank_bitset_words(size_t size) { return (size + 63) / 64; }
 
+// Adds the numbers of a word whose bits are set. Any thread may call this function.
+static inline void rank_bitset_add_bits(struct rank_bitset *set, size_t word, uint64_t bits)
+{
+    if (bits & ~__atomic_load_n(&set->bits[word], __ATOMIC_RELAXED))
+        __atomic_fetch_or(&set->bits[word], bits, __ATOMIC_RELAXED);
+}
+
 // Adds a number. Any thread may call this function.
 static inline void rank_bitset_add(struct rank_bitset *set, size_t number)
 {
-    uint64_t bit = (uint64_t)1 << number % 64, *word = &set->bits[number / 64];
-    if (!(__atomic_load_n(word, __ATOMIC_RELAXED) & bit))
-        __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
+    rank_bitset_add_bits(set, number / 64, (uint64_t)1 << number % 64);
 }
 
 static inline bool rank_bitset_has(const struct rank_bitset *set, size_t number)

@@ -1,6 +1,7 @@
-// obj_lines.c: a fast path for the most frequent lines, "v x y z" and "f a b c"; obj_line.c reads all other lines. The
-// file is compiled for several instruction sets (meson.build defines ISA). The results are identical, because
-// base/number.c parses all numbers whose last bit is uncertain.
+// obj_lines.c: a fast path for the most frequent lines: "v x y z", "vt s t", "vn x y z", and faces whose corners all have
+// the attributes that are kept; obj_line.c reads all other lines. The file is compiled for several instruction sets
+// (meson.build defines ISA). The results are identical, because base/number.c parses all numbers whose last bit is
+// uncertain.
 #include "byte_masks.h"
 #include "number_scan.h"
 #include "obj.h"
@@ -19,7 +20,11 @@
 struct constants {
     uint32_t index_limit; // indices of faces are below this limit
 };
-static inline struct constants constants_of(uint32_t index_limit) { return (struct constants){index_limit}; }
+static inline struct constants constants_of(const struct obj *obj)
+{
+    const bool plain = !obj->texcoord_indices && !obj->normal_indices;
+    return (struct constants){plain ? (uint32_t)obj->total.positions : 0};
+}
 
 static inline uint64_t newlines_of(const struct constants *c, const uint8_t *block)
 {
@@ -63,8 +68,9 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
 
 // The output position of the fast path. A local variable of this type stays in registers, unlike `reader`.
 struct output {
-    float *position, *positions_end;
-    uint32_t *corners, *corners_end;
+    float *position, *positions_end, *texcoord, *texcoords_end, *normal, *normals_end;
+    size_t corner, corners_end;
+    bool faces; // whether the fast path has read a face
     struct box {
 #if defined(__AVX512VBMI__)
         __m128 low, high;
@@ -74,14 +80,24 @@ struct output {
     } box;
 };
 
+static inline float *element(float *array, size_t width, uint64_t index)
+{
+    return array ? array + width * index : NULL;
+}
+
 static inline struct output load_output(const struct obj_reader *reader)
 {
     const struct obj *obj = reader->obj;
+    const struct obj_counts *next = &reader->next, *limit = &reader->limit;
     struct output output = {
-        .position = obj->positions + 3 * reader->next.positions,
-        .positions_end = obj->positions + 3 * (obj->colors ? 0 : reader->limit.positions),
-        .corners = obj->indices + 3 * reader->next.triangles,
-        .corners_end = obj->indices + 3 * reader->limit.triangles,
+        .position = obj->positions + 3 * next->positions,
+        .positions_end = obj->positions + 3 * (obj->colors ? 0 : limit->positions),
+        .texcoord = element(obj->texcoords, 2, next->texcoords),
+        .texcoords_end = element(obj->texcoords, 2, limit->texcoords),
+        .normal = element(obj->normals, 3, next->normals),
+        .normals_end = element(obj->normals, 3, limit->normals),
+        .corner = 3 * (size_t)next->triangles,
+        .corners_end = 3 * (size_t)limit->triangles,
     };
     memcpy(&output.box.low, reader->low, sizeof reader->low);
     memcpy(&output.box.high, reader->high, sizeof reader->high);
@@ -92,19 +108,96 @@ static inline void store_output(const struct output *output, struct obj_reader *
 {
     const struct obj *obj = reader->obj;
     reader->next.positions = (uint64_t)(output->position - obj->positions) / 3;
-    reader->next.triangles = (uint64_t)(output->corners - obj->indices) / 3;
+    if (obj->texcoords)
+        reader->next.texcoords = (uint64_t)(output->texcoord - obj->texcoords) / 2;
+    if (obj->normals)
+        reader->next.normals = (uint64_t)(output->normal - obj->normals) / 3;
+    reader->next.triangles = output->corner / 3;
+    reader->chunk->texcoord_used |= output->faces && obj->texcoord_indices;
+    reader->chunk->normal_used |= output->faces && obj->normal_indices;
     memcpy(reader->low, &output->box.low, sizeof reader->low);
     memcpy(reader->high, &output->box.high, sizeof reader->high);
 }
 
-static inline bool append_triangle(struct output *output, const struct constants *c, const uint8_t *line,
-                                   const uint8_t *line_end)
+static inline bool append_triangle(struct output *output, const struct constants *c, const struct obj *obj,
+                                   const uint8_t *line, const uint8_t *line_end)
 {
-    if (output->corners >= output->corners_end || !read_triangle(c, line, line_end, output->corners))
+    if (output->corner >= output->corners_end)
         return false;
-    output->corners += 3;
+#if defined(__AVX512VBMI__)
+    if (read_corners(c, obj, line, line_end, output->corner)) {
+        output->corner += 3;
+        return output->faces = true;
+    }
+#endif
+    if (!read_triangle(c, line, line_end, obj->indices + output->corner))
+        return false;
+    output->corner += 3;
     return true;
 }
+
+static inline const uint8_t *read_index(const uint8_t *at, uint64_t total, uint32_t *to)
+{
+    uint64_t eight = number_load8(at);
+    unsigned digits = number_digit_count(eight);
+    uint64_t index = number_digits_value(eight, digits) - 1; // the largest number if there is no digit
+    *to = (uint32_t)index;
+    return index < total ? at + digits : NULL;
+}
+
+// Reads a face whose corners all have the attributes that are kept: v, v/t, v//n or v/t/n.
+static inline bool append_face(struct output *output, struct obj_reader *reader, const uint8_t *line,
+                               const uint8_t *line_end)
+{
+    const struct obj *obj = reader->obj;
+    uint32_t *texcoords = obj->texcoord_indices, *normals = obj->normal_indices;
+    const uint8_t *at = line + 1;
+    size_t corner = output->corner;
+    for (; *at == ' ' && corner < output->corners_end; corner++) {
+        at = read_index(at + 1, obj->total.positions, &obj->indices[corner]);
+        if (at && (texcoords || normals))
+            at = *at == '/' ? at + 1 : NULL;
+        if (at && texcoords)
+            at = read_index(at, obj->total.texcoords, &texcoords[corner]);
+        if (at && normals)
+            at = *at == '/' ? read_index(at + 1, obj->total.normals, &normals[corner]) : NULL;
+        if (!at)
+            return false;
+    }
+    size_t corners = corner - output->corner;
+    if (at + (*at == '\r') != line_end || corners < 3 || output->corner + 3 * (corners - 2) > output->corners_end)
+        return false;
+    if (corners > 3) {
+        if (reader->next.polygons >= reader->limit.polygons)
+            return false;
+        obj->polygons[reader->next.polygons++] =
+            (struct mesh_polygon){(uint32_t)(output->corner / 3), (uint32_t)corners};
+    }
+    output->corner += 3 * (corners - 2);
+    output->faces = true;
+    return true;
+}
+
+static inline bool append_texcoord(struct output *output, const uint8_t *line, const uint8_t *line_end)
+{
+    if (output->texcoord == output->texcoords_end || line[2] != ' ')
+        return false;
+    float *to = output->texcoord;
+    const uint8_t *at = number_float_quick(line + 3, line_end, &to[0]);
+    at = at && *at == ' ' ? number_float_quick(at + 1, line_end, &to[1]) : NULL;
+    if (!at || at + (*at == '\r') != line_end || (to[0] - to[0]) + (to[1] - to[1]) != 0)
+        return false;
+    output->texcoord += 2;
+    return true;
+}
+
+#if defined(__AVX512VBMI__)
+static inline void store_three(float *to, __m128 three)
+{
+    _mm_storel_pi((__m64 *)(void *)to, three);
+    _mm_store_ss(to + 2, _mm_movehl_ps(three, three));
+}
+#endif
 
 static inline bool append_position(struct output *output, const struct constants *c, const uint8_t *line,
                                    const uint8_t *line_end)
@@ -116,8 +209,7 @@ static inline bool append_position(struct output *output, const struct constants
     __m128 three;
     if (!read_coordinates(c, line, line_end, &three))
         return false;
-    _mm_storel_pi((__m64 *)(void *)output->position, three);
-    _mm_store_ss(output->position + 2, _mm_movehl_ps(three, three));
+    store_three(output->position, three);
     box->low = _mm_min_ps(three, box->low);
     box->high = _mm_max_ps(three, box->high);
 #else
@@ -133,19 +225,45 @@ static inline bool append_position(struct output *output, const struct constants
     return true;
 }
 
+static inline bool append_normal(struct output *output, const struct constants *c, const uint8_t *line,
+                                 const uint8_t *line_end)
+{
+    if (output->normal == output->normals_end)
+        return false;
+#if defined(__AVX512VBMI__)
+    __m128 three;
+    if (!read_coordinates(c, line + 1, line_end, &three))
+        return false;
+    store_three(output->normal, three);
+#else
+    if (!read_coordinates(c, line + 1, line_end, output->normal))
+        return false;
+#endif
+    output->normal += 3;
+    return true;
+}
+
+static inline bool append_line(struct output *output, struct obj_reader *reader, const struct constants *c,
+                               const uint8_t *line, const uint8_t *line_end)
+{
+    if (line[0] == 'f')
+        return append_triangle(output, c, reader->obj, line, line_end) || append_face(output, reader, line, line_end);
+    if (line[0] != 'v')
+        return false;
+    return line[1] == 'n'   ? append_normal(output, c, line, line_end)
+           : line[1] == 't' ? append_texcoord(output, line, line_end)
+                            : append_position(output, c, line, line_end);
+}
+
 // Line ends are found 64 bytes at a time, so that reading a line does not depend on the previous line.
 const uint8_t *JOIN(obj_read_lines_, ISA)(struct obj_reader *reader, const uint8_t *line, const uint8_t *end)
 {
-    const struct obj *obj = reader->obj;
-    const bool plain_faces = !obj->texcoord_indices && !obj->normal_indices;
-    const struct constants constants = constants_of(plain_faces ? (uint32_t)obj->total.positions : 0);
+    const struct constants constants = constants_of(reader->obj);
     struct output output = load_output(reader);
     for (const uint8_t *block = line;; block += 64) {
         for (uint64_t ends = newlines_of(&constants, block); ends; ends &= ends - 1) {
             const uint8_t *line_end = block + __builtin_ctzll(ends);
-            if (!(line[0] == 'f'   ? append_triangle(&output, &constants, line, line_end)
-                  : line[0] == 'v' ? append_position(&output, &constants, line, line_end)
-                                   : false)) {
+            if (!append_line(&output, reader, &constants, line, line_end)) {
                 store_output(&output, reader);
                 const uint8_t *next = obj_read_line(reader, line);
                 if (next != line_end + 1)

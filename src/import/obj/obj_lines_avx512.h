@@ -24,7 +24,7 @@ static inline uint32_t pack(unsigned a, unsigned b, unsigned c) { return a | b <
 
 // Constants that stay in registers from line to line; the compiler would otherwise reload each constant before its use.
 struct constants {
-    __m512i newline, zero, nine, space, point, minus, one;
+    __m512i newline, zero, nine, space, slash, point, minus, one;
     __m512i lanes_of_8, lanes_of_16;       // shuffle: copies byte k of a packed number to each byte of lane k
     __m512i back_8, back_16;               // the (negative) offset of each byte from the end of its lane
     __m512i tens, hundreds, ten_thousands; // weights of two adjacent values
@@ -32,20 +32,26 @@ struct constants {
     __m256i cut, middle, doubt;            // number_rounds_surely
     __m256i hundred_millions;
     __m128 sign;
-    __m128i one_32, index_limit; // index_limit: the largest index in faces
+    __m128i one_32, index_limit; // index_limit: the number of positions, or 0 if corners have other attributes
+    __m256i index_limits;        // of lanes: a position, a texture coordinate, a normal, a position …
+    __mmask8 index_lanes;        // the lanes that contain an index
 };
-static inline struct constants constants_of(uint32_t index_limit)
+static inline struct constants constants_of(const struct obj *obj)
 {
+    const bool plain = !obj->texcoord_indices && !obj->normal_indices;
+    const int v = (int)obj->total.positions, vt = (int)obj->total.texcoords, vn = (int)obj->total.normals;
     const double *t = number_tenths;
     struct constants c = {
         .newline = _mm512_set1_epi8('\n'),
         .zero = _mm512_set1_epi8('0'),
         .nine = _mm512_set1_epi8(9),
         .space = _mm512_set1_epi8(' '),
+        .slash = _mm512_set1_epi8('/'),
         .point = _mm512_set1_epi8('.'),
         .minus = _mm512_set1_epi8('-'),
         .one = _mm512_set1_epi8(1),
-        .lanes_of_8 = _mm512_setr_epi64(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303, 0, 0, 0, 0),
+        .lanes_of_8 = _mm512_setr_epi64(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303,
+                                        0x0404040404040404, 0x0505050505050505, 0x0606060606060606, 0x0707070707070707),
         .lanes_of_16 = _mm512_setr_epi64(0, 0, 0x0101010101010101, 0x0101010101010101, 0x0202020202020202,
                                          0x0202020202020202, 0x0303030303030303, 0x0303030303030303),
         .back_8 = _mm512_set1_epi64((long long)0xfffefdfcfbfaf9f8u),
@@ -62,7 +68,9 @@ static inline struct constants constants_of(uint32_t index_limit)
         .hundred_millions = _mm256_set1_epi64x(100000000),
         .sign = _mm_set1_ps(-0.0f),
         .one_32 = _mm_set1_epi32(1),
-        .index_limit = _mm_set1_epi32((int)index_limit),
+        .index_limit = _mm_set1_epi32(plain ? v : 0),
+        .index_limits = _mm256_setr_epi32(v, vt, vn, v, vt, vn, v, vt),
+        .index_lanes = obj->texcoord_indices ? 0xff : 0x6d,
     };
     // Hides the values from the compiler, so that it keeps them in registers.
     __asm__("" : "+v"(c.newline), "+v"(c.zero), "+v"(c.nine), "+v"(c.space), "+v"(c.point), "+v"(c.minus));
@@ -111,6 +119,57 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
         return false;
     _mm_storel_epi64((__m128i *)(void *)to, indices);
     to[2] = (uint32_t)_mm_extract_epi32(indices, 2);
+    return true;
+}
+
+static inline void store_indices(uint32_t *to, __m256i indices, __mmask8 lanes)
+{
+    const __m128i chosen = _mm256_castsi256_si128(_mm256_maskz_compress_epi32(lanes, indices));
+    _mm_storel_epi64((__m128i *)(void *)to, chosen);
+    to[2] = (uint32_t)_mm_extract_epi32(chosen, 2);
+}
+
+// Reads three corners like 12/34/56 or, if texture coordinates are not kept, 12//56, separated by one space, to the
+// corner `to` of the arrays. Eight of the numbers are in lanes.
+static inline bool read_corners(const struct constants *c, const struct obj *obj, const uint8_t *line,
+                                const uint8_t *line_end, size_t to)
+{
+    const uint8_t *at = line + 2;
+    const unsigned length = (unsigned)(line_end - at) - (line_end[-1] == '\r');
+    if (!obj->normal_indices || line[1] != ' ' || length > 63)
+        return false;
+    const __m512i bytes = _mm512_loadu_epi8(at), values = _mm512_sub_epi8(bytes, c->zero);
+    const uint64_t inside = _bzhi_u64(UINT64_MAX, length);
+    const uint64_t spaces = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->space)) & inside;
+    const uint64_t slashes = mask_bits(_mm512_cmpeq_epi8_mask(bytes, c->slash)) & inside;
+    uint64_t between = inside & ~mask_bits(_mm512_cmple_epu8_mask(values, c->nine)), ends = 0;
+    if (between != (spaces | slashes) || _pext_u64(slashes, between) != 0xdb) // / / space / / space / /
+        return false;
+    for (int i = 0; i < 64; i += 8, between = without_lowest(between))
+        ends |= (uint64_t)lowest_bit(between) << i;
+    const uint64_t begins = (ends << 8) + 0x0101010101010100, last = (ends >> 56) + 1;
+    const uint64_t texcoords = 0xff0000ff0000ff00, sizes = ends - begins;
+    const uint64_t absent = obj->texcoord_indices ? 0 : texcoords;
+    // The line is invalid if a number does not have 1 to 8 digits, or if there are more separators.
+    if ((sizes & absent) | ((sizes - (0x0101010101010101 & ~absent)) & 0xf8f8f8f8f8f8f8f8) | between ||
+        length - last - 1 > 7)
+        return false;
+    const __m512i from =
+        _mm512_add_epi8(_mm512_shuffle_epi8(_mm512_set1_epi64((long long)ends), c->lanes_of_8), c->back_8);
+    const __mmask64 is =
+        _mm512_cmpge_epi8_mask(from, _mm512_shuffle_epi8(_mm512_set1_epi64((long long)begins), c->lanes_of_8));
+    const __m512i pairs = _mm512_maddubs_epi16(_mm512_maskz_permutexvar_epi8(is, from, values), c->tens);
+    const __m256i fours = _mm512_cvtepi32_epi16(_mm512_madd_epi16(pairs, c->hundreds));
+    const __m256i numbers = _mm256_madd_epi16(fours, _mm512_castsi512_si256(c->ten_thousands));
+    const __m256i indices = _mm256_sub_epi32(numbers, _mm256_set1_epi32(1));
+    const uint64_t normal = number_digits_value(number_load8(at + last), length - (unsigned)last) - 1;
+    if (_mm256_mask_cmpge_epu32_mask(c->index_lanes, indices, c->index_limits) || normal >= obj->total.normals)
+        return false;
+    store_indices(obj->indices + to, indices, 1 << 0 | 1 << 3 | 1 << 6);
+    if (obj->texcoord_indices)
+        store_indices(obj->texcoord_indices + to, indices, 1 << 1 | 1 << 4 | 1 << 7);
+    store_indices(obj->normal_indices + to, indices, 1 << 2 | 1 << 5);
+    obj->normal_indices[to + 2] = (uint32_t)normal;
     return true;
 }
 

@@ -4,7 +4,7 @@ turning` measures only these rows, in two minutes. They need the page (make web)
 page is first built again from the present sources, so that these rows never measure an older page.
 
 `as shown`: each program with its own settings while the model turns. The page draws one sample for each pixel, and at least half of the width and
-height (web/page/pace.js);
+height (web/page/picture/pace.js);
 three.js draws all pixels, with 4 samples (antialias). `equal`: both draw all pixels with 1 sample; the page then draws complete pictures, as after
 any change."""
 import functools

@@ -3,8 +3,10 @@
 
 Two rules order the folders (docs/architecture.md). Files never depend on one another in a circle, in the library or in the program; and a folder of
 the library or of the program uses none below it in the list. The include paths of the build keep the library's headers to that order; this
-test checks function calls, and the program's headers (a fifth rule). A sixth: no C file outside src/base/system asks for Windows. A seventh: no folder of the program has more than 25 files. The third rule: every file that a page or a comment names exists.
-The fourth keeps reflection models replaceable: only a lobe's row in src/lighting/lobes.h describes it."""
+test checks function calls, and the program's headers (a fifth rule). A sixth: no C file outside src/base/system asks for Windows. A seventh: no folder of the library, the program or the web page has more than 25 files. The third rule: every file that a page or a comment names exists.
+The fourth keeps reflection models replaceable: only a lobe's row in src/lighting/lobes.h describes it. The ninth orders the scripts of the web page: they import
+only from their own folder and folders before it in the list FOLDERS of web/bundle.py, and never in a circle. The tenth: only public functions have more
+than 8 parameters."""
 import collections
 import functools
 import glob
@@ -169,10 +171,48 @@ def windows_elsewhere():
 
 
 def large_folders():
-    """Folders of the program with more than 25 files: nobody finds one at a glance."""
-    for path, _, names in os.walk(os.path.join(ROOT, "tools")):
-        if len(names) > 25:
-            yield os.path.relpath(path, ROOT), len(names)
+    """Folders of the library, the program and the page with more than 25 files: nobody finds one at a glance."""
+    for top in ("src", "tools", "classroom", "web"):
+        for path, folders, names in os.walk(os.path.join(ROOT, top)):
+            folders[:] = [name for name in folders if name != "node_modules"]
+            if len(names) > 25:
+                yield os.path.relpath(path, ROOT), len(names)
+
+
+IMPORT = re.compile(r"""(?:\bfrom |\bimport |\bimport\()["'](\.[^"']*)["']""")
+
+
+def page_folders():
+    """The folders of the page in their order: the list in web/bundle.py. Scripts outside web/page come before them: they know nothing of the page."""
+    text = open(os.path.join(ROOT, "web", "bundle.py"), encoding="utf-8").read()
+    names = re.findall(r'"([\w.]+)"', re.search(r"^FOLDERS = \[(.*)\]", text, re.M)[1])
+    return ["web", "web/check", *(os.path.normpath("web/page/" + name) for name in names)]
+
+
+def script_imports():
+    """{file: {imported file: [the text of the import]}} of the scripts of web/, with what is imported when it is first used."""
+    edges = {}
+    for pattern in ("web/*.js", "web/check/*.js", "web/page/**/*.js"):
+        for file in glob.glob(pattern, root_dir=ROOT, recursive=True):
+            edges[file] = collections.defaultdict(list)
+            for name in IMPORT.findall(open(os.path.join(ROOT, file), encoding="utf-8").read()):
+                edges[file][os.path.normpath(os.path.join(os.path.dirname(file), name))].append(name)
+    return edges
+
+
+def imports_back():
+    """(file, complaint) for each script of the page that is in no folder of the list, imports from a folder after its own, or is in a circle."""
+    edges, order = script_imports(), page_folders()
+    for file in sorted(edges):
+        if os.path.dirname(file) not in order:
+            yield file, "is in a folder that web/bundle.py does not list"
+            continue
+        for other in sorted(edges[file]):
+            folder = os.path.dirname(other)
+            if folder not in order or order.index(folder) > order.index(os.path.dirname(file)):
+                yield file, "imports " + other
+    for part in circles(edges):
+        yield part[0], "is in a circle with " + ", ".join(part[1:])
 
 
 def lobes_asked_by_name():
@@ -183,6 +223,22 @@ def lobes_asked_by_name():
             file = os.path.relpath(os.path.join(path, name), src)
             if file.endswith((".c", ".h", ".inc")):
                 yield from ((file, found) for found in NAMED_LOBE.findall(open(os.path.join(src, file), encoding="utf-8").read()))
+
+
+FUNCTION = re.compile(r"^[a-z_][\w *]*?\b(\w+)\(((?:[^()]|\([^()]*\))*)\)\s*[{;]", re.M)
+
+
+def long_parameter_lists():
+    """(file, function, count) for each function with more than 8 parameters that is not public."""
+    for top in ("src", "tools", "classroom", "web"):
+        for path, _, names in os.walk(os.path.join(ROOT, top)):
+            for name in sorted(names):
+                if name.endswith((".c", ".h", ".inc", ".cpp")):
+                    text = re.sub(r"//[^\n]*", "", open(os.path.join(path, name), encoding="utf-8").read())
+                    for function, parameters in FUNCTION.findall(text):
+                        count = len(re.sub(r"\([^()]*\)", "", parameters).split(","))
+                        if count > 8 and not function.startswith("lam_"):
+                            yield os.path.relpath(os.path.join(path, name), ROOT), function, count
 
 
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
@@ -213,7 +269,7 @@ def options_in_messages():
 def main():
     edges, order = graph(sys.argv[1]), library_folders() + floors()
     bad = 0
-    print("1..8")
+    print("1..10")
     found = circles(edges)
     print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
     for part in found:
@@ -254,10 +310,20 @@ def main():
         bad += 1
         print("#   %s asks for it" % file)
     large = sorted(large_folders())
-    print("%s 8 - no folder of the program has more than 25 files" % ("not ok" if large else "ok"))
+    print("%s 8 - no folder has more than 25 files" % ("not ok" if large else "ok"))
     for folder, count in large:
         bad += 1
         print("#   %s has %d" % (folder, count))
+    imports = list(imports_back())
+    print("%s 9 - no script of the page imports from a folder after its own" % ("not ok" if imports else "ok"))
+    for file, complaint in imports:
+        bad += 1
+        print("#   %s %s" % (file, complaint))
+    long = list(long_parameter_lists())
+    print("%s 10 - no internal function has more than 8 parameters" % ("not ok" if long else "ok"))
+    for file, function, count in long:
+        bad += 1
+        print("#   %s: %s has %d" % (file, function, count))
     if not edges:
         print("# no objects were found in %s" % sys.argv[1])
     return 1 if bad or not edges else 0

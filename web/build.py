@@ -94,7 +94,7 @@ def make_offline(served, bundles):
     shaders = bundles.shaders + ["check.wasm", bundle.CODEMIRROR]
     kinds = {"FILES": files, "LATER": [name for name in names if name in shaders + [DECODERS, ALONE]], "PLAIN": [*module_parts.PARTS[1:]], "THREADS": [*module_parts.THREADS_PARTS]}
     cache = hashlib.sha256(json.dumps(files, sort_keys=True).encode()).hexdigest()[:16]
-    text = page_file(OFFLINE).replace("lambent-HASH", "lambent-" + cache)
+    text = page_file("worker/" + OFFLINE).replace("lambent-HASH", "lambent-" + cache)
     for name, value in kinds.items():
         text, count = re.subn(r"^const %s = .*;$" % name, lambda m: "const %s = %s;" % (name, json.dumps(value)), text, flags=re.M)  # noqa: B023
         if count != 1:

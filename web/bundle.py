@@ -1,5 +1,6 @@
 """bundle.py: bundles the page's scripts with esbuild (Debian's package). The served page has a script for its start, and
 others that it fetches on first use. The page in one file contains all of them."""
+import glob
 import json
 import os
 import re
@@ -12,6 +13,9 @@ ROOT = os.path.dirname(HERE)
 
 PAGE = "page.js"
 WORKER, THREAD, CHECK_WORKER = "worker.js", "thread.js", "check_worker.js" # each runs in a thread of its own
+SOURCES = {PAGE: "page/page.js", WORKER: "page/worker/worker.js", THREAD: "thread.js", CHECK_WORKER: "check/check_worker.js"}
+# The folders of page/ in their order: a file imports only from its own folder and from folders before it (tests/structure.py). "." is page/ itself.
+FOLDERS = ["base", "words", "worker", "shared", "controls", "picture", "files", "explain", "lights", "tabs", "shaders", "."]
 CODEMIRROR = "codemirror.js" # made from npm packages
 COMMON = ["--bundle", "--minify", "--charset=utf8", "--legal-comments=none", "--target=es2022", "--log-level=warning", "--external:node:worker_threads"]
 
@@ -66,17 +70,16 @@ def codemirror(folder, modules):
 
 
 def gather(folder):
-    """Copies all scripts to one folder, FOLDER/scripts, so that their imports work."""
+    """Copies all scripts to FOLDER/scripts, in the same folders, and adds the correct programs, so that their imports work."""
     place = os.path.join(folder, "scripts")
-    os.makedirs(place, exist_ok=True)
-    texts = {"programs.js": programs()}
-    for source in ("", "page", "check"):
-        for name in os.listdir(os.path.join(HERE, source)):
-            if name.endswith(".js") and not name.endswith(".src.js") and name != "offline_worker.js":
-                texts[name] = open(os.path.join(HERE, source, name)).read()
+    names = [name for pattern in ("*.js", "check/*.js", "page/**/*.js") for name in glob.glob(pattern, root_dir=HERE, recursive=True)]
+    texts = {name: open(os.path.join(HERE, name)).read() for name in names}
+    texts["page/shaders/programs.js"] = programs()
     for name, text in texts.items():
-        write(os.path.join(place, name), text)
-    for name in set(os.listdir(place)) - set(texts):
+        path = os.path.join(place, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        write(path, text)
+    for name in set(glob.glob("**/*.js", root_dir=place, recursive=True)) - set(texts):
         os.remove(os.path.join(place, name))
     return place
 
@@ -90,19 +93,19 @@ class Bundles:
         place, made = gather(folder), os.path.join(folder, "bundles")
         shutil.rmtree(made, ignore_errors=True)
         facts = os.path.join(folder, "bundles.json")
-        esbuild(PAGE, WORKER, *COMMON, "--splitting", "--format=esm", "--define:ONE_FILE=false", "--chunk-names=[name]-[hash]", "--outdir=" + made,
-                "--metafile=" + facts, "--external:./" + CODEMIRROR, cwd=place)
+        esbuild(SOURCES[PAGE], SOURCES[WORKER], *COMMON, "--splitting", "--format=esm", "--define:ONE_FILE=false", "--entry-names=[name]", "--chunk-names=[name]-[hash]", "--outdir=" + made,
+                "--metafile=" + facts, "--external:*/" + CODEMIRROR, cwd=place)
         outputs = {os.path.basename(path): facts for path, facts in json.load(open(facts))["outputs"].items()}
         self.first = self._with_imports(outputs, [PAGE])
         self.worker = self._with_imports(outputs, [WORKER])
-        shaders = [name for name, facts in outputs.items() if facts.get("entryPoint") == "shaders.js"]
+        shaders = [name for name, facts in outputs.items() if facts.get("entryPoint") == "page/shaders/shaders.js"]
         self.later = [name for name in outputs if name not in self.first + self.worker]
         self.shaders = shaders + [CHECK_WORKER]
         for name in (THREAD, CHECK_WORKER):
-            esbuild(name, *COMMON, "--format=esm", "--define:ONE_FILE=false", "--outfile=" + os.path.join(made, name), cwd=place)
+            esbuild(SOURCES[name], *COMMON, "--format=esm", "--define:ONE_FILE=false", "--outfile=" + os.path.join(made, name), cwd=place)
         self.later.append(THREAD)
         self.files = {name: open(os.path.join(made, name)).read() for name in os.listdir(made)}
-        self.inside = {name: esbuild(name, *COMMON, "--format=" + ("esm" if name == PAGE else "iife"), "--define:ONE_FILE=true", "--external:./" + CODEMIRROR, cwd=place)
+        self.inside = {name: esbuild(SOURCES[name], *COMMON, "--format=" + ("esm" if name == PAGE else "iife"), "--define:ONE_FILE=true", "--external:*/" + CODEMIRROR, cwd=place)
                        for name in (PAGE, WORKER, THREAD, CHECK_WORKER)}
 
     @staticmethod

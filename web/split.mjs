@@ -2,8 +2,8 @@
 // web/build.py puts these functions into the first part of the module.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { Lambent } from './lambent.js';
-import { around, cameraText, orbit } from './page/camera.js';
-import { START } from './page/state.js';
+import { around, cameraText, orbit } from './page/words/camera.js';
+import { START } from './page/words/state.js';
 
 const [, , counting, profile] = process.argv;
 let instance = null;

@@ -201,6 +201,40 @@ static uint64_t work_limit(const lam_image *image, const struct call_control *ca
     return none ? UINT64_MAX : units;
 }
 
+// Builds the hierarchy if rays need it, and the pattern of shadow rays.
+static bool set_up_rays(struct cpu_device *device, struct cpu_frame *cpu, lam_error *error)
+{
+    struct lam_device *base = &device->base;
+    const struct frame *frame = cpu->shade.frame;
+    uint64_t clock = now_ns();
+    bool built = false;
+    if (frame_has_rays(frame) &&
+        !(cpu->shade.hierarchy = hierarchy_of_frame(&base->hierarchy, frame, device->pool, cpu->call, &built, error)))
+        return false;
+    if (frame->settings.shadows && device->light_pattern.all.count != frame->settings.shadow_samples)
+        light_pattern_fill(&device->light_pattern, frame->settings.shadow_samples);
+    cpu->shade.light_pattern = &device->light_pattern;
+    base->report.hierarchy_ms += built ? milliseconds_since(&clock) : 0;
+    return true;
+}
+
+// Finds the visible triangles before lighting, if normals are made for them or ambient occlusion is computed from them.
+static bool search_before_lighting(struct cpu_device *device, struct cpu_frame *cpu, uint64_t *clock, lam_error *error)
+{
+    lam_frame_report *report = &device->base.report;
+    bool makes_normals = cpu->shade.frame->makes_normals, ok = true;
+    if (makes_normals || cpu->shade.occlusion)
+        ok = cover_in_advance(cpu, &device->visible, error) && step_done(cpu, error);
+    double advance_ms = milliseconds_since(clock);
+    if (makes_normals)
+        report->normals_ms = advance_ms - device->visible.search_ms;
+    if (!ok || !cpu->shade.occlusion)
+        return ok;
+    screen_occlusion_find(&cpu->occlusion, cpu->kernels->occlusion, device->pool, cpu->call);
+    report->occlusion_ms = milliseconds_since(clock);
+    return step_done(cpu, error);
+}
+
 static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_image *image, struct call_control *call,
                      lam_error *error)
 {
@@ -234,20 +268,13 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         return false;
     if (frame->environment_lights && !set_up_environment(&cpu, &device->memory, error))
         return false;
-    uint64_t clock = now_ns();
-    bool built = false;
-    if (frame_has_rays(frame) &&
-        !(cpu.shade.hierarchy = hierarchy_of_frame(&base->hierarchy, frame, device->pool, call, &built, error)))
+    if (!set_up_rays(device, &cpu, error))
         return false;
-    if (frame->settings.shadows && device->light_pattern.all.count != frame->settings.shadow_samples)
-        light_pattern_fill(&device->light_pattern, frame->settings.shadow_samples);
-    cpu.shade.light_pattern = &device->light_pattern;
-    base->report.hierarchy_ms += built ? milliseconds_since(&clock) : 0;
     cpu.kernels->resolve_empty(&cpu.target);
     if (!lam_output_is_light(frame->settings.output))
         output_empty(&cpu.target);
 
-    clock = now_ns();
+    uint64_t clock = now_ns();
     pool_run(device->pool, cpu.vertex_chunk_count, vertex_task, &cpu);
     base->report.vertices_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
@@ -256,17 +283,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     base->report.triangles_ms = milliseconds_since(&clock);
     if (!step_done(&cpu, error))
         return false;
-    bool ok = true;
-    if (frame->makes_normals || cpu.shade.occlusion)
-        ok = cover_in_advance(&cpu, &device->visible, error) && step_done(&cpu, error);
-    double advance_ms = milliseconds_since(&clock);
-    if (frame->makes_normals)
-        base->report.normals_ms = advance_ms - device->visible.search_ms;
-    if (ok && cpu.shade.occlusion) {
-        screen_occlusion_find(&cpu.occlusion, cpu.kernels->occlusion, device->pool, call);
-        base->report.occlusion_ms = milliseconds_since(&clock);
-        ok = step_done(&cpu, error);
-    }
+    bool ok = search_before_lighting(device, &cpu, &clock, error);
     struct behind behind;
     if (ok && frame->refracts)
         ok = draw_behind(&cpu, &behind, &device->memory.behind, error) && step_done(&cpu, error);

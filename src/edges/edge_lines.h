@@ -48,9 +48,6 @@ struct edge_stroke {
 typedef void edge_rays(const struct edge_view *view, const struct edge_line *lines, const struct edge_point *points,
                        size_t count, uint8_t *hidden);
 
-// Returns the version with the most lanes, at most `lanes`. All versions give the same results.
-edge_rays *edge_rays_for(int lanes);
-
 // Fills memory->coverage from the strokes of all threads.
 bool edges_cover(struct edge_memory *memory, const struct frame *frame, struct pool *pool, struct call_control *call,
                  lam_error *error);

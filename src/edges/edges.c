@@ -10,8 +10,6 @@
 
 edge_rays edge_rays_scalar, edge_rays_avx2, edge_rays_avx512;
 
-edge_rays *edge_rays_for(int lanes) { return CPU_WIDEST(lanes, edge_rays_scalar, edge_rays_avx2, edge_rays_avx512); }
-
 // --- the list of edges
 
 // Everything that a draw's edges depend on. Equal pointers mean equal contents, since a scene never modifies its
@@ -230,7 +228,9 @@ bool edges_find(struct edge_memory *memory, const struct frame *frame, const str
                 struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error)
 {
     struct loop_status loop = {.call = call};
-    struct search search = {.memory = memory, .rays_of = edge_rays_for(lanes)};
+    struct search search = {.memory = memory};
+    // All versions give the same results.
+    search.rays_of = CPU_WIDEST(lanes, edge_rays_scalar, edge_rays_avx2, edge_rays_avx512);
     if (!is_listed(memory, frame) && !list(memory, frame, call, error))
         return false;
     if (!reserve_threads(memory, pool_threads(pool), call, error))

@@ -31,8 +31,6 @@ struct environment_samples {
     const float *density; // 6 faces, row by row: the density of `light` per area, for faces from −1 to 1
 };
 
-enum { ENVIRONMENT_SAMPLES_MIN = 16, ENVIRONMENT_SAMPLES_MAX = 1 << 20 };
-
 // Selects `count` directions. `to_environment` rotates the caller's axes to the environment's. `storage` owns the
 // samples. `call` may be NULL.
 bool environment_samples_make(struct environment_samples *samples, const struct lam_environment *cube,

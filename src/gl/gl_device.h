@@ -336,9 +336,6 @@ void gl_state_invalidate(struct gl_device *device);
 
 // --- gl_meshes.c
 bool mesh_can_share(const lam_mesh *mesh);
-// Writes the vertices `first` to `first + count` of a form, in the order of the vertex buffer.
-void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
-                   uint32_t count, struct mesh_vertex *out);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
 // Returns the mesh's buffers, created on first use; `passing` means that the mesh's arrays may change after the frame.
 // If `runs` is not NULL, the elements are ordered by call. The pointer is valid until the next call. Returns NULL on

@@ -76,8 +76,9 @@ static void copy(float *to, const float *from, size_t count, uint32_t element)
         memcpy(to, from + count * element, count * sizeof *to);
 }
 
-void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
-                   uint32_t count, struct mesh_vertex *out)
+// Writes the vertices `first` to `first + count` of a form, in the order of the vertex buffer.
+static void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
+                          uint32_t count, struct mesh_vertex *out)
 {
     for (uint32_t i = 0; i < count; i++, out++) {
         uint32_t corner = first + i, triangle = corner / 3;

@@ -13,10 +13,7 @@ struct splitter {
 };
 
 struct splitting {
-    const float *positions;
-    const struct mesh_polygon *polygons;
-    size_t count;
-    uint32_t *const *corners;
+    const struct mesh_polygons *polygons;
     uint8_t *inner_edges; // NULL if not requested
     struct splitter *splitters;
     struct loop_status loop;
@@ -33,7 +30,7 @@ static inline void reorder(uint32_t *at, uint32_t count, const uint32_t *triples
 
 static bool split_polygon(const struct splitting *splitting, struct mesh_polygon polygon, struct splitter *splitter)
 {
-    uint32_t count = polygon.count, corner_count = 3 * (count - 2);
+    uint32_t count = polygon.count, corner_count = 3 * (count - 2), *const *arrays = splitting->polygons->corners;
     uint32_t small_corners[SMALL_POLYGON], small_triples[3 * (SMALL_POLYGON - 2)];
     uint32_t *corners = small_corners, *triples = small_triples;
     if (count > SMALL_POLYGON) {
@@ -44,15 +41,15 @@ static bool split_polygon(const struct splitting *splitting, struct mesh_polygon
             return false;
     }
     size_t first = 3 * (size_t)polygon.first_triangle;
-    if (!triangulate(&splitter->triangulator, splitting->positions, splitting->corners[0] + first, count, triples))
+    if (!triangulate(&splitter->triangulator, splitting->polygons->positions, arrays[0] + first, count, triples))
         return false;
     for (uint32_t i = 0; splitting->inner_edges && i < count - 2; i++)
         splitting->inner_edges[polygon.first_triangle + i] = triangulated_inner_edges(triples + 3 * (size_t)i, count);
     for (int k = 0; k < 3; k++) {
-        if (splitting->corners[k] && count == 4) // the compiler unrolls the loops for this constant
-            reorder(splitting->corners[k] + first, 4, triples, corners);
-        else if (splitting->corners[k])
-            reorder(splitting->corners[k] + first, count, triples, corners);
+        if (arrays[k] && count == 4) // the compiler unrolls the loops for this constant
+            reorder(arrays[k] + first, 4, triples, corners);
+        else if (arrays[k])
+            reorder(arrays[k] + first, count, triples, corners);
     }
     return true;
 }
@@ -60,29 +57,27 @@ static bool split_polygon(const struct splitting *splitting, struct mesh_polygon
 static void split_polygons(void *user, size_t index, int thread)
 {
     struct splitting *splitting = user;
-    size_t first = index * TASK_POLYGONS, last = first + TASK_POLYGONS;
-    last = last < splitting->count ? last : splitting->count;
+    size_t first = index * TASK_POLYGONS, last = first + TASK_POLYGONS, count = splitting->polygons->count;
+    last = last < count ? last : count;
     bool done = should_continue(&splitting->loop);
     for (size_t i = first; done && i < last; i++) {
-        done = split_polygon(splitting, splitting->polygons[i], &splitting->splitters[thread]);
+        done = split_polygon(splitting, splitting->polygons->items[i], &splitting->splitters[thread]);
         if (!done)
             no_memory(&splitting->loop); // or the call was cancelled, which mesh_triangulate reports instead
     }
 }
 
-bool mesh_triangulate(const struct import_source *source, struct lam_scene *scene, const float *positions,
-                      const struct mesh_polygon *polygons, size_t count, uint64_t triangles, uint32_t *const corners[3],
+bool mesh_triangulate(const struct import_source *source, struct lam_scene *scene, const struct mesh_polygons *polygons,
                       const uint8_t **inner_edges, lam_error *error)
 {
     struct call_control *call = source->call;
-    struct splitting splitting = {
-        .positions = positions, .polygons = polygons, .count = count, .corners = corners, .loop = {.call = call}};
-    if (count == 0)
+    struct splitting splitting = {.polygons = polygons, .loop = {.call = call}};
+    if (polygons->count == 0)
         return true;
     if (source->params->polygon_edges) {
-        *inner_edges = splitting.inner_edges = arena_alloc_zeroed(&scene->arena, triangles);
+        *inner_edges = splitting.inner_edges = arena_alloc_zeroed(&scene->arena, polygons->triangles);
         if (!splitting.inner_edges)
-            return call_memory_error(call, (size_t)triangles, error);
+            return call_memory_error(call, (size_t)polygons->triangles, error);
     }
     struct arena memory;
     arena_start(&memory, call);
@@ -96,7 +91,7 @@ bool mesh_triangulate(const struct import_source *source, struct lam_scene *scen
         triangulator_start(&splitting.splitters[t].triangulator, call);
         arena_start(&splitting.splitters[t].large, call);
     }
-    pool_run(source->pool, (count + TASK_POLYGONS - 1) / TASK_POLYGONS, split_polygons, &splitting);
+    pool_run(source->pool, (polygons->count + TASK_POLYGONS - 1) / TASK_POLYGONS, split_polygons, &splitting);
     for (size_t t = 0; t < threads; t++) {
         triangulator_stop(&splitting.splitters[t].triangulator);
         arena_free(&splitting.splitters[t].large);
@@ -104,7 +99,7 @@ bool mesh_triangulate(const struct import_source *source, struct lam_scene *scen
     arena_free(&memory);
     if (!call_should_continue(call))
         return call_error(call, error);
-    return !splitting.loop.out_of_memory || call_memory_error(call, polygons[0].count * sizeof(uint32_t), error);
+    return !splitting.loop.out_of_memory || call_memory_error(call, polygons->items[0].count * sizeof(uint32_t), error);
 }
 
 bool mesh_add_object(struct lam_scene *scene, const lam_mesh *mesh, const char *name, lam_error *error)

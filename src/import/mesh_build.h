@@ -10,12 +10,18 @@ struct mesh_polygon {
     uint32_t first_triangle, count;
 };
 
-// Splits the polygons in place, in parallel. `corners` are the mesh's index arrays: positions, and other attributes or
-// NULL. If load_params.polygon_edges is set, sets *inner_edges (lam_mesh.inner_edges, in the scene's arena) for
-// `triangles` triangles, unless there are no polygons. `positions` must be finite, and the position indices must be in
-// range.
-bool mesh_triangulate(const struct import_source *source, struct lam_scene *scene, const float *positions,
-                      const struct mesh_polygon *polygons, size_t count, uint64_t triangles, uint32_t *const corners[3],
+// The polygons of a mesh.
+struct mesh_polygons {
+    const struct mesh_polygon *items;
+    size_t count;
+    const float *positions; // finite
+    uint32_t *corners[3];   // the mesh's index arrays: positions, in range, and other attributes or NULL
+    uint64_t triangles;     // of the mesh, including the triangles of the polygons
+};
+
+// Splits the polygons in place, in parallel. If load_params.polygon_edges is set, sets *inner_edges
+// (lam_mesh.inner_edges, in the scene's arena), unless there are no polygons.
+bool mesh_triangulate(const struct import_source *source, struct lam_scene *scene, const struct mesh_polygons *polygons,
                       const uint8_t **inner_edges, lam_error *error);
 
 // Adds the mesh and one object with this name (may be NULL). A mesh without triangles, lines or points is not added.

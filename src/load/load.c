@@ -153,6 +153,26 @@ static bool load_in_parts(struct import_source *source, const struct importer **
     return in_parts || done;
 }
 
+// Reads the whole file to *file, or copies `bytes` if `path` is NULL, and loads the scene from it. On failure, *scene
+// is NULL or an incomplete scene, which the caller frees.
+static bool load_whole(struct import_source *source, const char *path, const void *bytes, size_t size,
+                       struct file_bytes *file, const struct importer **importer, lam_scene **scene, lam_error *error)
+{
+    if (!(path ? file_read(path, source->pool, source->call, file, error)
+               : file_copy(bytes, size, source->call, file, error))) {
+        if (path)
+            explain_path(path, error);
+        return false;
+    }
+    source->bytes = file->data;
+    source->size = file->size;
+    source->file = file;
+    call_progress(source->call, 0.05, "read");
+    *importer = importer_for(source->name, file, source->params->format, error);
+    *scene = *importer ? start_scene(source, *importer, error) : NULL;
+    return *scene && (*importer)->load(source, *scene, error);
+}
+
 // Loads from `path`, or from `bytes` if `path` is NULL.
 static lam_scene *load(const char *path, const void *bytes, size_t size, const char *name, const lam_load_params *given,
                        const lam_control *control, lam_error *error)
@@ -192,23 +212,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     ok = ok && (folder || !path || fail_memory(error, strlen(path)));
     bool loaded = ok && load_in_parts(&source, &importer, &scene, error);
     call_add_input(&call, path ? 0 : size);
-    if (loaded) {
-        ok = scene != NULL;
-    } else {
-        ok = ok &&
-             (path ? file_read(path, source.pool, &call, &file, error) : file_copy(bytes, size, &call, &file, error));
-        if (!ok && path)
-            explain_path(path, error);
-    }
-    if (ok && !loaded) {
-        source.bytes = file.data;
-        source.size = file.size;
-        source.file = &file;
-        call_progress(&call, 0.05, "read");
-        importer = importer_for(name, &file, params->format, error);
-        scene = importer ? start_scene(&source, importer, error) : NULL;
-        ok = scene && importer->load(&source, scene, error);
-    }
+    ok = loaded ? scene != NULL : ok && load_whole(&source, path, bytes, size, &file, &importer, &scene, error);
     ok = ok && finish(scene, &source, importer, start_ns, error) && file_list_give(&files, source.path, scene, error);
     if (ok) {
         scene->input_bytes = call_input_bytes(&call);

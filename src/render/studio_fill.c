@@ -54,11 +54,15 @@ static double lit_ratio(const lam_image *lit, const lam_image *surfaces)
     return count ? (double)ratios[count * 3 / 4] : 0;
 }
 
-// Draws two pictures: the lit scene, and the colours of its surfaces. Returns the result of black_share, or −1 on
-// failure. *ratio receives the result of lit_ratio.
-static double measure(lam_device *device, const lam_scene *scene, const lam_camera *camera,
-                      const lam_draw_params *params, int width, int height, const lam_control *control, double *ratio,
-                      lam_error *error)
+struct lighting {
+    double black_share; // −1: the pictures could not be drawn
+    double lit_ratio;
+};
+
+// Draws two pictures: the lit scene, and the colours of its surfaces. Returns the results of black_share and lit_ratio.
+static struct lighting measure(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                               const lam_draw_params *params, int width, int height, const lam_control *control,
+                               lam_error *error)
 {
     bool ground = params->ground != LAM_GROUND_NONE;
     lam_draw_params drawn = *params;
@@ -77,11 +81,14 @@ static double measure(lam_device *device, const lam_scene *scene, const lam_came
     drawn.background = (lam_rgba){0, 0, 0, 0};
     drawn.ground = LAM_GROUND_NONE;
     ok = ok && lam_draw(device, scene, camera, &drawn, &surfaces, control, error);
-    double share = ok ? black_share(&lit, &surfaces, ground) : -1;
-    *ratio = ok ? lit_ratio(&lit, &surfaces) : 0;
+    struct lighting measured = {-1, 0};
+    if (ok) {
+        measured.black_share = black_share(&lit, &surfaces, ground);
+        measured.lit_ratio = lit_ratio(&lit, &surfaces);
+    }
     lam_image_free(&lit);
     lam_image_free(&surfaces);
-    return share;
+    return measured;
 }
 
 static lam_rgb times(lam_rgb c, double factor)
@@ -114,13 +121,14 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
                                                                              // models
     if (classic || params->output != LAM_OUTPUT_PICTURE || lam_scene_environment(scene))
         return true;
-    double ratio, share = measure(device, scene, camera, params, width, height, control, &ratio, error);
-    if (share < 0)
+    struct lighting measured = measure(device, scene, camera, params, width, height, control, error);
+    if (measured.black_share < 0)
         return false;
-    if (share <= 0.1)
+    if (measured.black_share <= 0.1)
         return true;
     // The exposure suits a picture that is mostly black. With the studio, a few lit surfaces would be much too bright.
-    double scale = math_exp2(params->exposure - LAM_STUDIO_FILL_EXPOSURE) / (ratio > 1 ? ratio : 1);
+    double scale =
+        math_exp2(params->exposure - LAM_STUDIO_FILL_EXPOSURE) / (measured.lit_ratio > 1 ? measured.lit_ratio : 1);
     lam_environment *studio = lam_environment_built_in("studio", error);
     bool ok = studio && lam_scene_set_environment(scene, studio, 0, error) && scale_lights(scene, scale, error);
     lam_environment_free(studio);
@@ -130,7 +138,7 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
     snprintf(text, sizeof text,
              "the file's own lights leave %d %% of the picture black; a dim studio lights it too (rig file: only its "
              "own lights)",
-             (int)(100 * share));
+             (int)(100 * measured.black_share));
     lam_scene_add_warning(scene, text);
     params->exposure = LAM_STUDIO_FILL_EXPOSURE;
     *light_scale = scale;

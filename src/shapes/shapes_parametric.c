@@ -463,51 +463,65 @@ static struct pool *make_pool(int threads, uint64_t vertices)
     return threads > 1 ? pool_make(threads) : NULL;
 }
 
+// The sizes of the surfaces of a mesh together.
+struct sizes {
+    uint64_t attributes, triangles;
+    int widest, longest; // the most segments of a surface in u and in v
+};
+
+static bool measure(const lam_parametric *surfaces, int count, struct sizes *sizes, lam_error *error)
+{
+    *sizes = (struct sizes){0};
+    for (int k = 0; k < count; k++) {
+        const lam_parametric *s = &surfaces[k];
+        if (!check(s, error))
+            return false;
+        sizes->attributes += (uint64_t)(s->u_segments + 1) * (uint64_t)(s->v_segments + 1);
+        sizes->triangles += 2 * (uint64_t)s->u_segments * (uint64_t)s->v_segments;
+        sizes->widest = s->u_segments > sizes->widest ? s->u_segments : sizes->widest;
+        sizes->longest = s->v_segments > sizes->longest ? s->v_segments : sizes->longest;
+    }
+    return sizes->attributes <= SHAPE_VERTICES_MAX ||
+           fail(error, LAM_LIMIT, "parametric surface: %llu vertices, expected at most %d",
+                (unsigned long long)sizes->attributes, SHAPE_VERTICES_MAX);
+}
+
+// Divides a block of memory into the arrays of the mesh.
+static void place_arrays(struct tessellation *t, float *block, const struct sizes *sizes)
+{
+    t->positions = block;
+    t->normals = t->positions + 3 * sizes->attributes;
+    t->tangents = t->normals + 3 * sizes->attributes;
+    t->texcoords = t->tangents + 4 * sizes->attributes;
+    t->indices = (uint32_t *)(t->texcoords + 2 * sizes->attributes);
+    t->attributes = t->indices + 3 * sizes->triangles;
+}
+
 static bool tessellate(const lam_parametric *surfaces, int count, const struct shape_request *request, lam_mesh *mesh,
                        struct arena *border_arena, uint8_t **border)
 {
-    uint64_t attributes = 0, triangles = 0;
-    int widest = 0, longest = 0;
-    struct arena *arena = request->arena;
-    for (int k = 0; k < count; k++) {
-        const lam_parametric *s = &surfaces[k];
-        if (!check(s, request->error))
-            return false;
-        attributes += (uint64_t)(s->u_segments + 1) * (uint64_t)(s->v_segments + 1);
-        triangles += 2 * (uint64_t)s->u_segments * (uint64_t)s->v_segments;
-        widest = s->u_segments > widest ? s->u_segments : widest;
-        longest = s->v_segments > longest ? s->v_segments : longest;
-    }
-    if (attributes > SHAPE_VERTICES_MAX)
-        return fail(request->error, LAM_LIMIT, "parametric surface: %llu vertices, expected at most %d",
-                    (unsigned long long)attributes, SHAPE_VERTICES_MAX);
+    struct sizes sizes;
     double low[3], high[3];
-    if (!sample_box(surfaces, count, low, high, request->error))
+    if (!measure(surfaces, count, &sizes, request->error) || !sample_box(surfaces, count, low, high, request->error))
         return false;
 
-    struct tessellation t = {.widest = (size_t)widest + 1, .loop = {.call = request->call}};
+    struct tessellation t = {.widest = (size_t)sizes.widest + 1, .loop = {.call = request->call}};
     origin_choose(low, high, t.origin);
     for (int a = 0; a < 3; a++)
         t.size = high[a] - low[a] > t.size ? high[a] - low[a] : t.size;
     struct arena scratch;
-    struct pool *pool = make_pool(request->threads, attributes);
+    struct pool *pool = make_pool(request->threads, sizes.attributes);
     arena_start(&scratch, request->call);
     t.points = arena_array(&scratch, t.widest * (size_t)pool_threads(pool), sizeof *t.points);
-    t.rows = arena_array(&scratch, (size_t)longest + 1, sizeof *t.rows);
-    float *block = arena_array(arena, 12 * attributes + 6 * triangles, sizeof(float));
-    if (block) {
-        t.positions = block;
-        t.normals = t.positions + 3 * attributes;
-        t.tangents = t.normals + 3 * attributes;
-        t.texcoords = t.tangents + 4 * attributes;
-        t.indices = (uint32_t *)(t.texcoords + 2 * attributes);
-        t.attributes = t.indices + 3 * triangles;
-    }
+    t.rows = arena_array(&scratch, (size_t)sizes.longest + 1, sizeof *t.rows);
+    float *block = arena_array(request->arena, 12 * sizes.attributes + 6 * sizes.triangles, sizeof(float));
+    if (block)
+        place_arrays(&t, block, &sizes);
     if (border)
-        t.border = *border = arena_alloc_zeroed(border_arena, attributes);
+        t.border = *border = arena_alloc_zeroed(border_arena, sizes.attributes);
     bool ok = (!border || t.border) && t.points && t.rows && block;
     if (!ok)
-        call_memory_error(request->call, attributes * 48 + triangles * 24, request->error);
+        call_memory_error(request->call, sizes.attributes * 48 + sizes.triangles * 24, request->error);
     for (int k = 0; ok && k < count; k++) {
         t.surface = &surfaces[k];
         t.u_unit = t.size / (t.surface->u_max - t.surface->u_min);
@@ -525,13 +539,13 @@ static bool tessellate(const lam_parametric *surfaces, int count, const struct s
         .indices = t.indices,
         .triangle_count = (uint32_t)(t.corner / 3),
         .normals = t.normals,
-        .normal_count = (uint32_t)attributes,
+        .normal_count = (uint32_t)sizes.attributes,
         .normal_indices = t.attributes,
         .texcoords = t.texcoords,
-        .texcoord_count = (uint32_t)attributes,
+        .texcoord_count = (uint32_t)sizes.attributes,
         .texcoord_indices = t.attributes,
         .tangents = t.tangents,
-        .tangent_count = (uint32_t)attributes,
+        .tangent_count = (uint32_t)sizes.attributes,
         .tangent_indices = t.attributes,
     };
     return true;

@@ -1,8 +1,9 @@
-# !/usr/bin/env python3 run.py: runs tests of the program. run.py PROGRAM [unittest's arguments; without them, all tests except
-# `check` and `known`] run.py --modules prints the names of those test files; tests/meson.build makes a test of each, and the
-# tests run in parallel. run.py --modules-without-classroom prints the test files that apply to a program built with
-# -Dclassroom=false. run.py --long prints the test files that contain tests marked with harness.long. These run if LAMBENT_LONG
-# is set: only these tests with "only", or all tests with "all". A test given by name always runs.
+#!/usr/bin/env python3
+# run.py: runs tests of the program. run.py PROGRAM [unittest's arguments; without them, all tests except `check` and `known`]
+# run.py --modules prints the names of those test files; tests/meson.build makes a test of each, and the tests run in parallel.
+# run.py --modules-without-classroom prints the test files that apply to a program built with -Dclassroom=false.
+# run.py --long prints the test files that contain tests marked with harness.long. These run if LAMBENT_LONG is set: only these
+# tests with "only", or all tests with "all". A test given by name always runs.
 import os
 import pathlib
 import sys

@@ -3,14 +3,12 @@ import ctypes
 import ctypes.util
 import json
 import os
-import re
 import signal
 import struct
 import subprocess
-import time
 import unittest
 
-from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, covered, decode_png, pixel, png_chunks, read_png, wait_until_caught
+from harness import PROGRAM, SHARED_MODELS, Case, covered, decode_png, pixel, png_chunks, read_png, wait_until_caught
 
 SMALL = ["-s", "64", "-q"]
 

@@ -2,7 +2,6 @@
 import json
 import os
 import resource
-import shutil
 import signal
 import struct
 import subprocess

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import zlib
 
-from harness import Case, PROGRAM, ROOT, chunk, long
+from harness import Case, PROGRAM, chunk, long
 
 BILLIONS = 4294967295
 SANITIZED = b"libasan" in pathlib.Path(PROGRAM).read_bytes() or b"__asan_init" in pathlib.Path(PROGRAM).read_bytes()

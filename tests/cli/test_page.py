@@ -11,7 +11,7 @@ import re
 import shutil
 import subprocess
 
-from harness import OWN_MODELS, PROGRAM, ROOT, Case, write_png
+from harness import OWN_MODELS, PROGRAM, Case, write_png
 
 SCRIPT = "console.log('</bo' + 'dy>');"
 POLICY = "default-src 'none'; script-src 'sha256-%s'" % base64.b64encode(hashlib.sha256(SCRIPT.encode()).digest()).decode()

@@ -1,11 +1,10 @@
 # test_sandbox.py: --sandbox and --allow-path: accessible files, inaccessible files, and the messages.
 import json
 import os
-import pathlib
 import shutil
 import subprocess
 
-from harness import Case, PROGRAM, ROOT, write_png
+from harness import Case, PROGRAM, write_png
 
 HAVE = "off" not in subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE).stdout.decode().split("sandbox ")[1]
 FULL = "and seccomp" in subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE).stdout.decode()

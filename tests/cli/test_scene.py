@@ -5,7 +5,6 @@ import shutil
 import signal
 import struct
 import subprocess
-import time
 import unittest
 
 from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, long, pixel, read_png, write_png, wait_until_caught

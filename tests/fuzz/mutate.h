@@ -113,6 +113,24 @@ static inline void put_u32_little(struct joined *out, uint32_t x)
     put_bytes(out, (uint8_t[]){(uint8_t)x, (uint8_t)(x >> 8), (uint8_t)(x >> 16), (uint8_t)(x >> 24)}, 4);
 }
 
+// Splits a file into parts, changes them and reassembles the file, in place; returns the new size. Sometimes, and if the
+// file cannot be split, changes its bytes instead.
+static inline size_t mutate_parts(uint8_t *data, size_t size, size_t capacity, unsigned seed,
+                                  bool (*split)(struct parts *parts, const uint8_t *data, size_t size),
+                                  void (*change)(struct parts *parts),
+                                  size_t (*join)(struct parts *parts, uint8_t *data, size_t capacity))
+{
+    struct parts parts = {.random = seed};
+    if (random_below(&parts, 8) == 0 || !split(&parts, data, size)) {
+        free_parts(&parts);
+        return LLVMFuzzerMutate(data, size, capacity);
+    }
+    change(&parts);
+    size = join(&parts, data, capacity);
+    free_parts(&parts);
+    return size;
+}
+
 static inline uint32_t u32_big(const uint8_t *at)
 {
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];

@@ -19,7 +19,7 @@ static bool split(struct parts *parts, const uint8_t *data, size_t size)
     return parts->count > 0;
 }
 
-static size_t join(const struct parts *parts, uint8_t *data, size_t capacity)
+static size_t join(struct parts *parts, uint8_t *data, size_t capacity)
 {
     struct joined out = {.bytes = data, .capacity = capacity};
     static const uint8_t nothing[HEAD];
@@ -41,18 +41,15 @@ static size_t join(const struct parts *parts, uint8_t *data, size_t capacity)
     return out.size;
 }
 
+static void change(struct parts *parts)
+{
+    if (random_below(parts, 8) == 0)
+        rearrange(parts);
+    else
+        mutate_part(&parts->list[random_below(parts, (uint32_t)parts->count)]);
+}
+
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t capacity, unsigned seed)
 {
-    struct parts parts = {.random = seed};
-    if (random_below(&parts, 8) == 0 || !split(&parts, data, size)) {
-        free_parts(&parts);
-        return LLVMFuzzerMutate(data, size, capacity);
-    }
-    if (random_below(&parts, 8) == 0)
-        rearrange(&parts);
-    else
-        mutate_part(&parts.list[random_below(&parts, (uint32_t)parts.count)]);
-    size = join(&parts, data, capacity);
-    free_parts(&parts);
-    return size;
+    return mutate_parts(data, size, capacity, seed, split, change, join);
 }

@@ -74,7 +74,7 @@ static void change_frame(struct parts *parts, struct part *frame)
     }
 }
 
-static size_t join(const struct parts *parts, uint8_t *data, size_t capacity)
+static size_t join(struct parts *parts, uint8_t *data, size_t capacity)
 {
     struct joined out = {.bytes = data, .capacity = capacity};
     for (int i = 0; i < parts->count; i++) {
@@ -99,24 +99,21 @@ static size_t join(const struct parts *parts, uint8_t *data, size_t capacity)
     return out.size;
 }
 
-size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t capacity, unsigned seed)
+static void change(struct parts *parts)
 {
-    struct parts parts = {.random = seed};
-    if (random_below(&parts, 8) == 0 || !split(&parts, data, size)) {
-        free_parts(&parts);
-        return LLVMFuzzerMutate(data, size, capacity);
-    }
-    struct part *part = &parts.list[random_below(&parts, (uint32_t)parts.count)];
-    uint32_t kind = random_below(&parts, 16);
+    struct part *part = &parts->list[random_below(parts, (uint32_t)parts->count)];
+    uint32_t kind = random_below(parts, 16);
     if (kind < 2)
-        rearrange(&parts);
+        rearrange(parts);
     else if (kind < 3) // restarts
-        add_part(&parts, (uint8_t[]){0xdd}, 1, (uint8_t[]){0, (uint8_t)random_below(&parts, 4)}, 2);
+        add_part(parts, (uint8_t[]){0xdd}, 1, (uint8_t[]){0, (uint8_t)random_below(parts, 4)}, 2);
     else if (is_frame(part->name[0]) && kind < 14)
-        change_frame(&parts, part);
+        change_frame(parts, part);
     else
         mutate_part(part);
-    size = join(&parts, data, capacity);
-    free_parts(&parts);
-    return size;
+}
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t capacity, unsigned seed)
+{
+    return mutate_parts(data, size, capacity, seed, split, change, join);
 }

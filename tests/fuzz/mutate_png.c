@@ -104,26 +104,23 @@ static size_t join(struct parts *parts, uint8_t *data, size_t capacity)
     return out.size;
 }
 
-size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t capacity, unsigned seed)
+static void change(struct parts *parts)
 {
-    struct parts parts = {.random = seed};
-    if (random_below(&parts, 8) == 0 || !split(&parts, data, size)) {
-        free_parts(&parts);
-        return LLVMFuzzerMutate(data, size, capacity);
-    }
-    struct part *part = &parts.list[random_below(&parts, (uint32_t)parts.count)];
-    uint32_t kind = random_below(&parts, 16);
+    struct part *part = &parts->list[random_below(parts, (uint32_t)parts->count)];
+    uint32_t kind = random_below(parts, 16);
     if (kind < 2)
-        rearrange(&parts);
+        rearrange(parts);
     else if (kind < 4)
-        insert(&parts);
+        insert(parts);
     else if (kind < 7)
-        change_header(&parts, &parts.list[0]);
+        change_header(parts, &parts->list[0]);
     else if (memcmp(part->name, "IDAT", 4) == 0 && kind < 15)
-        change_pixels(&parts, part);
+        change_pixels(parts, part);
     else
         mutate_part(part);
-    size = join(&parts, data, capacity);
-    free_parts(&parts);
-    return size;
+}
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t capacity, unsigned seed)
+{
+    return mutate_parts(data, size, capacity, seed, split, change, join);
 }

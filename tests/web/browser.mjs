@@ -644,7 +644,7 @@ async function accessible() {
   await page.close();
 }
 
-// All texts of the page are in one table (web/page/strings.js); with the pseudo-locale, each is between ⟦ and ⟧. Texts of the program are in
+// All texts of the page are in one table (web/page/base/strings.js); with the pseudo-locale, each is between ⟦ and ⟧. Texts of the program are in
 // elements with translate="no".
 async function pseudo() {
   const page = await openPage(`${origin}?locale=pseudo${fragment(START)}`);

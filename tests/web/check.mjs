@@ -2,8 +2,8 @@
 // each request must equal the recorded one, and gets the recorded answer; the report must also equal the recorded one. Standard input contains a
 // line for each file, JSON {fragment, vertex, contract}. Prints lines of the Test Anything Protocol without numbers.
 import { readFileSync } from 'node:fs';
-import { basename, dirname, join, resolve } from 'node:path';
-import { pathToFileURL } from 'node:url';
+import { basename } from 'node:path';
+import { Check } from '../../web/check/check.js';
 
 const COMPONENTS = [0, 1, 1, 1, 2, 3, 4, 9, 16, 4]; // for each lam_check_type
 const FIRST_HASH = 2166136261;
@@ -146,7 +146,6 @@ class Replay {
 
 const SIZE = 40; // TEST_SIZE of record_painter.c
 const [, , wasm, ...files] = process.argv;
-const { Check } = await import(pathToFileURL(join(dirname(resolve(wasm)), '../../scripts/check.js')));
 const module = new WebAssembly.Module(readFileSync(wasm));
 const asked = readFileSync(0, 'utf8').split('\n').filter(Boolean).map((line) => JSON.parse(line));
 const ok = (good, label, why) => console.log(`${good ? 'ok' : 'not ok'} ${label}${good ? '' : `\n# ${why}`}`);

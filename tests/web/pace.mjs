@@ -1,6 +1,6 @@
-// pace.mjs: tests the size of quick pictures (web/page/pace.js), with simulated frames whose time is proportional to their pixels. Prints lines of
+// pace.mjs: tests the size of quick pictures (web/page/picture/pace.js), with simulated frames whose time is proportional to their pixels. Prints lines of
 // the Test Anything Protocol without numbers.
-import { Pace } from '../../web/page/pace.js';
+import { Pace } from '../../web/page/picture/pace.js';
 
 const ok = (good, label, why = '') => console.log(`${good ? 'ok' : 'not ok'} ${label}${good ? '' : `\n# ${why}`}`);
 

@@ -2,15 +2,15 @@
 // Protocol without numbers.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
-import { around, cameraText, cut, cutShare, onBall, orbit, pan, project, readCamera, shifted, zoom } from '../../web/page/camera.js';
+import { around, cameraText, cut, cutShare, onBall, orbit, pan, project, readCamera, shifted, zoom } from '../../web/page/words/camera.js';
 import { dirname, join } from 'node:path';
 import { open } from '../../web/lambent.js';
-import { aroundEquations, lightEquations, sumEquation } from '../../web/page/equations.js';
-import { lightText, lightWords, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/lights.js';
-import { companions, ranked, setsSize, withNeighbours } from '../../web/page/ranked_models.js';
-import '../../web/page/shader_strings.js';
-import { pseudo, stringKeys, text } from '../../web/page/strings.js';
-import { FORMULAS, State, command, fromFragment, quoted, toFragment, withModel } from '../../web/page/state.js';
+import { aroundEquations, lightEquations, sumEquation } from '../../web/page/explain/equations.js';
+import { lightText, lightWords, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/words/lights.js';
+import { companions, ranked, setsSize, withNeighbours } from '../../web/page/files/ranked_models.js';
+import '../../web/page/shaders/shader_strings.js';
+import { pseudo, stringKeys, text } from '../../web/page/base/strings.js';
+import { FORMULAS, State, command, fromFragment, quoted, toFragment, withModel } from '../../web/page/words/state.js';
 
 const ok = (good, label) => console.log(`${good ? 'ok' : 'not ok'} ${label}`);
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -155,8 +155,10 @@ for (const words of [['teapot'], ['torus-knot', '--rig=three-point', '--shadows'
 
 // The strings: every key that a script or the page uses is in the table, and each key of the table is used; a pseudo-locale preserves
 // {names}.
-const sources = readdirSync(new URL('../../web/page', import.meta.url)).filter((name) => /\.(js|html)$/.test(name))
-  .map((name) => [name, readFileSync(new URL(`../../web/page/${name}`, import.meta.url), 'utf8')]);
+const scriptsFolder = new URL('../../web/page/', import.meta.url);
+const paths = ['', ...readdirSync(scriptsFolder, { withFileTypes: true }).filter((entry) => entry.isDirectory()).map((entry) => entry.name + '/')]
+  .flatMap((inner) => readdirSync(new URL(inner, scriptsFolder)).map((name) => inner + name)).filter((path) => /\.(js|html)$/.test(path));
+const sources = paths.map((path) => [path.split('/').at(-1), readFileSync(new URL(path, scriptsFolder), 'utf8')]);
 const html = Object.fromEntries(sources)['index.html'], scripts = sources.filter(([name]) => name !== 'strings.js').map(([, source]) => source).join('\n');
 const named = [...html.matchAll(/data-(?:text|label|title|placeholder)="(\w+)"/g), ...scripts.matchAll(/\b(?:text\(|button\(|key: )'(\w+)'/g)].map((match) => match[1]);
 const unknown = named.filter((key) => !stringKeys().includes(key)), unused = stringKeys().filter((key) => !new RegExp(`['"]${key}['"]`).test(scripts + html));

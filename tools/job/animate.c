@@ -93,7 +93,8 @@ static int digits_of(int count)
     return digits;
 }
 
-int animation_count(const struct options *o)
+// Returns the number of frames that the options request.
+static int animation_count(const struct options *o)
 {
     return o->animation.turntable ? o->animation.turntable : o->animation.frames ? o->animation.frames : FRAMES_DEFAULT;
 }

@@ -11,9 +11,6 @@ bool animation_check(const struct options *o, lam_error *error);
 // Does the work of job_run for an animation: loads the model, draws the frames and writes them.
 bool animation_run(struct job *job, struct progress *progress, lam_error *error);
 
-// Returns the number of frames that the options request.
-int animation_count(const struct options *o);
-
 // Returns whether a path is the file of a frame. `pattern` is the file name, with {frame} instead of the frame number.
 bool animation_is_frame(const struct options *o, const char *pattern, const char *path);
 

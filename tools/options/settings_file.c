@@ -16,7 +16,7 @@
 #include "json.h"
 #include "suggest.h"
 
-enum { FILE_MAX = 1 << 16, NAME_SIZE = 40, KEYS_MAX = 6 };
+enum { FILE_MAX = 1 << 16, NAME_SIZE = 40 };
 
 // Scene-file keys that are members of a group, or whose option has a different name.
 static const struct {

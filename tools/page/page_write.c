@@ -1,5 +1,5 @@
 // page_write.c: writes the one-file page with a model. Browsers do not run the model's files and the command line as
-// scripts. The page's policy, which lists its scripts by their hashes, therefore needs no change. web/page/inside.js
+// scripts. The page's policy, which lists its scripts by their hashes, therefore needs no change. web/page/base/inside.js
 // reads the files and the command line.
 #include "page_write.h"
 

@@ -53,10 +53,9 @@ void report_line(const struct job *job)
 
 static void time_row(const char *name, double ms) { say_plain("  %-12s %10.2f ms\n", name, ms); }
 
-void report_table(const struct job *job)
+static void table_of_model(const struct job *job)
 {
     const lam_scene *scene = job->scene;
-    const lam_frame_report *frame = &job->times.frame;
     lam_vec3 low, high;
     lam_scene_bounds(scene, &low, &high);
     char items[MODEL_COUNTS_SIZE];
@@ -73,6 +72,10 @@ void report_table(const struct job *job)
         say_plain("orthographic, half height %.7g\n", camera->ortho_half_height);
     else
         say_plain("%.7g degrees high\n", degrees(camera->fovy_rad));
+}
+
+static void table_of_program(const struct job *job)
+{
     char sandbox[SANDBOX_TEXT_SIZE];
     say_plain("device   %s\n", lam_device_name(job->device));
     say_plain("sandbox  %s\n", sandbox_text(sandbox_active(), sandbox));
@@ -84,6 +87,11 @@ void report_table(const struct job *job)
                           job->options->values[i] ? job->options->values[i] : "");
         say_plain("\n");
     }
+}
+
+static void table_of_picture(const struct job *job)
+{
+    const lam_frame_report *frame = &job->times.frame;
     say_plain("picture  ");
     say_output(job);
     say_plain(", %dx%d, %" PRIu64 " bytes\n", job->image.width, job->image.height, job->bytes);
@@ -113,6 +121,11 @@ void report_table(const struct job *job)
         say_plain("ground   at height %.7g\n", frame->ground_height);
     if (frame->ground_square > 0)
         say_plain("         squares of %.7g\n", frame->ground_square);
+}
+
+static void table_of_times(const struct job *job)
+{
+    const lam_frame_report *frame = &job->times.frame;
     time_row("read", job->times.read);
     time_row("prepare", job->times.prepare);
     time_row("camera", job->times.camera);
@@ -144,6 +157,14 @@ void report_table(const struct job *job)
                   job->times.frame_max);
     time_row("encode", job->times.encode);
     time_row("total", job->times.total);
+}
+
+void report_table(const struct job *job)
+{
+    table_of_model(job);
+    table_of_program(job);
+    table_of_picture(job);
+    table_of_times(job);
 }
 
 static void json_model(struct json *json, const struct job *job)

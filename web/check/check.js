@@ -1,5 +1,5 @@
 // check.js: checks shaders as `lambent check` does. A painter (painter.js) draws the pictures of the shaders.
-import { Files, system } from './wasi.js';
+import { Files, system } from '../wasi.js';
 
 // Thrown with the program's message if shaders cannot be checked.
 export class CheckError extends Error {}

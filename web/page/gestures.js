@@ -1,9 +1,9 @@
 // gestures.js: turns, pans and zooms the view by mouse, touch and keyboard. These gestures write the option --camera. Another gesture turns the environment.
-import { beginGesture, endGesture, gestureKey, state, view } from './app.js';
-import { around, decimal, orbit, pan, zoom } from './camera.js';
-import { $ } from './dom.js';
+import { beginGesture, endGesture, gestureKey, state, view } from './shared/app.js';
+import { around, decimal, orbit, pan, zoom } from './words/camera.js';
+import { $ } from './base/dom.js';
 import { explainAt } from './later.js';
-import { move } from './move.js';
+import { move } from './shared/move.js';
 
 const canvas = $('canvas');
 const pointers = new Map();

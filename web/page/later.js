@@ -1,21 +1,21 @@
 // later.js: fetches modules of the page when they are first used, and adds their tabs.
-import { fetchRest, on, refuse, state, view } from './app.js';
-import { $ } from './dom.js';
-import { keepOffline } from './offline.js';
-import { addTab } from './tabs.js';
-import { text } from './strings.js';
+import { fetchRest, on, refuse, state, view } from './shared/app.js';
+import { $ } from './base/dom.js';
+import { keepOffline } from './worker/offline.js';
+import { addTab } from './base/tabs.js';
+import { text } from './base/strings.js';
 
 const used = (loading) => loading.catch((error) => refuse(error.message));
 
-addTab('contents', text('tabContents'), () => used(import('./contents_tab.js')));
-addTab('options', text('tabOptions'), () => used(import('./panel.js')));
-addTab('lights', text('tabLights'), () => used(import('./light_tab.js')));
-addTab('explain', text('tabExplain'), () => used(import('./explaining.js')));
-addTab('shaders', text('tabShaders'), () => used(import('./shaders.js')));
+addTab('contents', text('tabContents'), () => used(import('./tabs/contents_tab.js')));
+addTab('options', text('tabOptions'), () => used(import('./tabs/panel.js')));
+addTab('lights', text('tabLights'), () => used(import('./lights/light_tab.js')));
+addTab('explain', text('tabExplain'), () => used(import('./explain/explaining.js')));
+addTab('shaders', text('tabShaders'), () => used(import('./shaders/shaders.js')));
 
 // Explains the point at a fraction of the picture's width and height.
 export async function explainAt(across, down) {
-  const explaining = await used(import('./explaining.js'));
+  const explaining = await used(import('./explain/explaining.js'));
   explaining?.pinAt(across, down);
 }
 
@@ -24,8 +24,8 @@ on('still', () => {
   const rest = fetchRest().catch(() => {}); // a later call asks again and reports the error
   if (isFirst) rest.then(keepOffline);
   isFirst = false;
-  if (state.values('light').length || view.picture.own_lights) used(import('./handles.js'));
+  if (state.values('light').length || view.picture.own_lights) used(import('./lights/handles.js'));
 });
 
-$('compare').onclick = async () => (await used(import('./split.js')))?.toggle();
-$('export').onclick = async () => (await used(import('./save_dialog.js')))?.openSaveDialog();
+$('compare').onclick = async () => (await used(import('./picture/split.js')))?.toggle();
+$('export').onclick = async () => (await used(import('./files/save_dialog.js')))?.openSaveDialog();

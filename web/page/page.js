@@ -1,15 +1,15 @@
 // page.js: starts the page and imports its modules (app.js describes them). Tabs appear in the order of these imports.
-import { call, emit, refuse, state, view } from './app.js';
-import { takeInsideFiles } from './inside.js';
-import { MODULE_BYTES } from './memory.js';
-import { addFiles } from './opened.js';
-import './drawing.js';
-import './files.js';
+import { call, emit, refuse, state, view } from './shared/app.js';
+import { takeInsideFiles } from './base/inside.js';
+import { MODULE_BYTES } from './base/memory.js';
+import { addFiles } from './shared/opened.js';
+import './picture/drawing.js';
+import './files/files.js';
 import './quick.js';
 import './later.js';
 import './gestures.js';
-import './window_size.js';
-import './bar.js';
+import './shared/window_size.js';
+import './picture/bar.js';
 
 async function start() {
   try {
@@ -22,5 +22,5 @@ async function start() {
     refuse(error.message);
   }
 }
-if (document.getElementById('served')) import('./viewer.js'); // `lambent view`
+if (document.getElementById('served')) import('./picture/viewer.js'); // `lambent view`
 start();

@@ -1,7 +1,7 @@
 // quick.js: the first tab, with the most common settings. Its contents are fetched while the first picture is drawn.
-import { on, refuse } from './app.js';
-import { text } from './strings.js';
-import { addTab } from './tabs.js';
+import { on, refuse } from './shared/app.js';
+import { text } from './base/strings.js';
+import { addTab } from './base/tabs.js';
 
 addTab('quick', text('tabQuick'));
-on('ready', () => import('./picture_tab.js').catch((error) => refuse(error.message)));
+on('ready', () => import('./tabs/picture_tab.js').catch((error) => refuse(error.message)));

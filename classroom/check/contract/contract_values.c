@@ -92,6 +92,45 @@ static bool read_number(struct contract_reader *r, const struct place *place, co
     return true;
 }
 
+static bool read_attenuation(struct contract_reader *r, const struct place *place, const json_t *object,
+                             struct contract_defaults *d)
+{
+    double v[3];
+    const json_t *list = json_object_get(object, "attenuation");
+    if (!list)
+        return true;
+    if (!json_numbers_of(&r->json, KEY_OF(place, "attenuation"), list, 3, 3, v, NULL))
+        return false;
+    if (v[0] < 0 || v[1] < 0 || v[2] < 0 || v[0] + v[1] + v[2] <= 0)
+        return json_fail(&r->json, KEY_OF(place, "attenuation"),
+                         "found %g, %g, %g, expected numbers of at least 0, not all of them 0", v[0], v[1], v[2]);
+    d->has_attenuation = true;
+    for (int i = 0; i < 3; i++)
+        d->attenuation[i] = (float)v[i];
+    return true;
+}
+
+// Reads the light's direction or its position.
+static bool read_light_place(struct contract_reader *r, const struct place *place, const json_t *object,
+                             struct contract_defaults *d)
+{
+    static const char *const keys[] = {"light_direction", "light_position"};
+    for (int i = 0; i < 2; i++) {
+        double v[3];
+        const json_t *list = json_object_get(object, keys[i]);
+        if (!list)
+            continue;
+        if (!json_numbers_of(&r->json, KEY_OF(place, keys[i]), list, 3, 3, v, NULL))
+            return false;
+        if (i == 0 && v[0] == 0 && v[1] == 0 && v[2] == 0)
+            return json_fail(&r->json, KEY_OF(place, keys[i]), "found 0, 0, 0, expected a direction");
+        d->has_direction = i == 0;
+        d->has_position = i == 1;
+        d->direction = (lam_vec3){v[0], v[1], v[2]};
+    }
+    return true;
+}
+
 bool contract_read_defaults(struct contract_reader *r, const json_t *root)
 {
     static const char *const keys[] = {"ambient_color",
@@ -130,34 +169,8 @@ bool contract_read_defaults(struct contract_reader *r, const json_t *root)
         !read_number(r, place, object, "spot_exponent", &d->spot_exponent))
         return false;
     d->light_space = r->contract->space;
-    if (!json_take_word(&r->json, place, object, "light_space", contract_spaces, &d->light_space))
-        return false;
-    double v[3];
-    const json_t *list = json_object_get(object, "attenuation");
-    if (list) {
-        if (!json_numbers_of(&r->json, KEY_OF(place, "attenuation"), list, 3, 3, v, NULL))
-            return false;
-        if (v[0] < 0 || v[1] < 0 || v[2] < 0 || v[0] + v[1] + v[2] <= 0)
-            return json_fail(&r->json, KEY_OF(place, "attenuation"),
-                             "found %g, %g, %g, expected numbers of at least 0, not all of them 0", v[0], v[1], v[2]);
-        d->has_attenuation = true;
-        for (int i = 0; i < 3; i++)
-            d->attenuation[i] = (float)v[i];
-    }
-    static const char *const places[] = {"light_direction", "light_position"};
-    for (int i = 0; i < 2; i++) {
-        list = json_object_get(object, places[i]);
-        if (!list)
-            continue;
-        if (!json_numbers_of(&r->json, KEY_OF(place, places[i]), list, 3, 3, v, NULL))
-            return false;
-        if (i == 0 && v[0] == 0 && v[1] == 0 && v[2] == 0)
-            return json_fail(&r->json, KEY_OF(place, places[i]), "found 0, 0, 0, expected a direction");
-        d->has_direction = i == 0;
-        d->has_position = i == 1;
-        d->direction = (lam_vec3){v[0], v[1], v[2]};
-    }
-    return true;
+    return json_take_word(&r->json, place, object, "light_space", contract_spaces, &d->light_space) &&
+           read_attenuation(r, place, object, d) && read_light_place(r, place, object, d);
 }
 
 // --- constants and the prefix

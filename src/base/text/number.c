@@ -281,7 +281,25 @@ static int64_t big_digits(const struct decimal *d, struct big *a)
     return power;
 }
 
-// Returns the bits nearest to the number, by long division.
+// Returns the quotient, by long division. `bits`, at least 0, is by how many bits `over` is longer than `under`.
+// Multiplies `under` by 2^bits; `over` receives the remainder times 2^bits.
+static uint64_t divide(struct big *over, struct big *under, int bits)
+{
+    uint64_t quotient = 0;
+    big_shift_left(under, bits);
+    for (int i = bits; i >= 0; i--) {
+        quotient <<= 1;
+        if (big_compare(over, under) >= 0) {
+            big_subtract(over, under);
+            quotient |= 1;
+        }
+        if (i > 0)
+            big_shift_left(over, 1); // instead of shifting the divisor down
+    }
+    return quotient;
+}
+
+// Returns the bits nearest to the number.
 static uint64_t round_exactly(const struct decimal *d, const struct format *format)
 {
     struct big over = {{0}, 0}, under = {{1}, 1};
@@ -305,19 +323,8 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
     else
         big_shift_left(&over, -last);
 
-    uint64_t quotient = 0;
     int bits = big_bits(&over) - big_bits(&under);
-    if (bits >= 0)
-        big_shift_left(&under, bits);
-    for (int i = bits; i >= 0; i--) {
-        quotient <<= 1;
-        if (big_compare(&over, &under) >= 0) {
-            big_subtract(&over, &under);
-            quotient |= 1;
-        }
-        if (i > 0)
-            big_shift_left(&over, 1); // instead of shifting the divisor down
-    }
+    uint64_t quotient = bits >= 0 ? divide(&over, &under, bits) : 0;
     bool rest = over.count != 0;
     if (bits < 0) { // round up if the remainder is more than half of the last bit
         big_shift_left(&over, 1);

@@ -62,9 +62,14 @@ bool obj_complete(struct obj *obj, lam_error *error)
     call_progress(obj->source->call, 0.7, "read");
     // obj_complete_texcoords drops the array if no face uses it, but lines may use it
     const float *texcoords = obj->texcoords;
-    uint32_t *const corners[3] = {obj->indices, obj->texcoord_indices, obj->normal_indices};
-    if (!mesh_triangulate(obj->source, obj->scene, obj->positions, obj->polygons, (size_t)obj->total.polygons,
-                          obj->total.triangles, corners, &obj->inner_edges, error) ||
+    struct mesh_polygons polygons = {
+        .items = obj->polygons,
+        .count = (size_t)obj->total.polygons,
+        .positions = obj->positions,
+        .corners = {obj->indices, obj->texcoord_indices, obj->normal_indices},
+        .triangles = obj->total.triangles,
+    };
+    if (!mesh_triangulate(obj->source, obj->scene, &polygons, &obj->inner_edges, error) ||
         !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
         return false;
     warn_faces(obj);

@@ -36,8 +36,8 @@ static bool split_polygons(const struct import_source *source, const struct ply_
     if (degenerate > 0)
         scene_warn(scene, "%s: %zu of %zu faces have fewer than three corners and are ignored", source->name,
                    degenerate, rows);
-    return mesh_triangulate(source, scene, mesh->positions, polygons, count, mesh->triangle_count,
-                            (uint32_t *const[3]){faces->items}, &mesh->inner_edges, error);
+    struct mesh_polygons split = {polygons, count, mesh->positions, {faces->items}, mesh->triangle_count};
+    return mesh_triangulate(source, scene, &split, &mesh->inner_edges, error);
 }
 
 // Uses the normals of the faces if the vertices have no normals. The corners of a face refer to its normal by index.

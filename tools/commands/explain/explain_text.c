@@ -434,7 +434,8 @@ static void print_values(const lam_explained_fragment *f)
     printf("\n");
 }
 
-static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
+// The primitive, and the part, mesh and object that contain it.
+static void print_primitive(const lam_explanation *e, const lam_explained_fragment *f)
 {
     char name[32];
     if (f->ground)
@@ -457,21 +458,10 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
         named(f->object_name);
     }
     printf(": %d of %d sample%s\n", f->samples, e->samples, e->samples == 1 ? "" : "s");
-    row_label(2, "taken at");
-    printf("%13.7g %13.7g   ", f->picture_x, f->picture_y);
-    if (f->lit_sample < 0)
-        printf("pixels from the top left: the pixel's centre\n");
-    else
-        printf("pixels from the top left: sample %d, since the centre is outside the triangle\n", f->lit_sample);
-    row_three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
-              "barycentric, perspective-correct");
-    explain_places(e, f);
-    print_material(e, f);
-    print_values(f);
-    for (int i = 0; i < f->point_count; i++)
-        print_point(e, f, &f->points[i]);
-    if (f->point_count == 3)
-        printf("\n");
+}
+
+static void print_result(const lam_explanation *e, const lam_explained_fragment *f)
+{
     if (f->ground == LAM_GROUND_SHADOW) {
         row_number(2, "light received", (double)f->received, "luminance of the sum: 0.2126 r + 0.7152 g + 0.0722 b");
         row_number(2, "unobstructed", (double)f->unobstructed, "the same without shadows and occlusion");
@@ -490,10 +480,32 @@ static void print_fragment(const lam_explanation *e, const lam_explained_fragmen
                    f->ground == LAM_GROUND_SHADOW ? "blocked share · the ground's fade-out"
                    : f->ground                    ? "the share to which the ground has not faded out"
                                                   : "opacity · the vertex colour's alpha");
+}
+
+static void print_fragment(const lam_explanation *e, const lam_explained_fragment *f)
+{
+    print_primitive(e, f);
+    row_label(2, "taken at");
+    printf("%13.7g %13.7g   ", f->picture_x, f->picture_y);
+    if (f->lit_sample < 0)
+        printf("pixels from the top left: the pixel's centre\n");
+    else
+        printf("pixels from the top left: sample %d, since the centre is outside the triangle\n", f->lit_sample);
+    row_three(2, "weights of the corners", (double)f->weights[0], (double)f->weights[1], (double)f->weights[2],
+              "barycentric, perspective-correct");
+    explain_places(e, f);
+    print_material(e, f);
+    print_values(f);
+    for (int i = 0; i < f->point_count; i++)
+        print_point(e, f, &f->points[i]);
+    if (f->point_count == 3)
+        printf("\n");
+    print_result(e, f);
     bool veiled = false;
     for (int s = 0; s < e->samples; s++)
         veiled |= (f->sample_mask >> s & 1) && f->transmittance[s] < 1;
     for (int s = 0; veiled && s < e->samples; s++) {
+        char name[32];
         snprintf(name, sizeof name, "sample %d", s);
         if (f->sample_mask >> s & 1)
             row_number(2, name, (double)f->transmittance[s], "transmittance of the surfaces in front: Π (1 − alpha)");

@@ -316,19 +316,17 @@ static void set_maps(struct fault_shader *m, const struct reference_scene *s)
     set_number(m, "occlusion", s->occlusion);
 }
 
-bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *reference_scene,
-                       const struct fault_model *model, const fault_set *set_of_faults, float *pixels, lam_error *error)
+// Returns the specialization for a scene and a set of faults. bits[b] receives 1 if the set contains fault b, else 0.
+static struct specialization specialization_of(const struct reference_scene *reference_scene,
+                                               const struct fault_model *model, const fault_set *set_of_faults,
+                                               float bits[FAULT_BIT_COUNT])
 {
     const struct shader_interface *interface = model->interface;
-    lam_light_frame frame = model->light_frame;
-    lam_reflection reflection = model->reflection;
-    struct reference_matrices matrices;
-    reference_matrices(reference_scene, &matrices);
     bool smooth = fault_set_has(set_of_faults, BIT_SMOOTH_FOR_FLAT);
     const struct physical_convention *physical = &interface->contract->physical;
     struct specialization made_for = {.in_vertex = interface->vertex_lit || (reference_scene->flat && !smooth),
                                       .physical = interface->physical,
-                                      .phong = reflection == LAM_REFLECTION_PHONG,
+                                      .phong = model->reflection == LAM_REFLECTION_PHONG,
                                       .products = shader_interface_declares(interface, SEMANTIC_DIFFUSE_PRODUCT),
                                       .ambient_by_light = shader_interface_declares(interface, SEMANTIC_LIGHT_AMBIENT),
                                       .flat = reference_scene->flat,
@@ -344,17 +342,18 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     made_for.spots = fault_set_has(set_of_faults, BIT_EVERY_LIGHT_A_SPOT);
     for (int i = 0; i < reference_scene->light_count; i++)
         made_for.spots |= reference_scene->lights[i].type == LAM_LIGHT_SPOT;
-    float bits[FAULT_BIT_COUNT];
     for (int i = 0; i < FAULT_BIT_COUNT; i++) {
         bool on = fault_set_has(set_of_faults, (enum fault_bit)i);
         bits[i] = on ? 1 : 0;
         made_for.groups[group_of(i)] |= on;
     }
-    if (!build(m, &made_for, error))
-        return false;
-    m->value_count = m->number_count = 0;
-    set(m, "fault_on[0]", FAULT_BIT_COUNT, 1, bits);
-    lam_light_frame space = interface->space;
+    return made_for;
+}
+
+// Sets the matrices, and the position and axis of the eye.
+static void set_spaces(struct fault_shader *m, lam_light_frame space, const struct reference_scene *reference_scene,
+                       const struct reference_matrices *matrices)
+{
     const struct {
         const char *name;
         enum uniform_semantic eye, world; // the semantics for lighting in eye space and in world space
@@ -370,22 +369,21 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
             const lam_mat4 identity = lam_mat4_identity();
             set(m, values[i].name, 1, 16, matrix_value(&identity).v);
         } else if (semantic != SEMANTIC_NONE)
-            set(m, values[i].name, 1, 16, uniform_semantic_value(semantic, 0, space, reference_scene, &matrices).v);
+            set(m, values[i].name, 1, 16, uniform_semantic_value(semantic, 0, space, reference_scene, matrices).v);
     }
-    set(m, "eye_position", 1, 4, uniform_semantic_value(SEMANTIC_EYE_POSITION, 0, space, reference_scene, &matrices).v);
+    set(m, "eye_position", 1, 4, uniform_semantic_value(SEMANTIC_EYE_POSITION, 0, space, reference_scene, matrices).v);
     // The third row of the view matrix is the eye's axis in world space.
-    const lam_mat4 *view = &matrices.view;
+    const lam_mat4 *view = &matrices->view;
     if (space == LAM_FRAME_WORLD)
         set(m, "eye_axis", 1, 4, (float[]){(float)view->m[2][0], (float)view->m[2][1], (float)view->m[2][2], 0});
     else
         set(m, "eye_axis", 1, 4, (float[]){0, 0, 1, 0});
-    float small = (float)(m->stride * m->place.size), scale = (float)m->size / small;
-    float offset = scale + (float)(m->stride - 1) / small - 1;
-    set(m, "window", 1, 4, (float[]){scale, scale, offset, offset});
-    for (int i = 0; i < reference_scene->light_count; i++)
-        set_lamp(m, i, interface, frame, reference_scene, &matrices);
-    set(m, "ambient_light", 1, 3,
-        uniform_semantic_value(SEMANTIC_AMBIENT_LIGHT, 0, frame, reference_scene, &matrices).v);
+}
+
+// Sets the material. `separate`: the contract has separate strengths and colours.
+static void set_material(struct fault_shader *m, bool separate, const struct reference_scene *reference_scene,
+                         const fault_set *set_of_faults)
+{
     set_color(m, "ka", reference_scene->ambient, reference_scene->ka);
     set_color(m, "kd", reference_scene->diffuse, reference_scene->kd);
     set_color(m, "ks", reference_scene->specular, reference_scene->ks);
@@ -394,12 +392,10 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_color(m, "bare_ks", reference_scene->specular, 1);
     // In contracts with separate strengths and colours, the fault swaps the strengths or the colours. In other
     // contracts, it swaps the products.
-    bool apart = interface->contract->material_strengths;
-    set_color(m, "kd_with_ks", apart ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
-    set_color(m, "ks_with_kd", apart ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);
-    set_color(m, "specular_as_diffuse", reference_scene->diffuse, apart ? reference_scene->ks : reference_scene->kd);
-    set_color(m, "tint", reference_scene->diffuse, apart ? 1 : reference_scene->kd);
-    set_number(m, "light_capacity", (float)shader_interface_light_count(interface));
+    set_color(m, "kd_with_ks", separate ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
+    set_color(m, "ks_with_kd", separate ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);
+    set_color(m, "specular_as_diffuse", reference_scene->diffuse, separate ? reference_scene->ks : reference_scene->kd);
+    set_color(m, "tint", reference_scene->diffuse, separate ? 1 : reference_scene->kd);
     set_number(m, "opacity", reference_scene->alpha);
     set_number(m, "shininess", reference_scene->shininess);
     set_number(m, "exponent_factor", set_of_faults->factor);
@@ -408,6 +404,31 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     set_number(m, "metallic", reference_scene->metallic);
     set_number(m, "roughness", reference_scene->roughness);
     set_maps(m, reference_scene);
+}
+
+bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *reference_scene,
+                       const struct fault_model *model, const fault_set *set_of_faults, float *pixels, lam_error *error)
+{
+    const struct shader_interface *interface = model->interface;
+    lam_light_frame frame = model->light_frame;
+    struct reference_matrices matrices;
+    reference_matrices(reference_scene, &matrices);
+    float bits[FAULT_BIT_COUNT];
+    struct specialization made_for = specialization_of(reference_scene, model, set_of_faults, bits);
+    if (!build(m, &made_for, error))
+        return false;
+    m->value_count = m->number_count = 0;
+    set(m, "fault_on[0]", FAULT_BIT_COUNT, 1, bits);
+    set_spaces(m, interface->space, reference_scene, &matrices);
+    float small = (float)(m->stride * m->place.size), scale = (float)m->size / small;
+    float offset = scale + (float)(m->stride - 1) / small - 1;
+    set(m, "window", 1, 4, (float[]){scale, scale, offset, offset});
+    for (int i = 0; i < reference_scene->light_count; i++)
+        set_lamp(m, i, interface, frame, reference_scene, &matrices);
+    set(m, "ambient_light", 1, 3,
+        uniform_semantic_value(SEMANTIC_AMBIENT_LIGHT, 0, frame, reference_scene, &matrices).v);
+    set_number(m, "light_capacity", (float)shader_interface_light_count(interface));
+    set_material(m, interface->contract->material_strengths, reference_scene, set_of_faults);
     // The inside of a closed mesh is not visible. In an upside-down picture, front faces are reversed.
     bool closed = reference_scene->mesh == MESH_SPHERE || reference_scene->mesh == MESH_COARSE;
     if (m->full)

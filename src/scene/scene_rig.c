@@ -93,7 +93,7 @@ static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const str
     if (form == FORM_FLAT) {
         if (scene && lacks_ambient(scene)) { // the fill and the rim light replace the light of the sky
             lights[1].diffuse = grey(0.24);
-            lights[2].diffuse = grey(0.8);
+            lights[2].diffuse = grey(0.68);
         }
         return count;
     }

@@ -112,8 +112,9 @@ typedef enum lam_rig {
     LAM_RIG_AUTO = 0,
     LAM_RIG_NONE, // only the scene's own lights, even if there are none
     // The default look: a near key light, a fill and a rim light that move with the camera, and a hemisphere light.
-    // Ambient occlusion applies in full to these lights. In lam_scene_rig_lights, curved models and terrains have a key
-    // light next to the eye, and no rim light.
+    // Ambient occlusion applies in full to the fill light, and at 60 % to the key light and the rim light. In
+    // lam_scene_rig_lights without a ground, it applies in full to all of them, and curved models and terrains have a
+    // key light next to the eye, and no rim light.
     LAM_RIG_STUDIO,
     LAM_RIG_HEADLIGHT, // one directional light from the eye
     // Directional key, fill and back lights as in portrait photography, fixed to the camera: diffuse and specular 0.8

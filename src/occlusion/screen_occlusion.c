@@ -43,7 +43,9 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                             int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
                             lam_error *error)
 {
-    int step = (int64_t)frame->width * frame->height > SCREEN_FINE ? 2 : 1;
+    // Large cells show less of the pattern in the wide shadow at a model's contact with the ground.
+    int64_t fine = frame->ground.kind ? SCREEN_FINE / 2 : SCREEN_FINE;
+    int step = (int64_t)frame->width * frame->height > fine ? 2 : 1;
     int across = (frame->width + step - 1) / step, down = (frame->height + step - 1) / step;
     int stride = (across + LANES_MAX - 1) / LANES_MAX * LANES_MAX + 2 * LANES_MAX;
     size_t plane = (size_t)stride * (size_t)down, pixels = (size_t)(step * step) * plane;

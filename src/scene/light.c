@@ -103,13 +103,13 @@ static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
     lights[0].attenuation = (lam_attenuation){0.527f, 0, 0.0462f}; // the attenuation is 1 at the centre
     lights[0].diffuse = (lam_rgb){0.66f, 0.66f, 0.66f};
     lights[0].specular = (lam_rgb){0.9f, 0.9f, 0.9f};
-    lights[0].occluded = 1;
+    lights[0].occluded = 0.6f;
     lights[0].radius = 0.4f;
     lights[1] = camera_light("fill", v3(0.95, 0.25, -0.28), 0.06f, 0.10f);
     lights[1].occluded = 1;
     lights[1].no_shadows = true;
     lights[2] = camera_light("rim", v3(-0.53, 0.66, -0.55), 0.46f, 0.30f);
-    lights[2].occluded = 1;
+    lights[2].occluded = 0.6f;
     lights[2].no_shadows = true;
     lights[3] = lam_light_default(LAM_LIGHT_HEMISPHERE);
     lights[3].name = "sky";

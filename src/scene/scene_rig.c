@@ -64,7 +64,7 @@ static void suit_contrast(lam_light *key, lam_light *fill, lam_light *sky, enum 
     const bool curved = form == FORM_CURVED;
     key->position = curved ? v3(-0.2, 0.3, 3.1) : v3(-0.45, -0.35, 3.1);
     key->attenuation = (lam_attenuation){1, 0, 0};
-    key->diffuse = grey((curved ? 0.88 : 0.97) * share);
+    key->diffuse = grey((curved ? 0.88 : 0.94) * share);
     key->specular = grey(0.2 * share);
     fill->diffuse = grey(0.03 * share);
     sky->sky = grey((curved ? 0.11 : 0.07) * share);
@@ -90,6 +90,7 @@ static bool lacks_ambient(const struct lam_scene *scene)
 static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const struct lam_scene *scene)
 {
     enum scene_form form = scene_form(scene);
+    lights[0].occluded = lights[2].occluded = 1;
     if (form == FORM_FLAT) {
         if (scene && lacks_ambient(scene)) { // the fill and the rim light replace the light of the sky
             lights[1].diffuse = grey(0.24);

@@ -217,7 +217,8 @@ static void scene_files(void **state)
     const char *path = in_folder("scene.json");
     lam_scene *scene = scene_of("torus", "cube");
     assert_true(lam_scene_hide_object(scene, 0, true, NULL));
-    assert_true(lam_scene_save(scene, NULL, path, &error));
+    const lam_picture_settings settings = {.draw = {.ground = LAM_GROUND_CHECKER}}; // draw() has a ground
+    assert_true(lam_scene_save(scene, &settings, path, &error));
     lam_scene *read = lam_scene_load(path, NULL, NULL, &error);
     assert_non_null(read);
     assert_int_equal(lam_scene_object_count(read), 1);

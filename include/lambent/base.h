@@ -134,8 +134,9 @@ typedef struct lam_control {
     // files.
     uint64_t object_limit;
     // The largest number of layers per pixel of a picture, on average (a smaller picture counts as 256×256 pixels). A
-    // layer is a translucent or masked surface over a pixel; 32 lights evaluated at a point count as one layer, and so
-    // do 32 opaque surfaces. The CPU device counts the layers. 0: LAM_LAYERS_BASE, or more for large files.
+    // layer is a translucent or masked surface that covers a pixel. Each light evaluated at a point and each opaque
+    // surface at a pixel counts as 1/32 of a layer, and environment light evaluated at a point counts as one layer. The
+    // CPU device counts the layers. 0: LAM_LAYERS_BASE, or more for large files.
     uint64_t layer_limit;
     LAM_RESERVED(1);
 } lam_control;

@@ -118,7 +118,7 @@ typedef enum lam_check_type {
     LAM_CHECK_TYPE_SAMPLER2D, // sampler2D
 } lam_check_type;
 
-// An attribute or a uniform that a program reads, also in a uniform block.
+// An attribute or a uniform that a program reads, including one in a uniform block.
 typedef struct lam_check_input {
     // The name that OpenGL reports: "lights[0].position", or "numbers[0]" for a whole array of numbers.
     char name[128];

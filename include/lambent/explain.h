@@ -152,13 +152,13 @@ typedef struct lam_explained_point {
     float environment_level;                   // prefiltered: 0 (a mirror) to 11 (roughness 1)
     float environment_scale, environment_bias; // of the split sum
     lam_rgb irradiance, prefiltered;           // incoming light, linear
-    lam_rgb environment_diffuse;               // its part of the diffuse term, also with `reference`
+    lam_rgb environment_diffuse;               // its part of the diffuse term, even with `reference`
     // The share of surrounding light that ambient occlusion lets through. It multiplies the ambient term and the
     // environment's light on physical materials; 1 without occlusion.
     float unoccluded;
     // The layers of a physical material; NULL: the material has none.
     const lam_explained_layers *layers;
-    // The environment's light in the specular term, also with `reference`; linear.
+    // The environment's light in the specular term, even with `reference`; linear.
     lam_rgb environment_specular;
     LAM_RESERVED(5);
 } lam_explained_point;

@@ -1,4 +1,4 @@
-// edge_chains.c: links edges to chains, so that dashes run along a curve of many short edges instead of restarting at
+// edge_chains.c: links edges into chains, so that dashes run along a curve of many short edges instead of restarting at
 // each edge.
 //
 // One thread links the edges in their order, so the dashes do not depend on the number of threads.

@@ -61,8 +61,8 @@ void edge_task_ends(const struct edge_task *task, uint32_t edge, double ends[2][
 // a draw. Returns false if memory runs out or the call is stopped.
 bool edge_specks_drop(const struct edge_task *draws, int draw_count, struct loop_status *loop);
 
-// Links the measured edges of a draw to chains, and computes their positions in the chains. If only two lines meet at a
-// corner, and both have the same style, the function connects them. Otherwise the function connects the straightest
+// Links the measured edges of a draw into chains and computes their positions in the chains. If only two lines meet at
+// a corner, and both have the same style, the function connects them. Otherwise the function connects the straightest
 // pairs of one style that turn by less than 60 degrees. Returns false if memory runs out or the call is stopped.
 bool edge_chains_link(const struct frame_draw *draw, const struct mesh_edge *edges, struct edge_measure *measures,
                       uint32_t count, struct loop_status *loop);

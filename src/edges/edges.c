@@ -202,7 +202,7 @@ static bool drop_specks(struct search *search, size_t task_count, struct pool *p
     return ok || loop_error(search->view.loop, 128 * count, error);
 }
 
-// Measures all edges, and links them to chains along which dashes run.
+// Measures all edges and links them into chains, along which the dashes run.
 static bool find_chains(struct search *search, size_t task_count, struct pool *pool, struct call_control *call,
                         lam_error *error)
 {

@@ -1,4 +1,4 @@
-// frame_rays.c: computes the data of a frame for rays: draws and lights in world space, in double.
+// frame_rays.c: computes the data that rays need: the frame's draws and lights, in world space and in double precision.
 #include "frame.h"
 
 #include "linear.h"

@@ -23,7 +23,7 @@ enum glsl_semantic {
     GLSL_HEMISPHERES, // array of structs
     GLSL_PASSED,      // array of the lights' unblocked shares
     GLSL_MATERIAL,    // struct
-    GLSL_HEAD,        // a field of the material, besides the products
+    GLSL_HEAD,        // a field of the material that is not one of the products
     GLSL_DIFFUSE_PRODUCT,
     GLSL_SPECULAR_PRODUCT,
     GLSL_LIGHT_AMBIENT_PRODUCT,
@@ -122,7 +122,7 @@ struct glsl_facts {
     const struct glsl_choices *choices;
     lam_shading shading;         // PHONG for outputs of the geometry
     int layers;                  // LAYER_… that light_point adds
-    bool maps[2][LAM_MAP_COUNT]; // the maps that are used, of the front and of the back
+    bool maps[2][LAM_MAP_COUNT]; // the maps that the shader reads for the front and back materials
 #define FACT(name) bool name;
     GLSL_FACTS(FACT)
 #undef FACT

@@ -126,7 +126,7 @@ int scene_adopt_light(struct lam_scene *scene, const lam_light *light, lam_error
 // Adds a reference to a texture that one of the scene's materials uses. The scene releases the reference when it is
 // freed. Returns false if memory runs out.
 bool scene_share_texture(struct lam_scene *scene, const lam_texture *texture, lam_error *error);
-// Takes over the caller's reference to a texture, also on failure.
+// Takes over the caller's reference to a texture, even on failure.
 bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_error *error);
 
 // Appends an item to a list in an arena. Returns false if memory runs out.

@@ -71,7 +71,7 @@ static void suit_contrast(lam_light *key, lam_light *fill, lam_light *sky, enum 
     sky->ground = grey(0.02 * share);
 }
 
-// Returns whether most materials reflect no light of the sky, because ka is 0 and kd is not.
+// Returns whether most materials reflect no light from the sky, because ka is 0 and kd is not.
 static bool lacks_ambient(const struct lam_scene *scene)
 {
     int count = 0;
@@ -92,7 +92,7 @@ static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const str
     enum scene_form form = scene_form(scene);
     lights[0].occluded = lights[2].occluded = 1;
     if (form == FORM_FLAT) {
-        if (scene && lacks_ambient(scene)) { // the fill and the rim light replace the light of the sky
+        if (scene && lacks_ambient(scene)) { // the fill and the rim light replace the light from the sky
             lights[1].diffuse = grey(0.24);
             lights[2].diffuse = grey(0.68);
         }

@@ -179,8 +179,8 @@ static void put_field(struct scene_writer *w, json_t *out, const lam_field *fiel
     }
 }
 
-// If `whole` is set, writes every field, because a reader would copy missing keys from another material. Otherwise,
-// fields with default values are omitted.
+// Writes every field if `whole` is set, because a reader would copy missing keys from another material. Otherwise,
+// omits fields with default values.
 static json_t *material_json(struct scene_writer *w, const lam_material *m, bool whole)
 {
     json_t *out = json_object();

@@ -106,7 +106,7 @@ static bool find_crossings(struct implicit *s, bool *inside, int first[3], int l
     return found;
 }
 
-// If a range was not given, sets it to the extent of the surface, plus one cell of the coarse lattice. Returns false if
+// Replaces each missing range by the extent of the surface, plus one cell of the coarse lattice. Returns false if
 // the surface was not found; the ranges are then the largest searched box.
 static bool fit_box(struct implicit *s, bool *inside)
 {

@@ -402,7 +402,7 @@ int lam_shape_find(const char *name)
 
 // --- Adding to a scene
 
-// If `made` is true, adds a mesh, whose arrays are in the scene's arena. Returns the mesh's index, or −1 on failure.
+// Adds a mesh, whose arrays are in the scene's arena, if `made` is true. Returns the mesh's index, or −1 on failure.
 static int add_mesh(struct lam_scene *scene, bool made, const lam_mesh *mesh, lam_error *error)
 {
     int index = made ? scene_adopt_mesh(scene, mesh, error) : -1;

@@ -11,8 +11,8 @@
 // coordinate, tangent and normal of the centre of its cell. If these normals agree, the pole is smooth and all corners
 // get the mean normal. Otherwise the pole is a tip, like the tip of a cone, and each corner keeps its normal.
 //
-// A zero derivative does not determine the tangent plane. Such a derivative is replaced by the derivative at a point a
-// ten-thousandth of the domain further inside, which approximates the one-sided limit.
+// A zero derivative does not determine the tangent plane. The code then uses the derivative at a nearby point, which is
+// further inside by INSET of the domain. This derivative approximates the one-sided limit.
 #include "shapes.h"
 
 #include "fail.h"

@@ -353,8 +353,8 @@ void shader_host(FILE *file, const lam_shader *s, const char *name, const char *
         fputs("// LEFT OUT: the pictures of textures, which this code does not load. Before a draw, bind those that "
               "set_draw names: linear\n"
               "// RGBA, the first row at the top, with all levels of detail (glGenerateMipmap), GL_TEXTURE_MIN_FILTER\n"
-              "// GL_NEAREST_MIPMAP_NEAREST, GL_TEXTURE_MAG_FILTER GL_NEAREST: the shader filters. Nothing bound is "
-              "black.\n\n",
+              "// GL_NEAREST_MIPMAP_NEAREST, GL_TEXTURE_MAG_FILTER GL_NEAREST: the shader filters the textures.\n"
+              "// Nothing bound is black.\n\n",
               file);
     write_vertices(file, s);
     write_program(file, s);

@@ -11,7 +11,7 @@
 
 static struct typed_word whole(const char *argument) { return (struct typed_word){argument, argument, 0}; }
 
-// If the word is an option whose value is the next word, returns this option, otherwise NULL.
+// Returns the option that the word names if the next word is the option's value, otherwise NULL.
 static const struct option *expects_value(const char *argument)
 {
     const struct option *option = NULL;

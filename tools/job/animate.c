@@ -184,8 +184,8 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     struct options *o = &a->frame;
     for (int i = 0; i < a->sweep_count; i++) {
         const struct sweep *sweep = &a->sweeps[i];
-        // animation_arrange rotates the first frame's camera to swept angles, so the options of all frames use the
-        // first value.
+        // animation_arrange rotates the first frame's camera to the swept angles, so the options of every frame contain
+        // the first angle of the sweep.
         bool angle = sweep_is_option(sweep, "azimuth") || sweep_is_option(sweep, "elevation");
         if (sweep_words(sweep, angle ? 0 : frame, a->count, &a->words[i])) {
             words[count++] = a->words[i].option;
@@ -290,8 +290,7 @@ static bool find_length(const struct job *job, double *length_s, lam_error *erro
                                      "expected time=FROM..TO");
 }
 
-// If a time sweep contains no range, uses the whole length of the animation as the range, and sets the number of
-// frames.
+// Gives each time sweep without a range the whole length of the animation as its range, and sets the number of frames.
 static bool set_length(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;

@@ -215,8 +215,9 @@ static const struct choice device_words[] = {
     {NULL, 0, NULL}};
 
 static const struct choice texture_filter_words[] = {
-    {"exact", TEXTURE_FILTER_EXACT, "the shader filters; the picture is within 1/255 of the CPU device's picture"},
-    {"hardware", TEXTURE_FILTER_HARDWARE, "the graphics card filters; this is faster and less exact"},
+    {"exact", TEXTURE_FILTER_EXACT,
+     "the shader filters the textures; the picture differs from the CPU device's picture by at most 1/255"},
+    {"hardware", TEXTURE_FILTER_HARDWARE, "the graphics card filters the textures; this is faster and less exact"},
     {NULL, 0, NULL}};
 
 static const struct choice cull_words[] = {{"none", LAM_CULL_NONE, "draw both sides"},
@@ -309,7 +310,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
      "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
-     "The background fills all pixels that the model does not cover, also with `--show` and on sheets. A colour is "
+     "The background fills all pixels that the model does not cover, even with `--show` and on sheets. A colour is "
      "`#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), three or four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a "
      "name. The names are `black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
      "`orange` and the other colour names of HTML 4.",
@@ -354,7 +355,7 @@ struct option option_table[OPTIONS_MAX] = {
      "background keeps its colour. If the picture uses the lights of a glTF file (candela, lux), the default is "
      "`auto`. With `auto`, Lambent computes the exposure at which 95 % of the covered pixels have a luminance of at "
      "most 0.8. Lambent rounds this exposure to a third of a stop, and reports the result. `--exposure 0` keeps the "
-     "light unchanged, also for dark and white models (`--brighten`).",
+     "light unchanged, even for dark and white models (`--brighten`).",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto",
      "The tone curve: none, reinhard, aces, agx, khronos-neutral or contrast.",
@@ -727,9 +728,9 @@ struct option option_table[OPTIONS_MAX] = {
      "right side. `time` is the time in a glTF file's animation; without numbers, the sweep covers the whole "
      "animation.\nYou can give more than two values: `light.elevation=10..80..10`. If a sweep returns to its first "
      "value, for example after a full turn, the last frame is one step before that value. The loop is then seamless. "
-     "You can combine several sweeps, also with `--turntable`. Lambent fits the camera once, to the first frame. For "
-     "`azimuth` and `elevation`, the distance of the camera is constant. For `time`, the camera fits the bounding "
-     "boxes of all frames. Only `zoom` and `fov` change the camera between frames.",
+     "You can combine several sweeps with each other and with `--turntable`. Lambent fits the camera once, to the "
+     "first frame. For `azimuth` and `elevation`, the distance of the camera is constant. For `time`, the camera fits "
+     "the bounding boxes of all frames. Only `zoom` and `fov` change the camera between frames.",
      .kind = VALUE_SWEPT, .store = store_texts, .others = "animate vary-over-time light-sweep",
      FIELD(animation.sweeps)},
     {"frames", 0, GROUP_ANIMATION, "N", "36", "The number of frames in a sweep.",
@@ -791,10 +792,10 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "max-objects instance-limit max-instances node-limit", FIELD(limits.object_limit), .max = 2147483647},
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a picture has more layers per pixel than this, on average (exit 4).",
-     "A layer is a translucent or masked surface that covers a pixel. Each of these also counts as one layer: 32 "
-     "lights on a point, 32 opaque surfaces one behind the other, and environment light on a surface. The default is "
-     "40 plus one per 16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as 65536 pixels. "
-     "The OpenGL devices ignore this limit.",
+     "A layer is a translucent or masked surface that covers a pixel. Each light at a point and each opaque "
+     "surface at a pixel counts as 1/32 of a layer. Environment light at a point counts as one layer. The "
+     "default is 40 plus one per 16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as "
+     "65536 pixels. The OpenGL devices ignore this limit.",
      .store = store_count, .others = "max-layers overdraw-limit", FIELD(limits.layer_limit), .max = 2147483647},
     {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
      "Stop if a model needs more memory than N times the size of its files plus 500 MB (exit 4).",
@@ -813,7 +814,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"json-depth-limit", 0, GROUP_LIMITS, "N", "256",
      "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
      .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1, .max = 2000},
-    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Allow a scene file to refer only to files in its own folder.",
+    {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Restrict a scene file to files in its own folder.",
      "Use this option for scene files from untrusted sources. All models and pictures must then be in the scene file's "
      "folder or below it, after Lambent resolves links and `..`. Files that a model refers to, such as MTL files, must "
      "always be in the model's folder. Files given on the command line may be anywhere.",
@@ -910,7 +911,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},
     {"line-limit", 0, GROUP_BATCH, "BYTES", "64M", "The maximum line length for `--jobs`; a longer line is an error.",
      "A line can include the bytes of a model. Base64 needs four bytes for every three bytes of the model. The models "
-     "of waiting jobs use at most twice this limit.",
+     "of waiting jobs use at most twice this amount of memory.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write an HTML page that shows all pictures, failures first.",
      "Lambent writes the thumbnails to the folder FILE-files next to the page. The page needs no other files and no "

@@ -48,7 +48,7 @@ void shader_interface_free(struct shader_interface *interface);
 bool shader_interface_declares(const struct shader_interface *interface, enum uniform_semantic semantic);
 bool shader_interface_uses(const struct shader_interface *interface, enum uniform_semantic semantic);
 
-// If the source does not state the size of an array, raises the size to the size that the driver reports.
+// Raises the size of an array to the size that the driver reports, if the source does not state the size.
 void shader_interface_set_counts(struct shader_interface *interface, const int counts[MAX_LIGHT_GROUPS]);
 
 // Returns the number of lights that the shaders support, at least 1.

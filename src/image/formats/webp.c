@@ -16,8 +16,8 @@ enum {
     RIFF_HEADER = 12,
     CHUNK_BYTES = 1 << 14, // bytes per step; fewer if these bytes contain more than CHUNK_PIXELS pixels on average
     CHUNK_PIXELS = 1 << 22,
-    PLAIN_PIXELS = 1 << 24, // pixels that a file of any size may have, because 4096×4096 pixels of one colour need only
-                            // a few bytes
+    PLAIN_PIXELS = 1 << 24, // pixels that are accepted even in the smallest file, because 4096×4096 pixels of one
+                            // colour need only a few bytes
 };
 
 static bool webp_probe(const uint8_t *bytes, size_t size)
@@ -205,8 +205,7 @@ bool webp_configure(const struct webp_library *webp, const lam_image *image, con
     int quality = (int)params->quality;
     if (!webp->WebPConfigInitInternal(config, WEBP_PRESET_DEFAULT, (float)quality, WEBP_ENCODER_ABI_VERSION) ||
         !webp->WebPPictureInitInternal(picture, WEBP_ENCODER_ABI_VERSION))
-        return fail(error, LAM_UNSUPPORTED,
-                    "WebP: " WEBP_LIBRARY " is not of the version that this build was made for");
+        return fail(error, LAM_UNSUPPORTED, "WebP: " WEBP_LIBRARY " is not the version that this build requires");
     config->lossless = quality == 0 || quality == 100;
     if (config->lossless)
         config->quality = 75; // the effort of lossless encoding, not a quality

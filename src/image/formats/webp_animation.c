@@ -49,7 +49,7 @@ static bool make_encoder(struct webp_animation *animation, lam_error *error)
 {
     WebPAnimEncoderOptions options;
     if (!animation->WebPAnimEncoderOptionsInitInternal(&options, WEBP_MUX_ABI_VERSION))
-        return fail(error, LAM_UNSUPPORTED, "WebP: " LIBRARY " is not of the version that this build was made for");
+        return fail(error, LAM_UNSUPPORTED, "WebP: " LIBRARY " is not the version that this build requires");
     options.anim_params.loop_count = animation->settings.loops;
     animation->encoder = animation->WebPAnimEncoderNewInternal(animation->settings.width, animation->settings.height,
                                                                &options, WEBP_MUX_ABI_VERSION);

@@ -26,10 +26,10 @@ enum resource_kind {
     RESOURCE_DISPLAY // display properties
 };
 
-// A resource of a model part: an <object>, a group of properties, or a texture.
+// A resource of a model part: an <object>, a property group, or a texture.
 struct threemf_resource {
     enum resource_kind kind;
-    // For groups of properties, the range of their elements in the part's lists of colours (BASE, COLORS), texture
+    // For property groups, the range of their elements in the part's lists of colours (BASE, COLORS), texture
     // coordinates or pairs (MULTI).
     uint32_t first, count;
     // The material of the first element (BASE), or the material with the texture (TEXCOORDS, MULTI). −1 if there is no
@@ -71,7 +71,7 @@ struct threemf_component {
     size_t line;
 };
 
-// A triangle's group of properties (an id, or 0) and the index of each corner in the group.
+// A triangle's property group (an id, or 0) and the index of each corner in the group.
 struct threemf_property {
     int32_t group;
     uint32_t index[3];

@@ -52,7 +52,7 @@ struct model_reader {
     struct threemf_object *object;
     struct threemf_rows positions, indices, properties, components;
     bool has_properties;
-    // The current group of properties, or −1.
+    // The current property group, or −1.
     int32_t group;
     uint32_t bases[LAYERS_MAX]; // composite materials: the indices of the mixed base materials
     int base_count;
@@ -69,7 +69,7 @@ static inline struct model_reader *reader_of(struct threemf_xml *xml) { return x
 struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char *const *attributes,
                                             enum resource_kind kind);
 
-// model_resource returns a resource by its index; model_group returns the current group of properties.
+// model_resource returns a resource by its index; model_group returns the current property group.
 struct threemf_resource *model_resource(struct threemf_part *part, int32_t index);
 struct threemf_resource *model_group(struct model_reader *reader);
 bool model_add_color(struct threemf *file, struct threemf_part *part, const float color[4]);
@@ -90,7 +90,7 @@ bool model_want_display(struct threemf_xml *xml, const char *const *attributes, 
 void extensions_declare(struct threemf_xml *xml, const char *prefix, const char *uri);
 bool extensions_check(struct threemf_xml *xml, const char *const *attributes);
 
-// threemf_properties.c: the elements of groups of properties.
+// threemf_properties.c: reads the elements that define property groups.
 threemf_begin_fn begin_base_materials, begin_base, begin_color_group, begin_color, begin_texture, begin_texcoord_group,
     begin_texcoord, begin_composites, begin_composite;
 threemf_end_fn end_group;
@@ -103,8 +103,8 @@ threemf_end_fn end_multis;
 // may come after the materials in the file.
 threemf_begin_fn begin_display, begin_metallic, begin_specular;
 void display_finish(struct model_reader *reader);
-// Reports a fault in a group of properties, which does not stop the load: adds a warning "FILE: PART:LINE: sentence"
-// and marks the current group as faulty. Returns true.
+// Reports a fault in a property group, which does not stop the load: adds a warning "FILE: PART:LINE: sentence" and
+// marks the current group as faulty. Returns true.
 bool properties_fault(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
 // Adds the first two colours of every part: white, and the colour of parts without a material.
 bool properties_start(struct threemf *file, struct threemf_part *part);

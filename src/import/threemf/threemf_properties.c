@@ -1,4 +1,4 @@
-// threemf_properties.c: reads groups of properties: base materials of the core, and colours, textures and composite
+// threemf_properties.c: reads property groups: base materials of the core, and colours, textures and composite
 // materials of the materials extension 1.2 (multiproperties: threemf_layers.c; display properties: threemf_display.c).
 // https://github.com/3MFConsortium/spec_materials
 #include "threemf_model.h"

@@ -12,8 +12,8 @@
 bool job_words_make(const json_t *value, char ***words, int *count, lam_error *error);
 void job_words_free(char **words, int count);
 
-// Adds the words, which must stay valid, to the options. Fails with LAM_BAD_ARGUMENT, also for options that do not
-// concern the picture.
+// Adds the words, which must stay valid, to the options. Fails with LAM_BAD_ARGUMENT if a word is invalid or an option
+// does not concern the picture.
 bool job_words_apply(char *const *words, int count, struct options *options, lam_error *error);
 
 #endif

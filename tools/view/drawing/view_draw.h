@@ -29,8 +29,8 @@ struct view_request {
 struct view_reply {
     bool keeps;     // the model stays loaded for more pictures
     int status;     // HTTP status: 200, 422 (with a sentence) or 409 (cancelled)
-    uint32_t notes; // the number of bytes of JSON or of the sentence
-    uint64_t data;  // the number of bytes of pixels or of a file
+    uint32_t notes; // the size of the JSON or of the sentence, in bytes
+    uint64_t data;  // the size of the pixel data or of the file, in bytes
 };
 
 // The largest model that the page draws itself: the number of triangles, lines and points. PAGE_FILES_MAX limits its

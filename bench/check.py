@@ -65,7 +65,7 @@ def jobs():
     found = {name: words if words == ["--version"] else ["--ao", "off", *words] for name, words in found.items()}
     found["ambient occlusion"] = found["draw phong"][2:]
     found["default picture"] = ["teapot"]
-    found["ambient occlusion, cells"] = ["-s", "600", "--samples", "1", "teapot"]
+    found["ambient occlusion, cells"] = ["-s", "800", "--samples", "1", "teapot"]
     found["glass on a ground"] = ["-s", "64", "--samples", "1", "--material", "glass", "--ground", "sphere"]
     found["ambient occlusion, rays"] = ["-s", "64", "--samples", "1", "--ao", "rays", "--ao-samples", "16", "teapot"]
     return found

@@ -268,65 +268,27 @@ def options_in_messages():
 
 def main():
     edges, order = graph(sys.argv[1]), library_folders() + floors()
-    bad = 0
-    print("1..10")
-    found = circles(edges)
-    print("%s 1 - no circle between files" % ("not ok" if found else "ok"))
-    for part in found:
-        bad += 1
-        print("# a circle of %d files:" % len(part))
-        for a in part:
-            for b in part:
-                if b in edges[a]:
-                    print("#   %s uses %s: %s" % (a, b, ", ".join(sorted(edges[a][b])[:6])))
-    back = [(a, b, edges[a][b]) for a in edges for b in edges[a] if order.index(folder_of(b)) > order.index(folder_of(a))]
-    print("%s 2 - no folder uses one below it" % ("not ok" if back else "ok"))
-    for a, b, symbols in sorted(back):
-        bad += 1
-        print("#   %s uses %s: %s" % (a, b, ", ".join(sorted(symbols)[:6])))
-    absent = sorted(set(missing_files()))
-    print("%s 3 - files that pages and comments name are there" % ("not ok" if absent else "ok"))
-    for file, name in absent:
-        bad += 1
-        print("#   %s names %s" % (file, name))
-    named = list(lobes_asked_by_name())
-    print("%s 4 - what is asked of a lobe is asked of its row" % ("not ok" if named else "ok"))
-    for file, comparison in named:
-        bad += 1
-        print("#   src/%s: %s" % (file, comparison))
-    headers = list(headers_back(order))
-    print("%s 5 - no folder of the program includes a header from one below it" % ("not ok" if headers else "ok"))
-    for file, header in headers:
-        bad += 1
-        print("#   %s includes %s" % (file, header))
-    options = list(options_in_messages())
-    print("%s 6 - no text of the library names an option of the program" % ("not ok" if options else "ok"))
-    for file, complaint in options:
-        bad += 1
-        print("#   %s: %s" % (file, complaint))
-    asking = sorted(windows_elsewhere())
-    print("%s 7 - Windows is known to src/base/system alone" % ("not ok" if asking else "ok"))
-    for file in asking:
-        bad += 1
-        print("#   %s asks for it" % file)
-    large = sorted(large_folders())
-    print("%s 8 - no folder has more than 25 files" % ("not ok" if large else "ok"))
-    for folder, count in large:
-        bad += 1
-        print("#   %s has %d" % (folder, count))
-    imports = list(imports_back())
-    print("%s 9 - no script of the page imports from a folder after its own" % ("not ok" if imports else "ok"))
-    for file, complaint in imports:
-        bad += 1
-        print("#   %s %s" % (file, complaint))
-    long = list(long_parameter_lists())
-    print("%s 10 - no internal function has more than 8 parameters" % ("not ok" if long else "ok"))
-    for file, function, count in long:
-        bad += 1
-        print("#   %s: %s has %d" % (file, function, count))
+    used = lambda a, b: "%s uses %s: %s" % (a, b, ", ".join(sorted(edges[a][b])[:6]))  # noqa: E731
+    back = sorted((a, b) for a in edges for b in edges[a] if order.index(folder_of(b)) > order.index(folder_of(a)))
+    rules = [
+        ("no circle between files", [used(a, b) for part in circles(edges) for a in part for b in part if b in edges[a]]),
+        ("no folder uses one below it", [used(a, b) for a, b in back]),
+        ("files that pages and comments name are there", ["%s names %s" % one for one in sorted(set(missing_files()))]),
+        ("what is asked of a lobe is asked of its row", ["src/%s: %s" % one for one in lobes_asked_by_name()]),
+        ("no folder of the program includes a header from one below it", ["%s includes %s" % one for one in headers_back(order)]),
+        ("no text of the library names an option of the program", ["%s: %s" % one for one in options_in_messages()]),
+        ("Windows is known to src/base/system alone", ["%s asks for it" % file for file in sorted(windows_elsewhere())]),
+        ("no folder has more than 25 files", ["%s has %d" % one for one in sorted(large_folders())]),
+        ("no script of the page imports from a folder after its own", ["%s %s" % one for one in imports_back()]),
+        ("no internal function has more than 8 parameters", ["%s: %s has %d" % one for one in long_parameter_lists()])]
+    print("1..%d" % len(rules))
+    for number, (rule, complaints) in enumerate(rules, 1):
+        print("%s %d - %s" % ("not ok" if complaints else "ok", number, rule))
+        for complaint in complaints:
+            print("#   " + complaint)
     if not edges:
         print("# no objects were found in %s" % sys.argv[1])
-    return 1 if bad or not edges else 0
+    return 1 if not edges or any(complaints for _, complaints in rules) else 0
 
 
 if __name__ == "__main__":

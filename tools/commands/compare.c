@@ -109,8 +109,6 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     if (!option_given(options, "ao"))
         options->draw.occlusion = LAM_OCCLUSION_OFF;
     options->shader.lecture_device = c->sheet.mistakes;
-    if (c->sheet.mistakes && !option_given(options, "tone"))
-        options->draw.tone = LAM_TONE_NONE;
     options->shader.mistake = cell->mistake;
     bool ok = share_rotations(&c->sheet, options) || complain(error, LAM_LIMIT, "out of memory");
     ok = ok && options_parse(count, words, find_groups("render"), options, error) >= 0;
@@ -119,8 +117,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     return ok;
 }
 
-// Returns the device that draws a cell. On a sheet of mistakes, the device is an OpenGL device whose shaders contain
-// the mistake.
+// Returns the device that draws a cell. On a sheet of mistakes, its shaders contain the mistake.
 static lam_device *cell_device(const struct compare *c, const struct options *options, lam_error *error)
 {
     if (!c->sheet.mistakes)

@@ -320,6 +320,8 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     // If the user chooses an exposure or a colour, the picture uses exactly that value.
     if (o->picture.exposure_kind != EXPOSURE_BY_FILE || o->material.model_color || o->material.materials.count)
         draw.brighten = LAM_BRIGHTEN_OFF;
+    if (o->shader.lecture_device && !draw.tone)
+        draw.tone = LAM_TONE_NONE; // lecture shaders have no tone curve
     draw.rig = rig;
     draw.edge_color = color_or(o->shading.edge_color, o->picture.color_mode, draw.edge_color);
     draw.wireframe_color = color_or(o->shading.wireframe_color, o->picture.color_mode, draw.wireframe_color);

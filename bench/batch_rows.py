@@ -11,8 +11,8 @@ import whole
 
 # Each row gives the options, the size, the required factor of F3D's processor time, and the models. A run takes seconds on four
 # processors. With a total of 0.2 s, a tenth would be the start of the program and the last models, when some workers are idle.
-ROWS = {"batch 1024 px, no occlusion": (["--samples", "4", "--ao", "off"], 1024, 20, 256), "batch 1024 px": (["--samples", "4"], 1024, 12, 256),
-        "batch 256 px": (["--samples", "8"], 256, 40, 1024)}
+ROWS = {"batch 1024 px, no occlusion": (["--samples", "4", "--ao", "off"], 1024, 25, 256), "batch 1024 px": (["--samples", "4"], 1024, 12, 256),
+        "batch 256 px": (["--samples", "8"], 256, 80, 1024)}
 
 
 def folder_of_models(count):

@@ -1,6 +1,6 @@
 """whole.py: compares a whole lambent process, model file to PNG, with F3D drawing the same file with the same camera. Each file has two rows: one
-with the same work as F3D (the file's own normals or facets, one sample; Debian's F3D smooths neither faces nor edges by default), and one with
-Lambent's default pictures (smooth normals, several samples).
+with the same work as F3D (the file's own normals or facets, one sample, no occlusion; by default, Debian's F3D smooths neither faces nor edges and
+computes no occlusion), and one with Lambent's default pictures (smooth normals, several samples, occlusion).
 
 Each uses its own studio lights (F3D: VTK's light kit), both write 1024x1024 PNG. F3D uses a running display: starting the X server and its CPU time
 are not counted. The pictures stay in build-bench/pictures for inspection."""
@@ -15,6 +15,7 @@ import paths
 import scenes
 
 SIZE = 1024
+F3D_WORK = ("--samples", "1", "--ao", "off")  # F3D smooths no edges and computes no occlusion by default
 
 
 class Display:
@@ -91,7 +92,7 @@ def whole(name, path, isas, display, seconds, size=SIZE):
     path = path()
     file_name = name.replace(" ", "-").replace(",", "")
     ours, theirs = picture(file_name + "-lambent"), picture(file_name + "-f3d")
-    options = {True: ["--samples", "1"] + ([] if carries_normals(path) else ["--normals", "facet"]), False: []}
+    options = {True: [*F3D_WORK] + ([] if carries_normals(path) else ["--normals", "facet"]), False: []}
 
     def command(same_work, isa):
         return [paths.LAMBENT, "-q", path, "-s", str(size), *options[same_work], "--isa", isa, "-o", ours]
@@ -143,29 +144,29 @@ def small_model(name):
     return real(REAL[name])
 
 
-def both(label, target, path, isas, display, seconds, size=SIZE):
-    """The two rows of a file, measured together when the first one is needed; `path` is a function. Targets apply to equal work."""
+def both(label, targets, path, isas, display, seconds, size=SIZE):
+    """The two rows of a file and their targets, measured together when the first one is needed; `path` is a function."""
     measured = functools.cache(lambda: whole(label, path, isas, display, seconds, size))
-    yield label, target, lambda: measured()[True]
-    yield label + ", default", None, lambda: measured()[False]
+    yield label, targets[0], lambda: measured()[True]
+    yield label + ", default", targets[1], lambda: measured()[False]
 
 
 def rows(isas, display, full):
     """(name, target, function that measures) of the rows of whole processes."""
     for name in ("spot", "teapot"):
-        yield from both("whole " + name, 30, lambda name=name: small_model(name), isas, display, 3)
-    for triangles, word, targets, seconds in ((1000000, "1M", (30, 15, 25), 4), (10000000, "10M", (15, 8, 20), 6)):
-        for kind, target in zip(("ply", "stl", "obj"), targets):
-            yield from both("whole %s %s" % (word, kind), target, lambda triangles=triangles, kind=kind: scenes.model(triangles, kind),
+        yield from both("whole " + name, (30, 22), lambda name=name: small_model(name), isas, display, 3)
+    for triangles, word, targets, seconds in ((1000000, "1M", ((27, 16), (25, 14), (30, 22)), 4), (10000000, "10M", ((15, None), (8, None), (20, None)), 6)):
+        for kind, of_both in zip(("ply", "stl", "obj"), targets):
+            yield from both("whole %s %s" % (word, kind), of_both, lambda triangles=triangles, kind=kind: scenes.model(triangles, kind),
                             isas, display, seconds)
     if not full:
         return
     for size in (256, 1024):
         for name in REAL if paths.REAL_MODELS else ():
-            yield from both("whole %s %d px" % (name, size), None, lambda name=name: small_model(name), isas, display, 6, size)
+            yield from both("whole %s %d px" % (name, size), (None, None), lambda name=name: small_model(name), isas, display, 6, size)
         for triangles in (10000, 100000, 1000000, 10000000):
             for kind in ("ply", "stl", "obj"):
                 if size == 1024 and triangles >= 1000000:
                     continue  # above
-                yield from both("whole %d %s %d px" % (triangles, kind, size), None,
+                yield from both("whole %d %s %d px" % (triangles, kind, size), (None, None),
                                 lambda triangles=triangles, kind=kind: scenes.model(triangles, kind), isas, display, 6, size)

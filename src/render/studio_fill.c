@@ -4,7 +4,6 @@
 
 #include <lambent/render.h>
 
-#include <stdio.h>
 #include <stdlib.h>
 
 // BLACK is the luminance below which a pixel is treated as black. DARK is the luminance above which a surface would be
@@ -134,12 +133,9 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
     lam_environment_free(studio);
     if (!ok)
         return false;
-    char text[160];
-    snprintf(text, sizeof text,
-             "the file's own lights leave %d %% of the picture black; a dim studio lights it too (rig file: only its "
-             "own lights)",
-             (int)(100 * measured.black_share));
-    lam_scene_add_warning(scene, text);
+    // Without the measured share, so that pictures of several views repeat no warning.
+    lam_scene_add_warning(scene, "the file's own lights leave much of the picture black; a dim studio lights it too "
+                                 "(rig file: only its own lights)");
     params->exposure = LAM_STUDIO_FILL_EXPOSURE;
     *light_scale = scale;
     return true;

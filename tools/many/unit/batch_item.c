@@ -24,11 +24,12 @@
 
 // --- messages
 
-// Prints each warning once. Returns the number of warnings.
-static int print_warnings(const struct job *job, bool print)
+// Prints each warning from index *first on, unless an earlier warning has the same text, and sets *first to the number
+// of warnings. Returns how many warnings have new texts.
+static int print_warnings(const struct job *job, int *first, bool print)
 {
     int count = 0;
-    for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++) {
+    for (int i = *first; job->scene && lam_scene_warning(job->scene, i); i++) {
         const char *text = lam_scene_warning(job->scene, i);
         bool printed = false;
         for (int k = 0; k < i && !printed; k++)
@@ -36,6 +37,7 @@ static int print_warnings(const struct job *job, bool print)
         count += !printed;
         if (!printed && print)
             say_warning(text);
+        *first = i + 1;
     }
     return count;
 }
@@ -249,6 +251,7 @@ struct model_run {
     struct batch_result *result;
     struct timespec start; // the start on the file systems' clock
     struct files files;
+    int warnings; // of the scene, counted after the previous picture
     bool hashed;
     json_t *found; // the data that batch_use.draw adds to the record; NULL if the picture is written to a file
 };
@@ -263,8 +266,7 @@ static void finish_picture(struct model_run *r, struct job *job, int view, bool 
     if (!ok)
         name_model(job, error);
     bool talks = !o->report.quiet && may_talk && r->artist->is_talkative;
-    if (view == 0 || !job->views)
-        r->result->warnings += print_warnings(job, talks);
+    r->result->warnings += print_warnings(job, &r->warnings, talks);
     if (sees_nothing(job)) {
         r->result->warnings++;
         if (talks)

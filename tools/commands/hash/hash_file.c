@@ -47,7 +47,7 @@ const struct hash_entry *hash_file_find(const struct hash_file *file, const char
 
 // --- reading
 
-// Replaces the escape sequences in a name in place. Returns false if an escape sequence is unknown.
+// Decodes the escape sequences of a name in place. Returns false if an escape sequence is unknown.
 static bool unescape(char *name)
 {
     char *to = name;
@@ -206,8 +206,8 @@ char *hash_file_text(const struct hash_file *file)
 
 // --- names
 
-// Returns a path with the links in its folder resolved, allocated with malloc. The file itself may be a link. Returns
-// the path unchanged if its folder does not exist.
+// Resolves the links in a path's folder, and returns the new path, allocated with malloc. The file itself may be a
+// link. Returns the path unchanged if its folder does not exist.
 static char *plain_path(const char *path)
 {
     char *folder = output_folder_of(path), *real = folder ? realpath(folder, NULL) : NULL, *plain = NULL;

@@ -40,7 +40,8 @@ static int split(char *text, char **words)
 // accept built-in names.
 static const char *const of_files[] = {"environment", "look"};
 
-// Writes the value of an option in of_files, with each path replaced by the result of `map`. Frees the results.
+// Writes the value of an option of the list of_files, with each path replaced by the result of `map`. Frees the
+// results.
 static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
                       char *(*map)(const char *file, const char *path))
 {
@@ -109,8 +110,8 @@ static bool may_name(const char *path, const char *name, const char *value, cons
     return ok;
 }
 
-// Makes the paths in the options relative to the current folder, which must happen before a look is read. Stores the
-// new paths in the buffer from `to` to `end`.
+// Makes the paths in the options relative to the current folder. Must be called before a look is read. Stores the new
+// paths in the buffer from `to` to `end`.
 static bool resolve(char **words, int count, const char *path, char *to, const char *end, const struct options *o,
                     lam_error *error)
 {

@@ -8,8 +8,8 @@
 #include <lambent/device.h>
 #include <lambent/material.h>
 
-// The light greys that are lit for contrast: the smallest kd, and the kd whose brightest points are displayed nearly
-// white.
+// The smallest kd of a grey model that is lit for contrast, and the kd at which the brightest points are displayed
+// nearly white.
 #define GREY_MIN   0.3f
 #define GREY_SHOWN 0.62
 
@@ -45,8 +45,8 @@ static double grey_reflectance(const struct lam_scene *scene)
     return largest;
 }
 
-// Returns whether only the studio lights the scene, and for contrast (LAM_TONE_CONTRAST): a curved model or a terrain, of
-// which all materials are a light grey without textures, and no mesh has colours. `ground`: as in lam_scene_rig_lights.
+// Returns whether the studio is the only light and suits LAM_TONE_CONTRAST: the scene is a curved model or a terrain,
+// all materials are light grey without textures, and no mesh has colours. `ground`: as in lam_scene_rig_lights.
 static bool suits_contrast(const struct lam_scene *scene, lam_rig rig, bool ground)
 {
     bool studio = rig == LAM_RIG_STUDIO || (rig == LAM_RIG_AUTO && !scene_lit_by_environment(scene));

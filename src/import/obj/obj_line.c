@@ -155,8 +155,8 @@ static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *a
     return obj_skip_line(at, reader->end);
 }
 
-// Reads an index of a corner: 1 is the first element, −1 the last of the `so_far` elements before this line. `what` is
-// the kind of element for messages. Returns NULL on error.
+// Reads an index of a corner: 1 refers to the first element, and −1 to the last of the `so_far` elements before this
+// line. `what` names the kind of element in messages. Returns NULL on error.
 static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t *at, uint64_t total, uint64_t so_far,
                                         const char *what, uint32_t *out)
 {

@@ -109,9 +109,9 @@ struct glsl_choices {
     int hemisphere_count;
 };
 
-// Sets the choices for a range of a frame, in zeroed memory that memcmp may compare. The caller sets version, storage,
-// encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO means
-// the vertex stage with Gouraud shading, otherwise the fragment stage.
+// Sets the choices for a range of a frame. Zeroes the struct first, so that memcmp can compare it. The caller sets
+// version, storage, encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective.
+// LAM_STAGE_AUTO means the vertex stage with Gouraud shading, otherwise the fragment stage.
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 

@@ -18,13 +18,13 @@ size_t obj_line_number(struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-// The "expected" part of messages if pass two finds more elements than pass one counted.
+// The "expected" part of the message if pass two finds more elements than pass one counted.
 static const char changed[] = "the same text as before: the file changed while it was read";
 
 // Fills the reader's error: "found 'x', expected …". Returns NULL.
 static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at, const char *expected)
 {
-    if (!reader->error) // skips the line number, which would need a pass over the text
+    if (!reader->error) // skips the message, because its line number needs a pass over the text
         return NULL;
     char found[TEXT_FOUND_SIZE];
     struct obj *obj = reader->obj;

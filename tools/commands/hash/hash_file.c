@@ -66,7 +66,7 @@ static bool unescape(char *name)
     return true;
 }
 
-// Reads "pixels:0123456789abcdef", the XXH64 of pixels. The prefix "xxh64:" would mean a hash of the file's bytes.
+// Reads "pixels:0123456789abcdef", the XXH64 of pixels. The prefix "xxh64:" is for hashes of a file's bytes.
 static bool pixels_parse(const char *text, uint64_t *hash)
 {
     char of_file[XXH64_TEXT];
@@ -259,7 +259,7 @@ bool hash_file_may_name(const char *path, const char *file, const struct options
     if (lam_shape_find(file) >= 0)
         return true;
     char *folder = output_folder_of(path), *real = realpath(file, NULL);
-    bool may = folder && (real ? path_is_below(real, folder, false) : errno == ENOENT); // a missing file does no harm
+    bool may = folder && (real ? path_is_below(real, folder, false) : errno == ENOENT); // a missing file is allowed
     for (int i = 0; real && !may && i < options->limits.allow_paths.count; i++)
         may = path_is_below(real, options->limits.allow_paths.items[i], false);
     free(folder);

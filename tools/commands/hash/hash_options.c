@@ -30,7 +30,7 @@ static int split(char *text, char **words)
                 *to++ = *++from;
             else
                 *to++ = *from;
-        from += *from == ' '; // before `to` can overwrite it
+        from += *from == ' '; // skip the blank now, because `to` may overwrite it
         *to++ = 0;
     }
     return count;
@@ -77,7 +77,7 @@ static char *map_paths(const char *name, const char *value, const char *file,
 char *hash_options_text(const struct options *options, const char *path)
 {
     enum { FILES = sizeof of_files / sizeof *of_files };
-    struct options shown = *options; // shares the lists of the original
+    struct options shown = *options; // a copy that shares the lists of `options`
     char *values[FILES] = {0}, *text = NULL;
     bool ok = true;
     for (int i = 0; i < FILES; i++) {

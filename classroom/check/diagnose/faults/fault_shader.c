@@ -226,7 +226,7 @@ void fault_shader_close(struct fault_shader *m)
         return;
     lam_error unused;
     if (m->rests)
-        fault_shader_wake(m, &unused); // a context that cannot be made current is closed nevertheless
+        fault_shader_wake(m, &unused); // the context is closed even if it cannot be made current
     for (int i = 0; i < m->program_count; i++)
         forget(m, m->programs[i].built);
     place_close(&m->place);

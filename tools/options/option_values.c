@@ -419,8 +419,7 @@ bool store_reflectivity(const struct option *option, const char *value, struct o
 bool store_camera(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_camera camera;
-    if (strncmp(value, "fovy=", 5) == 0 && !strchr(value, ',')) { // keeps the fitted camera and changes only its field
-                                                                  // of view
+    if (strncmp(value, "fovy=", 5) == 0 && !strchr(value, ',')) { // changes only the fitted camera's field of view
         options->view.camera = NULL;
         return number_between(option, value + 5, false, &options->view.fov_deg, error);
     }

@@ -168,8 +168,8 @@ struct option {
 extern struct option option_table[OPTIONS_MAX];
 // Adds the words and settings of the library's tables. Must be called before the table is read.
 void option_table_fill(void);
-// Completes the rows of settings from the library's table and appends a row for each remaining setting. A second call
-// has no effect.
+// Uses the library's table to complete the rows of settings, and appends a row for each remaining setting. A second
+// call has no effect.
 void option_settings_fill(struct option table[OPTIONS_MAX]);
 extern const char *const group_titles[GROUP_COUNT];
 

@@ -764,7 +764,7 @@ const struct fault faults[] = {
         "use",
         NULL, .style = true),
     ROW("maps-of-srgb", BITS(MAPS_OF_SRGB), WHERE_PHYSICAL, 0,
-        "the maps of colours are decoded by the exact curve of sRGB, but the course uses pow(x, 2.2)", NULL,
+        "the maps of colours are decoded with the exact curve of sRGB, but the course uses pow(x, 2.2)", NULL,
         .style = true, .maps = MAPS_BASE | MAPS_ENCODED),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED), 0, 0,
         "tangent and bitangent are computed from derivatives, as in LearnOpenGL, and green of the normal map points "

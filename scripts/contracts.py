@@ -89,7 +89,7 @@ FORMS = {"masking": {"smith": "Smith's masking for GGX with correlated heights",
          "tone": {"reinhard": "Reinhard's tone curve"}, "encoding": {"gamma": "gamma-encoded, pow(x, 1/2.2)"}}
 
 MAPS = {"colors": {"linear": "the colours are linear, because the sampler converts a texture with an sRGB format",
-                   "gamma": "the colours are encoded, and the shader decodes them by pow(x, 2.2)"},
+                   "gamma": "the colours are encoded, and the shader decodes them with pow(x, 2.2)"},
         "v": {"up": "v runs upward in the picture", "down": "v runs downward in the picture, as in glTF files"}}
 
 

@@ -6,7 +6,7 @@ canvas. Shaders are checked with the browser's WebGL 2 (web/shaders.mjs): correc
 of them. For `lambent view` (web/view.mjs), a model is turned and its file changes; --long adds a gallery, and a model that is too large for the page.
 web/people.mjs tests typical situations: the bytes before the first picture, slow drawings, missing and compressed files, small screens.
 
-With --firefox these tests run in Firefox, by WebDriver BiDi (web/input.mjs contains the few differences). The tests are skipped if the browser, a
+With --firefox these tests run in Firefox, through WebDriver BiDi (web/input.mjs contains the few differences). The tests are skipped if the browser, a
 package of the group `web`, or playwright-core is missing; npm installs playwright-core in build-web/npm, as specified in web/package-lock.json."""
 import hashlib
 import json

@@ -120,7 +120,7 @@ for (const path of process.argv.slice(1)) {
 
 
 def pack(served):
-    """Compresses each file of the served page by gzip and by brotli, for servers that send such files."""
+    """Compresses each file of the served page with gzip and with brotli, for servers that send such files."""
     call("node", "-e", PACKER, *sorted(os.path.join(served, name) for name in os.listdir(served) if name.endswith(PACKED)))
 
 

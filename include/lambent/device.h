@@ -87,7 +87,7 @@ typedef enum lam_viewer {
 // The normal of flat shading.
 typedef enum lam_flat_normal {
     LAM_FLAT_NORMAL_FACE = 0, // the normal of the triangle's plane
-    LAM_FLAT_NORMAL_VERTEX,   // the normal of its last vertex, as in OpenGL
+    LAM_FLAT_NORMAL_VERTEX,   // the normal of the triangle's last vertex, as in OpenGL
 } lam_flat_normal;
 
 // The content of a frame: the picture, one part of its light, or a property of its surfaces.

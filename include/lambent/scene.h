@@ -373,7 +373,7 @@ LAM_API bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, 
 LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground,
                                  lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
-// Makes tangents for every mesh that has texture coordinates and no tangents, by MikkTSpace, which is the basis of
+// Makes tangents for every mesh that has texture coordinates and no tangents, with MikkTSpace, which is the basis of
 // baked normal maps (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). At each corner, ∂p/∂s is
 // averaged over the adjacent triangles that are connected by edges and share the orientation of the mapping and the
 // position, normal and texture coordinates of the corner, weighted by their angles. The result is unit and

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// Returns the bytes that a device of any type keeps.
+// Returns the number of bytes that devices of every type keep.
 static uint64_t own_memory(const lam_device *device)
 {
     return device->frame.storage.capacity + hierarchy_bytes(&device->hierarchy) + edges_bytes(&device->edges);

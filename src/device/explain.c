@@ -271,7 +271,7 @@ static bool check_place(const lam_device *device, const lam_draw_params *params,
         return fail(error, LAM_BAD_ARGUMENT, "lam_explain: device is NULL");
     if (params && params->output != LAM_OUTPUT_PICTURE)
         return fail(error, LAM_BAD_ARGUMENT,
-                    "explain: output is not the picture; an explanation has all terms of the picture's pixel");
+                    "explain: output is not the picture; an explanation contains all terms of the picture's pixel");
     if (lam_device_isa(device) == LAM_ISA_AUTO)
         return fail(error, LAM_UNSUPPORTED, "the device '%s' cannot explain its pixels, the CPU device can",
                     lam_device_name(device));

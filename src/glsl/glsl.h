@@ -56,7 +56,7 @@ enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FA
 // A map of one side's material.
 struct glsl_map {
     uint8_t used;
-    uint8_t texels; // two maps of a range with the same number here have the same texels everywhere
+    uint8_t texels; // maps of a range with equal numbers have the same texels everywhere
     uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
 };
 
@@ -82,7 +82,7 @@ struct glsl_choices {
     // the variance of the normals increases the roughness of physical materials (lam_specular_aa); not in 120
     bool widens;
     bool passed;      // each light is multiplied by its unblocked share, which the program sets (in texels: position.w)
-    bool shadows;     // traverses the hierarchy in a texture (shadows.glsl); not in 120
+    bool shadows;     // traverses the hierarchy, stored in a texture (shadows.glsl); not in 120
     bool passes_rays; // with shadows, whether some triangles transmit light
     bool tints_rays;  // with passes_rays, whether these triangles also tint the light
     bool catches;     // a shadow catcher: black, with the blocked share of the light as opacity
@@ -95,7 +95,7 @@ struct glsl_choices {
     bool back_material;             // the back has its own material
     bool colors;                    // attribute color
     bool tangents;                  // attribute tangent; otherwise the direction field, if the model needs a tangent
-    bool converted[2];              // front, back: a metallic-roughness material with maps under a classic model
+    bool converted[2];              // front, back: a metallic-roughness material with maps, lit by a classic model
     uint8_t alpha[2];               // front, back: lam_alpha_mode
     uint8_t anisotropy;             // the maximum number of probes per texture lookup
     bool hardware_filter;           // glsl_use_hardware_filter
@@ -109,9 +109,9 @@ struct glsl_choices {
     int hemisphere_count;
 };
 
-// Sets the choices for a range of a frame, in zeroed memory that memcmp may compare. The caller sets version, storage,
-// encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective. LAM_STAGE_AUTO means
-// the vertex stage with Gouraud shading, otherwise the fragment stage.
+// Sets the choices for a range of a frame. Zeroes the struct first, so that memcmp can compare it. The caller sets
+// version, storage, encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective.
+// LAM_STAGE_AUTO means the vertex stage with Gouraud shading, otherwise the fragment stage.
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 
@@ -137,7 +137,7 @@ struct glsl_style {
     // Returns whether the style supports these choices. If not, fails with LAM_UNSUPPORTED, and the message names the
     // unsupported option.
     bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
-    // Appends a stage after its version and its uniforms.
+    // Appends the code of a stage, without its version and its uniforms.
     void (*add_stage)(struct text *text, const struct glsl_facts *stage);
     // Makes the change choices->mistake in one of the sources `texts`. On success, all sources are freed and replaced
     // by copies. Returns false on failure.
@@ -179,14 +179,15 @@ struct glsl_material_layout glsl_material_layout(bool products, int field_layers
 enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 
 // Returns the size in bytes, at least 16, of the block Lights (without products first ambient_light, then lights and
-// hemispheres) or of the texels of light_list (lights, hemispheres). glsl_pack_lights writes them, in order of groups.
+// hemispheres) or of the texels of light_list (lights, hemispheres). glsl_pack_lights writes this data, in the order of
+// the groups.
 size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
-// Do the same for the products of one material: the block Products or BackProducts, or the material's texels of
-// product_list. The products are, for each light, the diffuse, the specular and (with gl1) the ambient product, then,
-// for each hemisphere, the products of sky and ground. The uniforms first_product and back_first_product contain the
-// index of the first texel.
+// Return the size of, and write, the products of one material: the block Products or BackProducts, or the material's
+// texels of product_list. The products are, for each light, the diffuse, the specular and (with gl1) the ambient
+// product, then, for each hemisphere, the products of sky and ground. The uniforms first_product and back_first_product
+// contain the index of the first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
@@ -194,7 +195,7 @@ void glsl_pack_products(const struct glsl_choices *choices, const struct frame *
 // Sets the choices for the maps of a range.
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
 
-// Returns whether a shader of these materials keeps the light that the diffuse map multiplies separate
+// Returns whether a shader of these materials separates the light that the diffuse map multiplies from other light
 // (glsl_facts.separate_texture_terms).
 bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_draw_range *range);
 

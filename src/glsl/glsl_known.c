@@ -71,7 +71,7 @@ void known_facts(struct known_table *t, const struct glsl_facts *f)
         known_text(t, "pixel", "gl_FragColor");
 }
 
-// Adds a condition that holds for `some` of `all` lights, if it holds for none of them or for all of them.
+// Adds a condition if its value is the same for all lights. `some` of `all` lights meet the condition.
 static void add_known_lights(struct known_table *out, const char *condition, int some, int all)
 {
     if (some == 0 || some == all)

@@ -19,7 +19,7 @@ void known_text(struct known_table *table, const char *name, const char *text);
 void known_number(struct known_table *table, const char *name, int number);
 // Adds a row with an empty replacement for a name, and returns the replacement, to which the caller then appends.
 struct text *known_made(struct known_table *table, const char *name);
-// Appends a source, specialised by the table, and frees the table.
+// Specialises a source with the table, appends the result, and frees the table.
 void known_specialize(struct text *text, const char *source, struct known_table *table);
 // Returns the rows, valid until known_free, or NULL if memory runs out.
 const struct known *known_finish(struct known_table *table);

@@ -135,7 +135,7 @@ void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_ran
 
 bool glsl_is_physical(const struct glsl_facts *f) { return frame_is_physical(f->choices->reflection); }
 
-// Returns the map of a side whose level of detail is shown, or LAM_MAP_COUNT if there is none.
+// Returns the map of which the level of detail is shown on a side, or LAM_MAP_COUNT if there is none.
 static lam_map lod_map(const struct glsl_facts *f, int side)
 {
     for (int i = 0; i < LOD_MAPS; i++)

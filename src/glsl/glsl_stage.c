@@ -72,7 +72,7 @@ static void put_maps(struct known_table *t, const struct glsl_facts *f)
 {
     static const struct {
         const char *member, *lit,
-            *last; // flags: light_point applies the map, or the fragment shader applies it to light without the map
+            *last; // flags: `lit`: light_point applies the map; `last`: the fragment shader applies the map afterwards
     } rows[] = {{"color", "map_color", "color_map_last"}, {"emission", "map_emission", "emission_map_last"},
                 {"opacity", "map_opacity", NULL},         {"ambient", "map_ambient", NULL},
                 {"specular", "map_specular", NULL},       {"occlusion", "map_occlusion", NULL},

@@ -146,8 +146,7 @@ size_t glsl_lights_bytes(const struct glsl_choices *c)
     return (all ? all : 4) * sizeof(float);
 }
 
-// Packs the data that shaders with shadows read instead of w = 1 and, if the light has no position, instead of the
-// position.
+// Packs data for shaders with shadows. The data replaces w = 1 and, if the light has no position, also the position.
 static void pack_shadow(float position[4], const struct frame_light *light)
 {
     position[3] = light->casts_shadows ? (float)light->radius : -1;

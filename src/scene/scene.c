@@ -171,7 +171,7 @@ void scene_warn(struct lam_scene *scene, const char *format, ...)
     va_end(arguments);
     if (text)
         scene_append(scene, &scene->warnings, &text, sizeof text,
-                     NULL); // losing a warning must not fail the call
+                     NULL); // the call must succeed even if the warning is lost
 }
 
 void scene_note_clear(struct lam_scene *scene, const char *format, ...)
@@ -290,7 +290,7 @@ const lam_light *lam_scene_light(const lam_scene *scene, int index)
     return scene ? item(&scene->lights, index, sizeof(lam_light)) : NULL;
 }
 
-// Returns the sum, over all objects, of a count in their meshes, the member at `offset`.
+// Adds up a count of the meshes of all objects. `offset` is the position of this member in lam_mesh.
 static uint64_t sum_of(const lam_scene *scene, size_t offset)
 {
     uint64_t count = 0;

@@ -12,13 +12,13 @@
 #define FACING 0.6
 #define LEVEL  0.98
 
-// Other scenes are curved if their normals differ: of the cells of a cube around all directions, the six that contain
-// the most area together contain less than FLAT times the whole area. A box fills six cells completely. In scans and
+// Other scenes are curved if their normals differ: each normal falls into a cell of a cube around all directions, and
+// the six fullest cells contain less than FLAT times the whole area. A box fills six cells completely. In scans and
 // figures, the six cells contain 0.05 to 0.3 of the area, in machine parts and low-poly models 0.43 to 1.
 #define FLAT 0.36
 
 enum {
-    TRIANGLES_MIN = 1024, // a model with fewer triangles has flat faces
+    TRIANGLES_MIN = 1024, // a model with fewer triangles is treated as flat
     SAMPLES = 256,        // sampled triangles
     SIDE = 7,             // cells along an edge of the cube; odd, so that no axis lies between cells
     CELLS = 6 * SIDE * SIDE,
@@ -81,8 +81,8 @@ static int cell_of(lam_vec3 direction)
     return ((2 * axis + (c[axis] < 0)) * SIDE + row) * SIDE + column;
 }
 
-// Adds one triangle. Its normal is taken in mesh coordinates, so that equal parts in different positions have the same
-// normals, and a rotation of the model changes nothing.
+// Adds one triangle. Uses its normal in mesh coordinates, so that equal parts in different positions have the same
+// normals, and a rotation of the model has no effect.
 static void add_triangle(struct areas *sum, const lam_mesh *mesh, size_t triangle, const lam_mat4 *transform,
                          lam_vec3 up)
 {
@@ -112,8 +112,8 @@ static double take_fullest(struct areas *sum)
     return taken;
 }
 
-// Returns the triangle of a sample: one of every `step`, at varying positions, because in a grid of triangles equal
-// steps would find only some directions.
+// Returns the triangle of a sample: one of every `step` triangles. The position varies, because equal steps through a
+// grid of triangles would find only some directions.
 static uint64_t sampled(uint64_t index, uint64_t step)
 {
     uint32_t varying = (uint32_t)index * 2654435769u; // multiples of the golden ratio, modulo 1
@@ -128,7 +128,7 @@ enum scene_form scene_form(const struct lam_scene *scene)
     const uint64_t step = count / SAMPLES;
     const lam_vec3 up = from_y_up(lam_scene_up(scene), v3(0, 1, 0));
     struct areas sum = {.all = 0};
-    uint64_t index = 0, base = 0; // the number of the sample; triangles of the meshes before
+    uint64_t index = 0, base = 0; // the number of the sample; the number of triangles in the previous meshes
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
         if (mesh_is_strokes(mesh) || !scene_shows(scene, i))

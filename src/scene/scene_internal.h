@@ -194,7 +194,7 @@ void mesh_add_areas(const lam_mesh *mesh, lam_vec3 axis, double *all, double *fa
 enum scene_form {
     FORM_FLAT,    // most of the area is in few flat faces, as in machine parts; also every scene with few triangles
     FORM_CURVED,  // the normals differ everywhere, as in scans
-    FORM_TERRAIN, // an open surface with slopes, most of which faces up
+    FORM_TERRAIN, // an open surface with slopes; most of its area faces up
 };
 
 // Returns the form of the visible objects, from a few hundred sampled triangles. The result is the same on every

@@ -8,8 +8,8 @@
 #include <lambent/device.h>
 #include <lambent/material.h>
 
-// The light greys that are lit for contrast: the smallest kd, and the kd whose brightest points are displayed nearly
-// white.
+// The smallest kd of a grey model that is lit for contrast, and the kd at which the brightest points are displayed
+// nearly white.
 #define GREY_MIN   0.3f
 #define GREY_SHOWN 0.62
 
@@ -45,8 +45,8 @@ static double grey_reflectance(const struct lam_scene *scene)
     return largest;
 }
 
-// Returns whether only the studio lights the scene, and for contrast (LAM_TONE_CONTRAST): a curved model or a terrain, of
-// which all materials are a light grey without textures, and no mesh has colours. `ground`: as in lam_scene_rig_lights.
+// Returns whether the studio is the only light and suits LAM_TONE_CONTRAST: the scene is a curved model or a terrain,
+// all materials are light grey without textures, and no mesh has colours. `ground`: as in lam_scene_rig_lights.
 static bool suits_contrast(const struct lam_scene *scene, lam_rig rig, bool ground)
 {
     bool studio = rig == LAM_RIG_STUDIO || (rig == LAM_RIG_AUTO && !scene_lit_by_environment(scene));
@@ -55,9 +55,9 @@ static bool suits_contrast(const struct lam_scene *scene, lam_rig rig, bool grou
 
 static lam_rgb grey(double value) { return (lam_rgb){(float)value, (float)value, (float)value}; }
 
-// Lights a grey model for LAM_TONE_CONTRAST: the key light is next to the eye and equally strong everywhere. For terrains
-// it comes from below the view's axis (suit_scene). The lights are dimmed for materials with a kd above GREY_SHOWN, so
-// that no part of them is displayed as plain white.
+// Lights a grey model for LAM_TONE_CONTRAST: the key light is next to the eye and equally strong everywhere. For
+// terrains it comes from below the view's axis (suit_scene). The lights are dimmed for materials with a kd above
+// GREY_SHOWN, so that no part of them is displayed as plain white.
 static void suit_contrast(lam_light *key, lam_light *fill, lam_light *sky, enum scene_form form, double reflectance)
 {
     const double share = reflectance > GREY_SHOWN ? GREY_SHOWN / reflectance : 1;
@@ -83,10 +83,10 @@ static bool lacks_ambient(const struct lam_scene *scene)
     return 2 * count > scene->materials.count;
 }
 
-// A curved model is lit from near the eye, so that outlines are dark and small slopes visible. At most, a point reflects
-// 0.9·1.33 (key) + 0.07 (sky) = 1.27 times ka or kd. A terrain is lit from below the view's axis, because light from
-// above brightens all slopes alike: level ground is dark, and slopes that face the viewer are bright. Returns the number
-// of lights, which is `count` for flat faces.
+// A curved model is lit from near the eye, so that outlines are dark and small slopes visible. At most, a point
+// reflects 0.9·1.33 (key) + 0.07 (sky) = 1.27 times ka or kd. A terrain is lit from below the view's axis, because
+// light from above brightens all slopes alike: level ground is dark, and slopes that face the viewer are bright.
+// Returns the number of lights, which is `count` for flat faces.
 static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const struct lam_scene *scene)
 {
     enum scene_form form = scene_form(scene);

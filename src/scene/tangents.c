@@ -1,4 +1,4 @@
-// tangents.c: computes tangents of a scene's meshes by MikkTSpace.
+// tangents.c: computes tangents of a scene's meshes with MikkTSpace.
 #include "mikktspace.h"
 #include "scene_internal.h"
 

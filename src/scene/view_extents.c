@@ -1,7 +1,7 @@
 // view_extents.c: extents of a scene's vertices along the axes of a view.
 //
 // The tree of boxes does not affect the result. The tree only skips vertices that cannot change the extents. All other
-// vertices are measured by the same operations.
+// vertices are measured with the same operations.
 #include "view_extents.h"
 
 #include "linear.h"

@@ -84,7 +84,7 @@ class Models(Case):
         stl = (self.folder / "cube.stl").read_bytes()
         cut = stl[:stl.rindex(b"endsolid")]
         done = self.good(self.write("cut.stl", cut), "-s", 8, "-o", "-")
-        self.assertIn(b"warning: cut.stl:%d: found the end of the file, expected \"endsolid\" of the solid of line 1" % (cut.count(b"\n") + 1), done.stderr)
+        self.assertIn(b"warning: cut.stl:%d: found the end of the file, expected \"endsolid\" for the solid in line 1" % (cut.count(b"\n") + 1), done.stderr)
         self.one_sentence(self.bad(2, self.write("zero.stl", stl.replace(b"outer", b"out\0r", 1)), says="zero.stl:3: found a zero byte"))
         header = b"ply\nformat ascii 1.0\n%selement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n" \
                  b"property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0%s\n0 1 0\n3 0 1 2\n"

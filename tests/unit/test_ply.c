@@ -431,7 +431,7 @@ static void test_header_errors(void **state)
     refuse_text(HEADER("ascii") "element vertex 1\n" XYZ "element face 1\nproperty list uchar float vertex_indices\n"
                                 "end_header\n0 0 0\n3 0 0 0\n",
                 "a.ply",
-                "a.ply:7: element face has a list of corners of a floating-point type, expected an integer type");
+                "a.ply:7: element face has a list of corners with a floating-point type, expected an integer type");
     refuse_text(HEADER("ascii") "element vertex 1\n" XYZ "element vertex 1\n" XYZ FACE("1") "end_header\n0 0 0\n",
                 "a.ply", "a.ply:7: element vertex appears twice, expected one");
 }

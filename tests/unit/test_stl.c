@@ -105,21 +105,22 @@ static void test_ascii_without_end(void **state)
         {ONE, NULL}, // no solid, no end
         {"solid a\n" ONE "endsolid a\n" ONE, NULL},
         {"solid a\n" ONE,
-         "a.stl:9: found the end of the file, expected \"endsolid\" of the solid of line 1; the file may "
+         "a.stl:9: found the end of the file, expected \"endsolid\" for the solid in line 1; the file may "
          "be cut short"},
         {"\nsolid\n" ONE ONE "\n",
-         "a.stl:18: found the end of the file, expected \"endsolid\" of the solid of line 2; the "
+         "a.stl:18: found the end of the file, expected \"endsolid\" for the solid in line 2; the "
          "file may be cut short"},
         {"solid a\n" ONE "solid b\n" ONE "endsolid b\n",
-         "a.stl:9: found 'solid', expected \"endsolid\" of the solid of line 1"},
-        {"solid a\n" ONE "solid b\n" ONE,
-         "a.stl:9: found 'solid', expected \"endsolid\" of the solid of line 1, the first of several without it"},
+         "a.stl:9: found 'solid', expected \"endsolid\" for the solid in line 1"},
+        {"solid a\n" ONE "solid b\n" ONE, "a.stl:9: found 'solid', expected \"endsolid\" for the solid in line 1, the "
+                                          "first of several solids without \"endsolid\""},
         {"solid a\n" ONE "endsolid a\nsolid b\n", "a.stl:11: found the end of the file, expected \"endsolid\" of the "
                                                   "solid of line 10; the file may be cut short"},
         // far from zero, where the text is read twice
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 1e6 0 0\nvertex 1000001 0 0\nvertex 1e6 1 "
          "0\nendloop\nendfacet\n",
-         "a.stl:9: found the end of the file, expected \"endsolid\" of the solid of line 1; the file may be cut short"},
+         "a.stl:9: found the end of the file, expected \"endsolid\" for the solid in line 1; the file may be cut "
+         "short"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lam_scene *scene = load_text(rows[i].text, "a.stl");

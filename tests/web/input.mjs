@@ -1,5 +1,5 @@
 // input.mjs: user actions that need different calls in Chromium and Firefox: touches, dropped files, saved files. Chromium uses its DevTools
-// protocol. Firefox simulates touches by WebDriver BiDi; an event in the page drops files, and the test intercepts dialogs and saved files.
+// protocol. Firefox simulates touches through WebDriver BiDi; an event in the page drops files, and the test intercepts dialogs and saved files.
 import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { basename, join, resolve } from 'node:path';
 

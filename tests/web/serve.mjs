@@ -11,7 +11,7 @@ const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/cs
 
 export const isFirefox = (executablePath) => /firefox/.test(executablePath);
 
-// Firefox is controlled by WebDriver BiDi, which has a separate name in playwright-core; Chromium is controlled by its DevTools. Firefox supports
+// Firefox is controlled through WebDriver BiDi, which has a separate name in playwright-core; Chromium is controlled by its DevTools. Firefox supports
 // WebGL only with a display; LAMBENT_DISPLAY states that there is one (tests/browser.py). With `dark`, Firefox's pages see a preference for dark
 // colours; in Chromium, the context sets this.
 export function launch(playwright, executablePath, { dark = false } = {}) {

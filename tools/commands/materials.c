@@ -77,9 +77,9 @@ static void print_table(lam_color_mode color)
            "shininess there is\n"
            "a fraction of 128. %s\n"
            "--material NAME applies a material to a model.\n",
-           color == LAM_COLOR_RAW ? "The colours are the published ones, which are sRGB."
-                                  : "The colours are linear light, decoded from the published ones, which are sRGB\n"
-                                    "(--color-mode raw lists those).");
+           color == LAM_COLOR_RAW ? "The colours are the published sRGB colours."
+                                  : "The colours are linear light, decoded from the published sRGB colours\n"
+                                    "(--color-mode raw lists the published colours).");
 }
 
 // Uses the keys of materials in scene files.

@@ -227,7 +227,7 @@ int run_shader(int operand_count, char **operands, const struct options *given)
     }
     if (options.shader.mistake && option_given(&options, "style") && options.shader.style == LAM_SHADER_STYLE_FULL)
         complain(&error, LAM_BAD_ARGUMENT,
-                 "options '--mistake' and '--style full': a mistake is an edit of the lecture style");
+                 "options '--mistake' and '--style full': mistakes exist only in the lecture style");
     else if (options.shader.mistake && !shader_mistake_is_known(options.shader.mistake, &error))
         ; // already reported
     else if (!*job.model)

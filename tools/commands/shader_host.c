@@ -239,8 +239,8 @@ static void write_vertices(FILE *file, const lam_shader *s)
         fprintf(file, "    GLfloat %s[%c]; // %s\n", s->attributes[i].name, s->attributes[i].type[3],
                 s->attributes[i].meaning);
     fputs("};\n\n"
-          "// Describes the vertex layout to OpenGL. The buffer of vertices is bound to GL_ARRAY_BUFFER (and a\n"
-          "// vertex array object is bound, where OpenGL needs one).\n"
+          "// Describes the vertex layout to OpenGL. The buffer of vertices must be bound to GL_ARRAY_BUFFER\n"
+          "// (and, if OpenGL requires it, a vertex array object must be bound).\n"
           "static void set_vertices(void)\n{\n",
           file);
     for (int i = 0; i < s->attribute_count; i++) {
@@ -312,7 +312,7 @@ static void write_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d
         fprintf(file, "// Pass `position` relative to (%.17g, %.17g, %.17g), subtracted in double.\n", d->origin[0],
                 d->origin[1], d->origin[2]);
     if (d->translucent)
-        fprintf(file, "// Translucent: draw it after the opaque ones, with blending, the farthest first.\n");
+        fprintf(file, "// Translucent: draw this after all opaque draws, with blending, the farthest first.\n");
     fprintf(file, "static void set_draw_%d(GLuint program)\n{\n", number);
     set_all(file, d->uniforms, d->uniform_count);
     fprintf(file, "    glFrontFace(%s);\n", d->clockwise ? "GL_CW" : "GL_CCW");
@@ -350,11 +350,12 @@ void shader_host(FILE *file, const lam_shader *s, const char *name, const char *
         for (int k = 0; k < s->draws[i].uniform_count; k++)
             maps |= is_map(&s->draws[i].uniforms[k]);
     if (maps)
-        fputs("// LEFT OUT: the pictures of textures, which this code does not load. Before a draw, bind those that "
-              "set_draw names: linear\n"
-              "// RGBA, the first row at the top, with all levels of detail (glGenerateMipmap), GL_TEXTURE_MIN_FILTER\n"
-              "// GL_NEAREST_MIPMAP_NEAREST, GL_TEXTURE_MAG_FILTER GL_NEAREST: the shader filters the textures.\n"
-              "// Nothing bound is black.\n\n",
+        fputs("// LEFT OUT: the pictures of textures, which this code does not load. Before a draw, bind the textures "
+              "that set_draw names:\n"
+              "// linear RGBA, the first row at the top, with all levels of detail (glGenerateMipmap). Set\n"
+              "// GL_TEXTURE_MIN_FILTER to GL_NEAREST_MIPMAP_NEAREST and GL_TEXTURE_MAG_FILTER to GL_NEAREST, because "
+              "the\n"
+              "// shader filters the textures itself. Without a texture, the map is black.\n\n",
               file);
     write_vertices(file, s);
     write_program(file, s);

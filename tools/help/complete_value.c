@@ -25,13 +25,13 @@ void complete_offer(const struct typed_word *typed, const char *candidate, const
 
 void complete_files(void) { printf(":files\n"); }
 
-// Returns the word, of which `complete` more bytes of `prefix` are now finished.
+// Returns the word after the user has finished `complete` more bytes of `prefix`.
 static struct typed_word after(const struct typed_word *typed, size_t complete)
 {
     return (struct typed_word){typed->before, typed->prefix + complete, typed->before_length + (int)complete};
 }
 
-// Returns the word, of which everything up to the last comma is now finished.
+// Returns the word after the user has finished the text up to the last comma.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
     const char *comma = strrchr(typed->prefix, ',');

@@ -39,7 +39,7 @@ static const char *field_range(const lam_field *field, char text[80])
     case LAM_FIELD_RGB:
         return "colour";
     case LAM_FIELD_RGBA:
-        return "colour, may have an alpha";
+        return "colour with optional alpha";
     case LAM_FIELD_POINT:
         return "point";
     case LAM_FIELD_DIRECTION:
@@ -89,7 +89,7 @@ void field_tables_markdown(void)
     printf("\n## Fields of materials\n\nKeys of `--material` and of a scene file's materials.\n\n"
            "| key | value | default | MTL | |\n|---|---|---|---|---|\n");
     markdown_rows(lam_material_field);
-    printf("\n## Fields of lights\n\nKeys of `--light` and of a scene file's lights, besides the keys in "
+    printf("\n## Fields of lights\n\nKeys of `--light` and of a scene file's lights, in addition to the keys in "
            "docs/scene-file.md.\n\n| key | value | default | lights | |\n|---|---|---|---|---|\n");
     markdown_rows(lam_light_field);
 }

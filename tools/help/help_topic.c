@@ -136,7 +136,7 @@ static int search(int count, char **words)
     else
         snprintf(heading, sizeof heading, "No subject, command or option is named '%.60s'%s", words[0],
                  *meant ? meant : ". These entries contain the word:");
-    bool letter = count == 1 && strlen(words[0]) < 2; // a letter matches nearly every text
+    bool letter = count == 1 && strlen(words[0]) < 2; // a single letter matches nearly every text
     if (!letter && help_search(count, words, heading))
         return 0;
     complain(&error, LAM_BAD_ARGUMENT,

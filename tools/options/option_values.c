@@ -322,7 +322,7 @@ bool store_segments(const struct option *option, const char *value, struct optio
     if (both)
         stacks = strtol(end + 1, &end, 10);
     if (*end || slices < 3 || slices > (long)option->max || (both && (stacks < 1 || stacks > (long)option->max)))
-        return wrong(error, value, "N or NxM, slices from 3 and stacks from 1 to 16384, such as 64x32");
+        return wrong(error, value, "N or NxM (slices from 3, stacks from 1, both up to 16384), such as 64x32");
     options->shading.slices = (int)slices;
     options->shading.stacks = (int)stacks;
     return true;
@@ -419,7 +419,7 @@ bool store_reflectivity(const struct option *option, const char *value, struct o
 bool store_camera(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_camera camera;
-    if (strncmp(value, "fovy=", 5) == 0 && !strchr(value, ',')) { // only the field of view of the fitted camera
+    if (strncmp(value, "fovy=", 5) == 0 && !strchr(value, ',')) { // changes only the fitted camera's field of view
         options->view.camera = NULL;
         return number_between(option, value + 5, false, &options->view.fov_deg, error);
     }

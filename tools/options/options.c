@@ -256,7 +256,7 @@ static bool is_known_option(const char *argument)
 }
 
 // Returns the option that the user probably meant: the plural form if there are several values, or the option that
-// formerly had this name if the value is one of its words.
+// formerly had this name if the value is one of that option's words.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
     if (option->several && strchr(value, ','))
@@ -379,7 +379,8 @@ static void look_drop_lights(struct options *options)
     }
 }
 
-// Reports that the command, which accepts `groups`, does not accept the intended option. Names the commands that do.
+// Reports that the command, which accepts `groups`, does not accept the intended option. The message lists the commands
+// that accept the option.
 static bool does_not_apply(const struct option *option, const struct option *typed, uint64_t groups, lam_error *error)
 {
     char takers[200] = "";

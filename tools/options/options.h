@@ -154,22 +154,22 @@ struct option {
     const char *alone;          // the value of an option without a value; NULL means that a value is required
     bool of_file;               // the option concerns the output file (WRITES_NO_FILE)
     bool loads;                 // if the option changes, the model must be read again
-    uint8_t also_in, not_in;    // bits of option_use that the group does not imply, or implies wrongly
+    uint8_t also_in, not_in;    // bits of option_use to add to the group's uses, and to remove from them
     const lam_setting *setting; // the library's setting that the option stores, or NULL
-    // The option that takes several values separated by commas, suggested if a value contains a comma. May be NULL.
+    // The option that accepts several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;
     const char *now;    // the option that replaces this obsolete option, or NULL
     const char *key;    // its key in the value of `now`, such as "width" of "edge-width" in "--edges all,width=2"
     bool keyed;         // whether other options are keys of the option's value
-    const char *former; // the option that formerly had this name, suggested for its words; or NULL
+    const char *former; // the option that formerly had this name, suggested for values that it accepts; or NULL
 };
 
 // Ends with a NULL name. Only option_table_fill modifies it.
 extern struct option option_table[OPTIONS_MAX];
 // Adds the words and settings of the library's tables. Must be called before the table is read.
 void option_table_fill(void);
-// Completes the rows of settings from the library's table and appends a row for each remaining setting. A second call
-// has no effect.
+// Uses the library's table to complete the rows of settings, and appends a row for each remaining setting. A second
+// call has no effect.
 void option_settings_fill(struct option table[OPTIONS_MAX]);
 extern const char *const group_titles[GROUP_COUNT];
 
@@ -202,12 +202,12 @@ bool option_is_taken(const struct option *option, uint64_t groups);
 // Returns whether a use includes an option.
 bool option_is_in(const struct option *option, enum option_use use);
 
-// Parses a command line without the names of the program and the command. `groups` is as for option_is_taken. Moves the
-// operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.
+// Parses a command line without the names of the program and the command. `groups` has the same meaning as in
+// option_is_taken. Moves the operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error);
 
 // Parsers for the `store` member of the table. Each comment names the type of the field.
-option_parser store_switch, store_word_flag; // bool; store_word_flag: from words with the values 0 and 1
+option_parser store_switch, store_word_flag; // bool; store_word_flag accepts words with the values 0 and 1
 option_parser store_text, store_jobs;        // const char *
 option_parser store_color, store_opaque_color, store_show, store_camera; // const char *, checked
 option_parser store_word, store_words, store_glsl, store_up;     // int, the value of a word; store_words: a bit mask

@@ -78,7 +78,7 @@ static bool unknown_key(struct settings_parser *r, const char *group, const char
 {
     const lam_setting *setting;
     char text[200], keys[100] = "image, environment or a setting of a scene file (docs/settings.md lists them)";
-    const char *other = NULL; // the group in which the key is known
+    const char *other = NULL; // the group that contains a key of this name
     struct suggestion nearest = suggest_start(key);
     *keys = group ? 0 : *keys;
     for (int i = 0; i < GROUPED; i++) {
@@ -158,7 +158,7 @@ static const char *expected_of(const struct option *option)
     return option->words && strcmp(option->name, "samples") != 0 ? "a string" : "a number";
 }
 
-// Writes the value as it would appear on a command line. Returns false if its type is wrong.
+// Writes the value as it would appear on a command line. Returns false if the value's type is wrong.
 static bool put_value(FILE *out, const struct option *option, const json_t *value)
 {
     const char *expected = expected_of(option);

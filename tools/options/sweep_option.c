@@ -175,7 +175,7 @@ static bool is_angle(const struct sweep *sweep)
 // Parses "0..360" or "10..60..10".
 static bool take_stops(const char *text, struct sweep *sweep, lam_error *error)
 {
-    static const char *const form = "expected numbers with two dots between, such as 0..360";
+    static const char *const form = "expected two numbers with two dots between them, such as 0..360";
     for (const char *at = text;;) {
         const char *dots = strstr(at, "..");
         char number[64];

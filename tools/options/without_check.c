@@ -1,6 +1,6 @@
-// without_check.c: replaces the functions of the shader check that tables and the help call, for programs that are
-// built without the check (-Dclassroom=false, and the web page's module). The replacements report no contracts and no
-// mistakes.
+// without_check.c: defines functions of the shader check for programs that are built without the check
+// (-Dclassroom=false, and the web page's module). Tables and the help call these functions, which report no contracts
+// and no mistakes.
 #include <lambent/check.h>
 
 #include <stddef.h>

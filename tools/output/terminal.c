@@ -91,8 +91,8 @@ bool terminal_refuse(const char *command, lam_error *error)
 {
     if (missing_chafa)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "standard output is a terminal, and the picture is not text; the terminal has sixel graphics, "
-                        "for which libchafa is missing (Debian's package libchafa0)");
+                        "standard output is a terminal, and the picture is not text; the terminal supports sixels, "
+                        "but libchafa is missing (Debian's package libchafa0)");
     return complain(error, LAM_BAD_ARGUMENT,
                     "standard output is a terminal, and the picture is not text; --term blocks draws it with "
                     "characters, or redirect it: lambent %s -o - > FILE",

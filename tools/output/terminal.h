@@ -16,8 +16,8 @@ struct terminal {
 
 // Determines whether pictures are also shown in the terminal, and makes output_save show them. Must be called before a
 // sandbox is entered and before the work starts. `alone` is set if the command makes one picture. With --term auto, the
-// picture is shown if no file is named, standard output is a terminal that supports the graphics of kitty or iTerm2 or
-// sixels, and no other report is written there. Fails with LAM_BAD_ARGUMENT if --term requests an unavailable protocol,
+// picture is shown if no file is named, standard output is a terminal that supports sixels or the graphics of kitty or
+// iTerm2, and no other report is written to it. Fails with LAM_BAD_ARGUMENT if --term requests an unavailable protocol,
 // or with LAM_UNSUPPORTED if libchafa is missing.
 bool terminal_start(const struct options *options, bool alone, lam_error *error);
 

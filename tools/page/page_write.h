@@ -4,7 +4,7 @@
 
 #include "job.h"
 
-// The maximum number of bytes of a model and of all files that it reads.
+// The maximum size in bytes of a model and of all files that the model uses.
 enum { PAGE_FILES_MAX = 100000000 };
 
 // Returns whether the job's output is a page.

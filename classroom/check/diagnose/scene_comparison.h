@@ -25,7 +25,7 @@ struct difference {
     bool fits; // at most one pixel in 200 exceeds the tolerance, and the mean is at most a quarter of the tolerance
 };
 
-// Finds the pixels to compare. The caller allocates `inside`, of size² elements.
+// Finds the pixels to compare. The caller allocates `inside`, an array of size² elements.
 void scene_comparison_find_inside(struct scene_comparison *scene, int size);
 
 // Excludes pixels for which the surface normal differs by more than 26 degrees from a neighbour's. `normals`: RGBA of

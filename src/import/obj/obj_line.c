@@ -18,13 +18,13 @@ size_t obj_line_number(struct obj *obj, const uint8_t *at)
     return lines;
 }
 
-// The "expected" part of messages if pass two finds more elements than pass one counted.
+// The "expected" part of the message if pass two finds more elements than pass one counted.
 static const char changed[] = "the same text as before: the file changed while it was read";
 
 // Fills the reader's error: "found 'x', expected …". Returns NULL.
 static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at, const char *expected)
 {
-    if (!reader->error) // skips the line number, which would need a pass over the text
+    if (!reader->error) // skips the message, because its line number needs a pass over the text
         return NULL;
     char found[TEXT_FOUND_SIZE];
     struct obj *obj = reader->obj;
@@ -155,8 +155,8 @@ static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *a
     return obj_skip_line(at, reader->end);
 }
 
-// Reads an index of a corner: 1 is the first element, −1 the last of the `so_far` elements before this line. `what` is
-// the kind of element for messages. Returns NULL on error.
+// Reads an index of a corner: 1 refers to the first element, and −1 to the last of the `so_far` elements before this
+// line. `what` names the kind of element in messages. Returns NULL on error.
 static inline const uint8_t *read_index(struct obj_reader *reader, const uint8_t *at, uint64_t total, uint64_t so_far,
                                         const char *what, uint32_t *out)
 {

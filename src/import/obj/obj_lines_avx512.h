@@ -33,7 +33,7 @@ struct constants {
     __m256i hundred_millions;
     __m128 sign;
     __m128i one_32, index_limit; // index_limit: the number of positions, or 0 if corners have other attributes
-    __m256i index_limits;        // of lanes: a position, a texture coordinate, a normal, a position …
+    __m256i index_limits;        // per lane: position, texture coordinate, normal, position …
     __mmask8 index_lanes;        // the lanes that contain an index
 };
 static inline struct constants constants_of(const struct obj *obj)
@@ -103,7 +103,7 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
     if ((digits | spaces) != inside || !second || without_lowest(second))
         return false;
     uint32_t ends = pack(lowest_bit(spaces), lowest_bit(second), length), begins = (ends << 8) + 0x010100;
-    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf8f8f8) // the numbers do not have 1 to 8 digits each
+    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf8f8f8) // a number has no digit or more than 8 digits
         return false;
     const __m256i lanes = _mm512_castsi512_si256(c->lanes_of_8);
     __m256i from =
@@ -129,8 +129,8 @@ static inline void store_indices(uint32_t *to, __m256i indices, __mmask8 lanes)
     to[2] = (uint32_t)_mm_extract_epi32(chosen, 2);
 }
 
-// Reads three corners like 12/34/56 or, if texture coordinates are not kept, 12//56, separated by one space, to the
-// corner `to` of the arrays. Eight of the numbers are in lanes.
+// Reads three corners like 12/34/56 or, if texture coordinates are not kept, 12//56, separated by one space, and stores
+// them from corner `to` of the arrays. Eight of the nine numbers are computed in lanes.
 static inline bool read_corners(const struct constants *c, const struct obj *obj, const uint8_t *line,
                                 const uint8_t *line_end, size_t to)
 {
@@ -150,7 +150,7 @@ static inline bool read_corners(const struct constants *c, const struct obj *obj
     const uint64_t begins = (ends << 8) + 0x0101010101010100, last = (ends >> 56) + 1;
     const uint64_t texcoords = 0xff0000ff0000ff00, sizes = ends - begins;
     const uint64_t absent = obj->texcoord_indices ? 0 : texcoords;
-    // The line is invalid if a number does not have 1 to 8 digits, or if there are more separators.
+    // The line is invalid if a number has no digit or more than 8 digits, or if there are more separators.
     if ((sizes & absent) | ((sizes - (0x0101010101010101 & ~absent)) & 0xf8f8f8f8f8f8f8f8) | between ||
         length - last - 1 > 7)
         return false;
@@ -173,7 +173,8 @@ static inline bool read_corners(const struct constants *c, const struct obj *obj
     return true;
 }
 
-// Reads three numbers like -12.3456, separated by one space: 2 to 15 digits, at least one on each side of the point.
+// Reads three numbers like -12.3456, separated by one space. Each number has 2 to 15 digits, at least one on each side
+// of the point.
 static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *line_end,
                                     __m128 *out)
 {

@@ -3,9 +3,9 @@
 // Each thread reads a chunk of the text and parses it into scratch arrays, all within the second-level cache. Once the
 // previous chunks are counted, the thread knows the indices of its elements and copies the elements to the final
 // arrays. The text is thus read once, and the file is never in memory as a whole. The final arrays reserve the address
-// space that a file of this size could fill; untouched pages are released. obj.c reads all other files: with vertex
-// colours, relative indices, lines, points, corners both with and without normals, or text lines longer than TAIL.
-// obj.c also reads files with errors, and files with warnings that name a line.
+// space that a file of this size could fill; untouched pages are released. obj.c reads all other files: files with
+// vertex colours, relative indices, lines, points, a mix of corners with and without normals, or text lines longer than
+// TAIL. obj.c also reads files with errors, and files whose warnings name a line.
 #include "loop_status.h"
 #include "obj.h"
 #include "origin.h"

@@ -76,7 +76,7 @@ static bool choose_elements(struct ply_import *reader, lam_error *error)
             return fail_header(reader, element, "has no list of corners",
                                "a property such as \"list uchar int vertex_indices\"", error);
         if (!ply_type_is_integer(element->properties[list].type))
-            return fail_header(reader, element, "has a list of corners of a floating-point type", "an integer type",
+            return fail_header(reader, element, "has a list of corners with a floating-point type", "an integer type",
                                error);
         reader->lists[kind] = list;
     }

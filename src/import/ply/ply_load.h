@@ -1,4 +1,4 @@
-// ply_load.h: loads a number from a binary PLY file, of any type, byte order and alignment.
+// ply_load.h: loads a number of any type, byte order and alignment from a binary PLY file.
 #ifndef PLY_LOAD_H
 #define PLY_LOAD_H
 

@@ -169,11 +169,11 @@ static void warn_unclosed(const struct stl_ascii_parser *reader)
     char found[TEXT_FOUND_SIZE];
     if (!reader->unclosed)
         return;
-    scene_warn(reader->scene, "%s:%zu: found %s, expected \"endsolid\" of the solid of line %zu%s%s", source->name,
+    scene_warn(reader->scene, "%s:%zu: found %s, expected \"endsolid\" for the solid in line %zu%s%s", source->name,
                text_line(source->bytes, reader->end_expected), text_found(reader->end_expected, reader->end, found),
                text_line(source->bytes, reader->first_unclosed),
                reader->end_expected == reader->end ? "; the file may be cut short" : "",
-               reader->unclosed > 1 ? ", the first of several without it" : "");
+               reader->unclosed > 1 ? ", the first of several solids without \"endsolid\"" : "");
 }
 
 static bool read_all(struct stl_ascii_parser *reader, lam_error *error)

@@ -47,7 +47,7 @@ const struct hash_entry *hash_file_find(const struct hash_file *file, const char
 
 // --- reading
 
-// Replaces the escape sequences in a name in place. Returns false if an escape sequence is unknown.
+// Decodes the escape sequences of a name in place. Returns false if an escape sequence is unknown.
 static bool unescape(char *name)
 {
     char *to = name;
@@ -66,7 +66,7 @@ static bool unescape(char *name)
     return true;
 }
 
-// Reads "pixels:0123456789abcdef", the XXH64 of pixels. The prefix "xxh64:" would mean a hash of the file's bytes.
+// Reads "pixels:0123456789abcdef", the XXH64 of pixels. The prefix "xxh64:" is for hashes of a file's bytes.
 static bool pixels_parse(const char *text, uint64_t *hash)
 {
     char of_file[XXH64_TEXT];
@@ -206,8 +206,8 @@ char *hash_file_text(const struct hash_file *file)
 
 // --- names
 
-// Returns a path with the links in its folder resolved, allocated with malloc. The file itself may be a link. Returns
-// the path unchanged if its folder does not exist.
+// Resolves the links in a path's folder, and returns the new path, allocated with malloc. The file itself may be a
+// link. Returns the path unchanged if its folder does not exist.
 static char *plain_path(const char *path)
 {
     char *folder = output_folder_of(path), *real = folder ? realpath(folder, NULL) : NULL, *plain = NULL;
@@ -259,7 +259,7 @@ bool hash_file_may_name(const char *path, const char *file, const struct options
     if (lam_shape_find(file) >= 0)
         return true;
     char *folder = output_folder_of(path), *real = realpath(file, NULL);
-    bool may = folder && (real ? path_is_below(real, folder, false) : errno == ENOENT); // a missing file does no harm
+    bool may = folder && (real ? path_is_below(real, folder, false) : errno == ENOENT); // a missing file is allowed
     for (int i = 0; real && !may && i < options->limits.allow_paths.count; i++)
         may = path_is_below(real, options->limits.allow_paths.items[i], false);
     free(folder);

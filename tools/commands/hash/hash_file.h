@@ -5,7 +5,8 @@
 //     options --size 256
 //     pixels:0123456789abcdef  models/koala.obj
 //
-// A name is relative to the file's folder; in it, "\\" means a backslash, "\n" a line end and "\r" a carriage return.
+// A name is relative to the file's folder. In a name, "\\" means a backslash, "\n" a line end and "\r" a carriage
+// return.
 #ifndef HASH_FILE_H
 #define HASH_FILE_H
 
@@ -26,7 +27,7 @@ struct hash_file {
     size_t count;
 };
 
-// Reads a regular file of at most HASH_FILE_MAX bytes. The caller frees it, even after a failure. Fails with
+// Reads a regular file of at most HASH_FILE_MAX bytes. The caller frees `file`, even after a failure. Fails with
 // LAM_CANNOT_READ or LAM_LIMIT.
 bool hash_file_read(struct hash_file *file, const char *path, lam_error *error);
 void hash_file_free(struct hash_file *file);

@@ -30,7 +30,7 @@ static int split(char *text, char **words)
                 *to++ = *++from;
             else
                 *to++ = *from;
-        from += *from == ' '; // before `to` can overwrite it
+        from += *from == ' '; // skip the blank now, because `to` may overwrite it
         *to++ = 0;
     }
     return count;
@@ -40,7 +40,8 @@ static int split(char *text, char **words)
 // accept built-in names.
 static const char *const of_files[] = {"environment", "look"};
 
-// Writes the value of an option in of_files, with each path replaced by the result of `map`. Frees the results.
+// Writes the value of an option of the list of_files, with each path replaced by the result of `map`. Frees the
+// results.
 static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
                       char *(*map)(const char *file, const char *path))
 {
@@ -76,7 +77,7 @@ static char *map_paths(const char *name, const char *value, const char *file,
 char *hash_options_text(const struct options *options, const char *path)
 {
     enum { FILES = sizeof of_files / sizeof *of_files };
-    struct options shown = *options; // shares the lists of the original
+    struct options shown = *options; // a copy that shares the lists of `options`
     char *values[FILES] = {0}, *text = NULL;
     bool ok = true;
     for (int i = 0; i < FILES; i++) {
@@ -109,8 +110,8 @@ static bool may_name(const char *path, const char *name, const char *value, cons
     return ok;
 }
 
-// Makes the paths in the options relative to the current folder, which must happen before a look is read. Stores the
-// new paths in the buffer from `to` to `end`.
+// Makes the paths in the options relative to the current folder. Must be called before a look is read. Stores the new
+// paths in the buffer from `to` to `end`.
 static bool resolve(char **words, int count, const char *path, char *to, const char *end, const struct options *o,
                     lam_error *error)
 {

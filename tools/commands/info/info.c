@@ -30,7 +30,7 @@ static bool load(struct info *info, struct job *job, struct options *options, la
     return ok;
 }
 
-// Measures the memory for drawing by drawing the depths once. Lighting needs no additional memory, except for
+// Draws the depths once to measure the memory that drawing needs. Lighting needs no additional memory, except for
 // environment light.
 static void measure_drawing(struct info *info, const struct job *job)
 {

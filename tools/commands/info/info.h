@@ -20,8 +20,8 @@ struct info_textures {
 };
 bool info_textures_list(const lam_scene *scene, struct info_textures *textures, lam_error *error);
 int info_texture_find(const struct info_textures *textures, const lam_texture *texture); // returns the index, or −1
-// Returns the texture's file as the model names it or relative to the model's folder, or NULL if the texture is inside
-// the model file.
+// Returns the path of the texture's file, either as written in the model or relative to the model's folder. Returns
+// NULL if the texture is inside the model file.
 const char *info_texture_file(const struct info_texture *texture, const char *model);
 const char *info_texture_format(const struct info_texture *texture); // "png"; NULL if unknown
 const char *info_color_space(const struct info_texture *texture);    // "srgb" or "linear"; NULL if unused
@@ -78,8 +78,8 @@ struct info_measure {
 struct info_measure info_measure(const lam_scene *scene);
 
 const char *info_material_kind(const lam_material *material); // returns "metallic-roughness", "classic" or "unlit"
-// Stores the values of a field, in the format of scene files, in `numbers` and returns the number of values. Returns 0
-// if the field is printed for every material or equals its default.
+// Stores a field's values in `numbers`, in the format of scene files, and returns their number. Returns 0 if the field
+// is printed for every material or equals its default.
 int info_changed_field(const lam_field *field, const lam_material *material, double numbers[4]);
 const char *info_alpha_mode(const lam_material *material); // returns "opaque", "mask" or "blend"
 const char *info_support(lam_extension_support support);   // returns a description

@@ -1,4 +1,5 @@
-// info_measure.c: computes the area and volume of a model's surface and whether it is closed.
+// info_measure.c: computes the area of a model's surface and the enclosed volume, and tests whether the surface is
+// closed.
 #include "info.h"
 
 #include <math.h>

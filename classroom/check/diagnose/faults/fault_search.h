@@ -39,7 +39,7 @@ struct fault_search {
     bool certain;
     uint64_t tried; // number of faults and sets
     bool stopped;   // whether max_pictures was reached
-    // Styles of the table that the shader uses, which are not mistakes.
+    // The shader's styles: rows of the table that are not mistakes.
     const struct fault *styles[MAX_FOUND_FAULTS];
     int style_count;
     // For each scene, the found fault that explains it alone, or NULL.

@@ -61,7 +61,7 @@ static enum switch_group group_of(int bit)
 }
 
 // Returns whether a switch can be on in a program. The possible switches differ between programs for shaders with an
-// exponent, and programs for shaders with metalness and roughness.
+// exponent and programs for shaders with metalness and roughness.
 static bool is_possible(const struct specialization *made_for, int bit)
 {
     if (!made_for->groups[group_of(bit)])
@@ -226,7 +226,7 @@ void fault_shader_close(struct fault_shader *m)
         return;
     lam_error unused;
     if (m->rests)
-        fault_shader_wake(m, &unused); // a context that cannot be made current is closed nevertheless
+        fault_shader_wake(m, &unused); // the context is closed even if it cannot be made current
     for (int i = 0; i < m->program_count; i++)
         forget(m, m->programs[i].built);
     place_close(&m->place);
@@ -239,7 +239,7 @@ static void set(struct fault_shader *m, const char *name, int count, int each, c
     int input = place_input(m->program, name, false);
     if (input < 0)
         return;
-    if (count > m->program->inputs[input].elements) // because a compiler may shorten an array
+    if (count > m->program->inputs[input].elements) // a compiler may shorten an array
         count = m->program->inputs[input].elements;
     m->full = m->full || m->value_count == MAX_VALUES || m->number_count + count * each > MAX_NUMBERS;
     if (m->full)

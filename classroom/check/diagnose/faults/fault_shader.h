@@ -21,7 +21,7 @@ bool fault_shader_wake(struct fault_shader *shader, lam_error *error);
 
 static inline int fault_shader_size(int size, int stride) { return (size + stride - 1) / stride; }
 
-// Properties of the shaders under test that reference pictures share.
+// Properties that reference pictures share with the shaders under test.
 struct fault_model {
     const struct shader_interface *interface;
     lam_light_frame light_frame;

@@ -48,7 +48,7 @@ const struct fault faults[] = {
         "vec3 n = normalize(N); // in the fragment shader, before any dot product and before reflect()"),
     ROW("normal-unit-late", BITS(LONG_NORMAL_VERTEX), WHERE_FRAGMENT, 0,
         "the normal is normalized only in the fragment shader; the matrix changes the lengths of normals, and longer "
-        "ones weigh more between vertices",
+        "normals weigh more between vertices",
         "N = normalize({normal_matrix} * {normal}); // in the vertex shader too", .demand = DEMAND_UNIT_NORMALS),
     ROW("normal-never-unit", BITS(LONG_NORMAL, LONG_NORMAL_VERTEX), 0, 0,
         "the normal is never normalized, although the matrix changes its length",
@@ -82,7 +82,7 @@ const struct fault faults[] = {
         "N = normalize(({normal_matrix4} * vec4({normal}, 0.0)).xyz); // .xyz first, then normalize"),
     ROW("normal-with-w-vertex", BITS(NORMAL_WITH_W), WHERE_FRAGMENT, 0,
         "the normal is normalized with four components in the vertex shader; the translation enters w, so each "
-        "vertex's normal has another length, and longer ones weigh more between vertices",
+        "vertex's normal has another length, and longer normals weigh more between vertices",
         "N = normalize(({normal_matrix4} * vec4({normal}, 0.0)).xyz); // .xyz first, then normalize"),
     ROW("normal-inward", BITS(INWARD), 0, 0, "the normal points to the wrong side",
         "N = normalize({normal_matrix} * {normal}); // without the minus"),
@@ -289,9 +289,10 @@ const struct fault faults[] = {
         "check with --highlight blinn-phong",
         "float s = {S};"),
     ROW("n.r-for-v.r", BITS(LOBE_OF_OTHER), WHERE_PHONG | WHERE_CLASSIC, 0,
-        "the highlight has n.r where r.v belongs; n.r is n.l, so that it does not move with the eye", "float s = {S};"),
+        "the highlight uses n.r instead of r.v; n.r equals n.l, so the highlight does not move with the eye",
+        "float s = {S};"),
     ROW("v.h-for-n.h", BITS(LOBE_OF_OTHER), WHERE_BLINN | WHERE_CLASSIC, 0,
-        "the highlight has v.h where n.h belongs; v.h does not depend on the normal", "float s = {S};"),
+        "the highlight uses v.h instead of n.h; v.h does not depend on the normal", "float s = {S};"),
     ROW("shininess-times-4", BITS(0), WHERE_CLASSIC, 0, "the exponent is four times too large",
         "float s = {S}; // the exponent as given", .factor = 4),
     ROW("shininess-quarter", BITS(0), WHERE_CLASSIC, 0, "the exponent is four times too small",
@@ -351,21 +352,21 @@ const struct fault faults[] = {
     ROW("specular-tinted", BITS(SPECULAR_TINTED), WHERE_CLASSIC, 0,
         "the highlight is also multiplied by the diffuse colour", "specular = {ks} * s; // not times {kd}"),
     ROW("specular-in-diffuse-colour", BITS(SPECULAR_AS_DIFFUSE), WHERE_CLASSIC, 0,
-        "the highlight has the diffuse colour", "specular = {ks} * s;"),
+        "the highlight uses the diffuse colour", "specular = {ks} * s;"),
     ROW("light-colour-missing", BITS(WHITE_LIGHT), WHERE_CLASSIC, 0,
         "the diffuse term is not multiplied by the light's colour",
         "diffuse = {kd} * {light_color} * max(dot(N, L), 0.0);"),
     ROW("light-colour-missing", BITS(WHITE_LIGHT), WHERE_PHYSICAL, 0, "the light's colour is missing",
         "vec3 radiance = {light_color} * attenuation;"),
     ROW("specular-light-as-diffuse", BITS(SPECULAR_LIGHT_AS_DIFFUSE), WHERE_CLASSIC, 0,
-        "the highlight is multiplied by the light's diffuse colour instead of its specular one",
+        "the highlight is multiplied by the light's diffuse colour instead of its specular colour",
         "specular = {ks} * {light_specular} * s;"),
     ROW("ambient-for-each-light", BITS(AMBIENT_EACH_LIGHT), 0, NEED_LIGHTS,
         "the ambient term is added once for each light", "color = ambient; // once, before the loop over the lights"),
     ROW("first-light-only", BITS(FIRST_LIGHT_ONLY), 0, NEED_LIGHTS, "only the first light counts",
         "for (int i = 0; i < {count}; i++) // and add, do not assign"),
     ROW("last-light-only", BITS(LAST_LIGHT_ONLY), 0, NEED_LIGHTS,
-        "only the last light counts: each one overwrites the one before",
+        "only the last light counts: each light overwrites the previous light",
         "color += ...; // in the loop: add, do not assign"),
     ROW("one-light-too-few", BITS(LAST_LIGHT_MISSING), 0, NEED_LIGHTS, "the last light is missing",
         "for (int i = 0; i < {count}; i++) // not i < {count} - 1"),
@@ -485,34 +486,33 @@ const struct fault faults[] = {
         "sampler has decoded it; leave it so only if the texture has a plain format",
         "vec3 albedo = texture({base_map}, {uv}).rgb;", .maps = MAPS_BASE | MAPS_LINEAR),
     ROW("base-factor-left-out", BITS(BASE_MAP_ALONE), WHERE_PHYSICAL, 0,
-        "the base colour is only the map's; it must be the product of map and factor",
+        "the base colour comes only from the map; it must be the product of map and factor",
         "vec3 albedo = {base} * texture({base_map}, {uv}).rgb;", .maps = MAPS_BASE | MAPS_BASE_FACTOR),
     ROW("base-map-left-out", BITS(BASE_FACTOR_ALONE), WHERE_PHYSICAL, 0, "the base colour map is read but not used",
         "vec3 albedo = texture({base_map}, {uv}).rgb;", .maps = MAPS_BASE),
     ROW("metallic-from-red", BITS(METAL_FROM_RED), WHERE_PHYSICAL, 0,
-        "metalness is read from the red channel of the metallic-roughness map; it is in the blue one",
+        "metalness is read from the red channel of the metallic-roughness map; metalness is in the blue channel",
         "float metallic = texture({metallic_roughness_map}, {uv}).b;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("metallic-from-green", BITS(METAL_FROM_GREEN), WHERE_PHYSICAL, 0,
-        "metalness is read from the green channel of the metallic-roughness map, which is roughness; it is in the blue "
-        "one",
+        "metalness is read from the green channel of the metallic-roughness map, which is roughness; metalness is in "
+        "the blue channel",
         "float metallic = texture({metallic_roughness_map}, {uv}).b;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("metallic-from-alpha", BITS(METAL_FROM_ALPHA), WHERE_PHYSICAL, 0,
-        "metalness is read from the alpha channel of the metallic-roughness map; it is in the blue one",
+        "metalness is read from the alpha channel of the metallic-roughness map; metalness is in the blue channel",
         "float metallic = texture({metallic_roughness_map}, {uv}).b;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("roughness-from-red", BITS(ROUGH_FROM_RED), WHERE_PHYSICAL, 0,
-        "roughness is read from the red channel of the metallic-roughness map; it is in the green one",
+        "roughness is read from the red channel of the metallic-roughness map; roughness is in the green channel",
         "float roughness = texture({metallic_roughness_map}, {uv}).g;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("roughness-from-blue", BITS(ROUGH_FROM_BLUE), WHERE_PHYSICAL, 0,
-        "roughness is read from the blue channel of the metallic-roughness map, which is metalness; it is in the green "
-        "one",
+        "roughness is read from the blue channel of the metallic-roughness map, which is metalness; roughness is in "
+        "the green channel",
         "float roughness = texture({metallic_roughness_map}, {uv}).g;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("roughness-from-alpha", BITS(ROUGH_FROM_ALPHA), WHERE_PHYSICAL, 0,
-        "roughness is read from the alpha channel of the metallic-roughness map; it is in the green one",
+        "roughness is read from the alpha channel of the metallic-roughness map; roughness is in the green channel",
         "float roughness = texture({metallic_roughness_map}, {uv}).g;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("metallic-roughness-from-red", BITS(METAL_FROM_RED, ROUGH_FROM_RED), WHERE_PHYSICAL, 0,
-        "metalness and roughness are both read from the red channel of their map; roughness is in the green one, "
-        "metalness "
-        "in the blue one",
+        "metalness and roughness are both read from the red channel of their map; roughness is in the green channel, "
+        "metalness in the blue channel",
         "float roughness = texture({metallic_roughness_map}, {uv}).g, metallic = texture({metallic_roughness_map}, "
         "{uv}).b;",
         .maps = MAPS_METALLIC_ROUGHNESS),
@@ -520,7 +520,7 @@ const struct fault faults[] = {
         "metalness and roughness are decoded, pow(x, 2.2), like colours; their map contains plain numbers",
         "float roughness = texture({roughness_map}, {uv}).g; // as it is", .maps = MAPS_DATA),
     ROW("metallic-roughness-factors-left-out", BITS(DATA_MAP_ALONE), WHERE_PHYSICAL, 0,
-        "metalness and roughness are only the map's; they must be the products of map and factors",
+        "metalness and roughness come only from the map; they must be the products of map and factors",
         "float roughness = {roughness} * texture({roughness_map}, {uv}).g, metallic = {metallic} * "
         "texture({metallic_map}, {uv}).b;",
         .maps = MAPS_METALLIC_ROUGHNESS | MAPS_DATA_FACTOR),
@@ -648,7 +648,7 @@ const struct fault faults[] = {
         "the colour of the emission map is decoded, pow(x, 2.2), more often than it is encoded",
         "color += texture({emission_map}, {uv}).rgb;", .maps = MAPS_EMISSION),
     ROW("emission-factor-left-out", BITS(EMISSION_MAP_ALONE), WHERE_PHYSICAL, NEED_EMISSION_MAP,
-        "the emission is only the map's; it must be the product of map and factor",
+        "the emission comes only from the map; it must be the product of map and factor",
         "color += {emission} * texture({emission_map}, {uv}).rgb;", .maps = MAPS_EMISSION | MAPS_EMISSION_FACTOR),
     // --- spots, sides, output
     ROW("no-cone", BITS(NO_CONE), 0, NEED_SPOT, "the spot's cone is missing",
@@ -724,8 +724,8 @@ const struct fault faults[] = {
         "vec3 P = ({model_view} * {position}).xyz; // no projection", .rare = true),
     // --- styles: as correct as the reference, and never reported as mistakes
     ROW("turned-to-the-eye", BITS(FACE_FORWARD), 0, 0,
-        "the normal is turned towards the eye by the sign of n.v, as faceforward() does; gl_FrontFacing decides it for "
-        "whole triangles, which is the same but for pixels at the rim",
+        "the normal is turned towards the eye by the sign of n.v, as faceforward() does; gl_FrontFacing decides this "
+        "for whole triangles, with the same result except at the rim",
         NULL, .style = true),
     ROW("back-faces-flipped", BITS(FLIP), 0, 0,
         "the normal is reversed if gl_FrontFacing is false; this contract has no two-sided surfaces, but a few back "
@@ -734,23 +734,22 @@ const struct fault faults[] = {
     ROW("light-without-pi", BITS(LIGHT_WITHOUT_PI), WHERE_PHYSICAL, 0,
         "the light's colours mean the brightness of a white surface that faces the light, as in lambent's own lights: "
         "neither the base colour nor D is divided by pi, or both are multiplied by it; the contract's lights are "
-        "radiance, so every picture is pi times as bright. Both are right: it is the number given to the light that "
-        "differs",
+        "radiance, so every picture is pi times as bright. Both are right: only the number given to the light differs",
         NULL, .style = true),
     ROW("smith-masking", BITS(USE_HEIGHT), WHERE_PHYSICAL | WHERE_SCHLICK, 0,
         "the masking is Smith's for GGX, with correlated heights, but the course uses Schlick's approximation of it; "
         "both are right",
         NULL, .style = true),
     ROW("separable-masking", BITS(USE_SEPARABLE), WHERE_PHYSICAL, 0,
-        "the masking is Smith's for GGX as a product of a factor for l and one for v; that and the form with "
+        "the masking is Smith's for GGX as a product of a factor for l and a factor for v; this form and the form with "
         "correlated heights are both in use",
         NULL, .style = true),
     ROW("schlick-masking", BITS(USE_SCHLICK), WHERE_PHYSICAL | WHERE_SMITH, 0,
-        "the masking is Schlick's approximation with k = (roughness + 1)^2 / 8, where Smith's for GGX is expected; "
+        "the masking is Schlick's approximation with k = (roughness + 1)^2 / 8, but Smith's for GGX is expected; "
         "both are in use",
         NULL, .style = true),
     ROW("schlick-half-masking", BITS(USE_SCHLICK_IBL), WHERE_PHYSICAL | WHERE_SMITH, 0,
-        "the masking is Schlick's approximation with k = alpha / 2, where Smith's for GGX is expected; both are in use",
+        "the masking is Schlick's approximation with k = alpha / 2, but Smith's for GGX is expected; both are in use",
         NULL, .style = true),
     ROW("diffuse-of-dielectric", BITS(SHARE_OF_DIELECTRIC), WHERE_PHYSICAL | WHERE_OF_MIX, 0,
         "the diffuse part is reduced by the dielectric's Fresnel factor, as in glTF's appendix B, but the course uses "
@@ -758,21 +757,21 @@ const struct fault faults[] = {
         NULL, .style = true),
     ROW("diffuse-of-mix", BITS(SHARE_OF_MIX), WHERE_PHYSICAL | WHERE_NOT_OF_MIX, 0,
         "the diffuse part is reduced by the Fresnel factor of the mixed F0, kD = (1 - F)(1 - metallic); it differs "
-        "from the expected form between dielectrics and metals alone, and both are in use",
+        "from the expected form only between dielectrics and metals, and both are in use",
         NULL, .style = true),
     ROW("diffuse-of-dielectric", BITS(SHARE_OF_DIELECTRIC), WHERE_PHYSICAL | WHERE_LINEAR | WHERE_NOT_OF_MIX, 0,
         "the diffuse part is reduced by the dielectric's Fresnel factor, as in glTF's appendix B; both forms are in "
         "use",
         NULL, .style = true),
     ROW("maps-of-srgb", BITS(MAPS_OF_SRGB), WHERE_PHYSICAL, 0,
-        "the maps of colours are decoded by the exact curve of sRGB, but the course uses pow(x, 2.2)", NULL,
+        "the maps of colours are decoded with the exact curve of sRGB, but the course uses pow(x, 2.2)", NULL,
         .style = true, .maps = MAPS_BASE | MAPS_ENCODED),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED), 0, 0,
-        "tangent and bitangent are computed from derivatives, as in LearnOpenGL, with green of the normal map pointing "
+        "tangent and bitangent are computed from derivatives, as in LearnOpenGL, and green of the normal map points "
         "against v; that is right if the texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED, BITANGENT_REVERSED), 0, 0,
-        "tangent and bitangent are computed from derivatives, with green of the normal map pointing along v; that is "
+        "tangent and bitangent are computed from derivatives, and green of the normal map points along v; that is "
         "right if the texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
     ROW("frame-from-derivatives", BITS(FRAME_DERIVED_SIGNED), 0, 0,
@@ -780,24 +779,24 @@ const struct fault faults[] = {
         "texture is not mirrored",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("frame-from-derivatives", BITS(FRAME_COTANGENT), 0, 0,
-        "tangent and bitangent are computed from derivatives, as three.js does it, with green of the normal map "
-        "pointing along v",
+        "tangent and bitangent are computed from derivatives, as in three.js, and green of the normal map points along "
+        "v",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_UP),
     ROW("frame-from-derivatives", BITS(FRAME_COTANGENT, BITANGENT_REVERSED), 0, 0,
-        "tangent and bitangent are computed from derivatives, as three.js does it, with green of the normal map "
-        "pointing against v",
+        "tangent and bitangent are computed from derivatives, as in three.js, and green of the normal map points "
+        "against v",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_DERIVATIVES),
     ROW("bitangent-transformed", BITS(BITANGENT_BY_MODEL), 0, 0,
-        "the bitangent is transformed by the matrix, as the tangent is; where that stretches the surface, it differs "
-        "from the cross product of normal and tangent, and both are in use",
+        "the bitangent is transformed by the matrix, like the tangent; if the matrix stretches the surface, the "
+        "bitangent differs from the cross product of normal and tangent, and both are in use",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("rim-cut", BITS(RIM_CUT), WHERE_PHYSICAL | WHERE_SMITH, 0,
-        "there is no highlight where n.v is not above 0; only interpolated normals at rims are turned so far, and "
-        "lambent has |n.v| there, as glTF's appendix B",
+        "there is no highlight if n.v is 0 or less; only interpolated normals at rims point so far away, and lambent "
+        "uses |n.v| for them, as in glTF's appendix B",
         NULL, .style = true),
     ROW("rim-clamped", BITS(RIM_CLAMPED), WHERE_PHYSICAL | WHERE_SMITH, 0,
-        "n.v is clamped at 0, and the highlight is kept there, as in Khronos' viewer and three.js; only interpolated "
-        "normals at rims are turned so far, and lambent has |n.v| there, as glTF's appendix B",
+        "n.v is clamped at 0, and the highlight remains, as in Khronos' viewer and three.js; only interpolated normals "
+        "at rims point so far away, and lambent uses |n.v| for them, as in glTF's appendix B",
         NULL, .style = true),
     ROW("no-tone-curve", BITS(USE_NO_TONE), WHERE_PHYSICAL | WHERE_TONED, 0,
         "there is no tone curve, but the course uses Reinhard's: the light is clamped at 1", NULL, .style = true),

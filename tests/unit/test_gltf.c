@@ -835,7 +835,8 @@ static void test_errors(void **state)
         {"\"indices\": 1", "\"indices\": 1, \"material\": 0",
          ": meshes[0].primitives[0].material: found 0, but the file has no materials", LAM_CANNOT_READ},
         {"\"count\": 4", "\"count\": 3",
-         ": meshes[0].primitives[0].indices: number 5 is 3, expected one below the 3 vertices", LAM_CANNOT_READ},
+         ": meshes[0].primitives[0].indices: number 5 is 3, expected less than 3, the number of vertices",
+         LAM_CANNOT_READ},
         {"\"count\": 4", "\"count\": 5",
          ": accessors[0]: 5 elements from byte 0 on, 12 apart, do not fit the 48 bytes of bufferView 0",
          LAM_CANNOT_READ},
@@ -891,7 +892,7 @@ static void test_errors(void **state)
         {"\"count\": 6",
          "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 0, \"byteOffset\": 12, "
          "\"componentType\": 5125}, \"values\": {\"bufferView\": 0}}",
-         ": accessors[1].sparse.indices: number 0 is 1065353216, expected one below the accessor's count, 6",
+         ": accessors[1].sparse.indices: number 0 is 1065353216, expected less than 6, the accessor's count",
          LAM_CANNOT_READ},
         {ASSET, ASSET ",", ":1: column 30: found ',', expected a key in quotes", LAM_CANNOT_READ},
     };

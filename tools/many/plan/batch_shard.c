@@ -111,7 +111,7 @@ static bool from_environment(struct batch_shard *shard, long count, lam_error *e
     if (found == completion)
         return complain(
             error, LAM_BAD_ARGUMENT,
-            "option '--shard auto': Kubernetes does not say how many completions the job has; name their number, "
+            "option '--shard auto': Kubernetes does not report the number of completions; give this number N, "
             "--shard auto/N");
     return slurm_array(shard, error);
 }

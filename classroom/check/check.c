@@ -19,7 +19,7 @@
 
 // --- preparation
 
-// Returns the version of a scene that the shaders can express, without features that no term of the scene shows.
+// Returns a scene with only those features that the shaders can express and that a term of the scene shows.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);

@@ -33,8 +33,8 @@ static void display(const struct physical_convention *c, float *pixels, size_t c
         }
 }
 
-// Returns whether the CPU device can draw the references: it uses glTF's own equations. The fault shader draws all
-// other forms.
+// Returns whether the CPU device can draw the references. The device uses glTF's own equations, and the fault shader
+// draws all other forms.
 static bool is_of_device(const struct run *r)
 {
     const struct physical_convention *c = &r->interface.contract->physical;

@@ -18,15 +18,17 @@
 static const struct {
     const char *role, *correct;
 } corrections[] = {
-    {"zero", "gets 0, because its role is unknown or it is unused; give it a role if it matters"},
+    {"zero", "its value is 0, because its role is unknown or the shaders do not use it; set its role if necessary"},
     {"factor",
      "its value is free. If the exercise prescribes it: a role such as color, light_color, diffuse_strength, and "
      "\"strengths\": \"given\""},
-    {"light_position", "correct `space` if the program gives it in another one"},
-    {"light_direction", "it points to the light; if it points away from it, light_travel. Correct `space` too"},
-    {"light_travel", "it points away from the light; if it points to it, light_direction. Correct `space` too"},
-    {"eye_position", "correct `space` if the program gives it in another one"},
-    {"normal_matrix", "correct `space` if the matrix transforms to another one"},
+    {"light_position", "correct `space` if the program uses another space"},
+    {"light_direction",
+     "it points to the light; if yours points away from the light, use light_travel. Correct `space` too"},
+    {"light_travel",
+     "it points away from the light; if yours points to the light, use light_direction. Correct `space` too"},
+    {"eye_position", "correct `space` if the program uses another space"},
+    {"normal_matrix", "correct `space` if the matrix transforms to another space"},
     {"shininess", "the exponent of the highlight, which the scenes choose"},
 };
 

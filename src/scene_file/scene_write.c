@@ -1,5 +1,5 @@
-// scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. A reader gets every
-// number with the same bits.
+// scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. A reader recovers the
+// exact bits of every number.
 //
 // This source file is longer than 600 lines, because it contains one function for each section of a scene file, in the
 // order of these sections.

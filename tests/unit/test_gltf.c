@@ -757,7 +757,7 @@ static void test_files(void **state)
         {"data:text/plain;base64,AB*C", "",
          "a.gltf: buffers[0].uri: character 25 of the data URI is not of base64 (found '*')", 60},
         {"data:;base64,ABCDE", "", "a.gltf: buffers[0].uri: the data URI is cut: its base64 has 5 characters", 60},
-        {"data:none", "", "a.gltf: buffers[0].uri: this data URI has no ',' before its data", 60},
+        {"data:none", "", "a.gltf: buffers[0].uri: this data URI lacks the ',' before its data", 60},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char buffer[300], text[16384];
@@ -866,8 +866,8 @@ static void test_errors(void **state)
          ": bufferViews[0].byteLength: found -1, expected a whole number of at least 1", LAM_CANNOT_READ},
         {"\"buffer\": 0, \"byteLength\": 48", "\"buffer\": 1, \"byteLength\": 48",
          ": bufferViews[0].buffer: found 1, expected a number from 0 to 0 (buffers)", LAM_CANNOT_READ},
-        {"%B", "\"buffers\": [{\"byteLength\": 60}]", ": buffers[0]: found no uri, and the file has no binary chunk",
-         LAM_CANNOT_READ},
+        {"%B", "\"buffers\": [{\"byteLength\": 60}]",
+         ": buffers[0]: found no uri, and the file contains no binary chunk", LAM_CANNOT_READ},
         {"\"mesh\": 0", "\"mesh\": 1", ": nodes[0].mesh: found 1, expected a number from 0 to 0 (meshes)",
          LAM_CANNOT_READ},
         {"\"mesh\": 0", "\"mesh\": 0, \"children\": [0]", ": nodes[0]: this node is its own ancestor, expected a tree",

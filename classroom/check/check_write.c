@@ -19,9 +19,9 @@ static const struct {
     const char *role, *correct;
 } corrections[] = {
     {"zero", "its value is 0, because its role is unknown or the shaders do not use it; set its role if necessary"},
-    {"factor",
-     "its value is free. If the exercise prescribes it: a role such as color, light_color, diffuse_strength, and "
-     "\"strengths\": \"given\""},
+    {"factor", "its value is free. If the exercise prescribes the value, use a role such as color, light_color or "
+               "diffuse_strength, and "
+               "\"strengths\": \"given\""},
     {"light_position", "correct `space` if the program uses another space"},
     {"light_direction",
      "it points to the light; if yours points away from the light, use light_travel. Correct `space` too"},
@@ -39,7 +39,7 @@ static const char *const root_comment[] = {
     "colours are found.",
     "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": "
     "\"required\".",
-    "`weights` says how many points a scene is worth: {\"gate\": 2}. Comments may be removed."};
+    "`weights` sets the points of a scene: {\"gate\": 2}. Comments may be removed."};
 
 static const char *meaning_of(const char *role)
 {

@@ -322,7 +322,7 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
     if (frame->refracts)
         return fail(
             error, LAM_UNSUPPORTED,
-            "OpenGL: the scene has rough or thick glass (transmission with a roughness or a thickness above 0), "
+            "OpenGL: the scene contains rough or thick glass (transmission with a roughness or a thickness above 0), "
             "which only the CPU device draws");
     if (frame->settings.occlusion == LAM_OCCLUSION_RAYS)
         return fail(

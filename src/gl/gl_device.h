@@ -404,8 +404,7 @@ bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);
 uint64_t surfaces_bytes(const struct gl_device *device);
 void surfaces_free(struct gl_device *device);
-// Returns the position of the record of the triangle with this number in the frame, or 0 if the triangle transmits no
-// light.
+// Returns the position of the record of triangle `number` of the frame, or 0 if the triangle transmits no light.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 
 // --- gl_shadows.c

@@ -314,7 +314,7 @@ static int power(struct parser *p, bool *is_number)
     return base;
 }
 
-// Returns whether a factor follows that needs no '*' after a number: a name or a parenthesis.
+// Returns whether the text continues with a factor that needs no '*' after a number: a name or a parenthesis.
 static bool factor_follows(struct parser *p)
 {
     skip_blanks(p);

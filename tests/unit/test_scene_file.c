@@ -257,7 +257,7 @@ static void test_errors(void **unused)
         WITH("\"materials\": {\"m\": {\"shinines\": 1}}",
              "materials.m.shinines: unknown key; did you mean 'shininess'?"),
         WITH("\"materials\": {\"m\": {\"ambient\": \"#11223344\"}}",
-             "materials.m.ambient: has an alpha, expected a colour of three parts"),
+             "materials.m.ambient: contains an alpha, expected a colour without alpha"),
         WITH("\"materials\": []", "materials: found a list of 0, expected an object of named materials"),
         OBJECT("\"name\": \"x\"", ": contains neither shape nor file, expected one of them"),
         OBJECT(SPHERE "\"file\": \"a.obj\"", ": contains both shape and file, expected only one"),

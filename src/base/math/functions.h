@@ -1,8 +1,8 @@
 // functions.h: powers, logarithms and inverse square roots, many at a time, bit-identical on every machine.
 //
 // The functions use only + − × and integer operations on the bits (lanes.h), without libm, tables or divisions. Each
-// function's comment states its range and its error; tests/lighting/test_functions.c measures both. No function returns
-// NaN, for any argument, unless its comment states it.
+// function's comment states its range and its error; tests/lighting/test_functions.c measures both. Unless its comment
+// states otherwise, a function never returns NaN.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 

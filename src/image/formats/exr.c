@@ -408,8 +408,7 @@ static bool exr_read(const struct picture_file *picture, lam_image *image, lam_e
 #else
 
 #define NOT_BUILT                                                                                                      \
-    REMEDY("EXR: this build of lambent is without OpenEXR; the Debian package libopenexr-dev is needed to build it "   \
-           "with",                                                                                                     \
+    REMEDY("EXR: this build does not support it; install the Debian package libopenexr-dev and build again",           \
            "EXR: this page cannot read it; use the program lambent")
 
 static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)

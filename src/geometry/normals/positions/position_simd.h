@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-enum { WORD = 64 }; // vertices or corners that are processed together: as many as a word of a bit set has bits
+enum { WORD = 64 }; // vertices or corners that are processed together: one for each bit in a word of a bit set
 
 // A Bloom filter with two bits per position, both in the word selected by the hash's upper bits.
 struct position_filter {

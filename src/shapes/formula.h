@@ -85,7 +85,7 @@ struct formula {
     struct formula_node *nodes;
     int count;
     bool implicit;  // the parameters are x, y and z instead of u and v
-    int outputs[9]; // x, y, z and their derivatives for u and for v; implicit: f and its gradient
+    int outputs[9]; // x, y, z and their derivatives ∂/∂u and ∂/∂v; implicit: f and its gradient
     int name_count; // the definitions
     struct formula_name {
         const char *text; // position in the formula's text

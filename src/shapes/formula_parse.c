@@ -335,7 +335,7 @@ static int signed_factor(struct parser *p, bool divides)
     int result = power(p, &is_number);
     if (result >= 0 && is_number && factor_follows(p)) {
         if (divides)
-            return expected(p, start, "parentheses around the product, as in 1/(2*pi), or a '*'");
+            return expected(p, start, "parentheses around a divisor that is a product, as in 1/(2*pi), or a '*'");
         int next = power(p, &is_number);
         if (next < 0)
             return -1;

@@ -72,8 +72,8 @@ LANE_FN num exp2_of(num y)
 }
 
 // Computes y = exponent · log₂ base as head + tail, for a normal base > 0 that is already split. A power needs y with
-// an error of at most 2e-6 for y up to 126, which is two bits more precise than a float. Therefore the logarithm and
-// the exponent are each split into a head of 12 bits and a tail. (The logarithm's head may be any nearby value; a short
+// an error of at most 2e-6 for y up to 126, and a float lacks two bits for this. Therefore the logarithm and the
+// exponent are each split into a head of 12 bits and a tail. (The logarithm's head may be any nearby value; a short
 // estimate is used.) Head · head is then exact, and only small products are rounded. The split of the exponent is the
 // same for every pixel, so the compiler moves it out of the loop.
 struct two_parts {

@@ -33,7 +33,7 @@ static struct options scan_report_options(int count, char **words)
 }
 
 // Removes the command's name, which may follow options, from the words. Returns the default command if the words
-// contain none.
+// contain no command.
 static const struct command *take_command(int *count, char **words)
 {
     int first = options_first_operand(*count, words);

@@ -19,7 +19,7 @@
 
 // --- preparation
 
-// Returns the version of a scene that the shaders can express, without features that no term of the scene shows.
+// Returns a scene with only those features that the shaders can express and that a term of the scene shows.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
@@ -210,9 +210,9 @@ static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTI
                                           BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
                                           BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
 
-// Returns whether the shaders use the names of the contract, because a verdict needs a value for every input. Misspelt
-// names are mistakes, which the report lists. Names that differ from the contract's only in case and underscores belong
-// to another course.
+// Returns whether the shaders use the names of the contract. A verdict needs a value for every input. Misspelt names
+// are mistakes, which the report lists. Names that differ from the contract's only in case and underscores belong to
+// another course.
 static bool suits_contract(const struct run *r)
 {
     bool drawn_here = !r->texts.vertex;

@@ -75,7 +75,7 @@ static bool is_translucent(const struct run *r, int i) { return r->scenes[i].alp
 static bool is_glossy(const struct run *r, int i) { return scene_of(r, i)->shininess > 30; }
 
 // A property of scenes. If all differing scenes have the property, and the scenes without it match, the report mentions
-// it as a hint. If several properties qualify, the rarest is used.
+// the property as a hint. If several properties qualify, the rarest is used.
 static const struct {
     const char *sentence;
     bool (*has)(const struct run *r, int scene);

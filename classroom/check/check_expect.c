@@ -33,8 +33,8 @@ static void display(const struct physical_convention *c, float *pixels, size_t c
         }
 }
 
-// Returns whether the CPU device can draw the references: it uses glTF's own equations. The fault shader draws all
-// other forms.
+// Returns whether the CPU device can draw the references. The device uses glTF's own equations, and the fault shader
+// draws all other forms.
 static bool is_of_device(const struct run *r)
 {
     const struct physical_convention *c = &r->interface.contract->physical;
@@ -285,7 +285,7 @@ bool check_draw_references(struct run *r, lam_error *error)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", text);
     if (ok && numbers)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "lambent takes the numbers of the exercise, such as the strength of the ambient light, from "
-                        "the shader's text, and uses the numbers that fit best");
+                        "lambent reads the numbers of the exercise, such as the strength of the ambient light, in the "
+                        "shader's text, and uses the numbers that fit best");
     return ok;
 }

@@ -249,7 +249,7 @@ static int by_mean(const void *a, const void *b)
 }
 
 // Lists the interpretations to combine with faults: those that differ from the closest interpretation only in the
-// highlight and its forms. If the source contains reflect(), it has a Phong highlight.
+// highlight and its forms. If the source contains reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct interpretation *interpretations, int count,
                         const struct interpretation *best)
 {

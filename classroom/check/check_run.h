@@ -55,7 +55,7 @@ bool check_fit(struct run *run, bool writes, enum fit_outcome *outcome, char *re
 void check_describe(struct run *run);
 
 // Compares the pictures of `drawn` with the reference scenes `scenes` (bits), and fills the report: scenes, verdict,
-// findings. `writes` states whether the fragment shader writes a colour.
+// findings. `writes` is true if the fragment shader writes a colour.
 bool check_compare(struct run *run, unsigned scenes, bool writes, lam_error *error);
 
 #endif

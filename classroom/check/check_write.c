@@ -18,15 +18,17 @@
 static const struct {
     const char *role, *correct;
 } corrections[] = {
-    {"zero", "gets 0, because its role is unknown or it is unused; give it a role if it matters"},
-    {"factor",
-     "its value is free. If the exercise prescribes it: a role such as color, light_color, diffuse_strength, and "
-     "\"strengths\": \"given\""},
-    {"light_position", "correct `space` if the program gives it in another one"},
-    {"light_direction", "it points to the light; if it points away from it, light_travel. Correct `space` too"},
-    {"light_travel", "it points away from the light; if it points to it, light_direction. Correct `space` too"},
-    {"eye_position", "correct `space` if the program gives it in another one"},
-    {"normal_matrix", "correct `space` if the matrix transforms to another one"},
+    {"zero", "its value is 0, because its role is unknown or the shaders do not use it; set its role if necessary"},
+    {"factor", "its value is free. If the exercise prescribes the value, use a role such as color, light_color or "
+               "diffuse_strength, and "
+               "\"strengths\": \"given\""},
+    {"light_position", "correct `space` if the program uses another space"},
+    {"light_direction",
+     "it points to the light; if yours points away from the light, use light_travel. Correct `space` too"},
+    {"light_travel",
+     "it points away from the light; if yours points to the light, use light_direction. Correct `space` too"},
+    {"eye_position", "correct `space` if the program uses another space"},
+    {"normal_matrix", "correct `space` if the matrix transforms to another space"},
     {"shininess", "the exponent of the highlight, which the scenes choose"},
 };
 
@@ -37,7 +39,7 @@ static const char *const root_comment[] = {
     "colours are found.",
     "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": "
     "\"required\".",
-    "`weights` says how many points a scene is worth: {\"gate\": 2}. Comments may be removed."};
+    "`weights` sets the points of a scene: {\"gate\": 2}. Comments may be removed."};
 
 static const char *meaning_of(const char *role)
 {

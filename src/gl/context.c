@@ -80,7 +80,7 @@ static EGLContext create(const struct egl *egl, EGLDisplay display, EGLConfig co
     }
     a[n] = EGL_NONE;
     EGLContext made = egl->CreateContext(display, config, EGL_NO_CONTEXT, a);
-    // A driver without a compatibility profile of 3.3 may still have OpenGL 2.1.
+    // A driver without a compatibility profile of 3.3 may still support OpenGL 2.1.
     if (made == EGL_NO_CONTEXT && profile == GL_PROFILE_COMPATIBILITY) {
         static const EGLint any[] = {EGL_NONE};
         made = egl->CreateContext(display, config, EGL_NO_CONTEXT, any);

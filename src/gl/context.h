@@ -26,7 +26,7 @@ int gl_platforms(const struct egl *egl, struct gl_platform *platforms);
 
 // Debug messages of the driver.
 struct gl_messages {
-    int errors;      // number of errors and of undefined behaviour
+    int errors;      // number of messages about errors or undefined behaviour
     char first[256]; // text of the first counted message
 };
 

@@ -322,7 +322,7 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
     if (frame->refracts)
         return fail(
             error, LAM_UNSUPPORTED,
-            "OpenGL: the scene has rough or thick glass (transmission with a roughness or a thickness above 0), "
+            "OpenGL: the scene contains rough or thick glass (transmission with a roughness or a thickness above 0), "
             "which only the CPU device draws");
     if (frame->settings.occlusion == LAM_OCCLUSION_RAYS)
         return fail(
@@ -454,7 +454,7 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     int mistake = mistake_find(params->mistake);
     if (params->mistake && (!params->lecture || !mistake)) {
         fail(error, LAM_BAD_ARGUMENT, "OpenGL: mistake '%.60s': %s", params->mistake,
-             mistake ? "it is one of the lecture style; expected that style" : "it is not known");
+             mistake ? "it requires the lecture style" : "no such mistake");
         return NULL;
     }
     struct gl_device *device = calloc(1, sizeof *device);

@@ -34,7 +34,7 @@ enum texture_unit {
     UNIT_NEARER_DEPTH_IDS, // depth and number of the previous layer
     UNIT_OPAQUE_DEPTH_IDS, // depth and number of the opaque surfaces
     UNIT_OCCLUSION =
-        // only translucent surfaces read depth ids; of these surfaces, occlusion dims only the ground
+        // only translucent surfaces read depth ids; the ground is the only such surface that occlusion dims
     UNIT_NEARER_DEPTH_IDS,
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
@@ -100,7 +100,7 @@ enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_
 
 // Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
-    uint64_t key; // hash of all inputs of the colours in the buffer (gl_key_add); 0: none
+    uint64_t key; // hash of all inputs of the colours in the buffer (gl_key_add); 0 means none
     // Referenced, because the key contains its address.
     struct lam_environment *environment;
     GLuint colors, array;
@@ -191,7 +191,7 @@ struct gl_current_state {
 
 // The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
 struct gl_surfaces {
-    // hashes of all inputs of the texels: for the texels in the texture, and for this frame; 0: none
+    // hashes of all inputs: of the texels in the texture, and of this frame's texels; 0 means none
     uint64_t key, next_key;
     // for the current frame: the first record of each range, and the positions of the textures
     struct buffer records, pixels;
@@ -404,8 +404,7 @@ bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);
 uint64_t surfaces_bytes(const struct gl_device *device);
 void surfaces_free(struct gl_device *device);
-// Returns the position of the record of the triangle with this number in the frame, or 0 if the triangle transmits no
-// light.
+// Returns the position of the record of triangle `number` of the frame, or 0 if the triangle transmits no light.
 size_t surfaces_record(const struct gl_frame *f, uint32_t number);
 
 // --- gl_shadows.c

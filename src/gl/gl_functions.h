@@ -1,7 +1,7 @@
 // gl_functions.h: the list of the OpenGL functions that Lambent calls, and the table of their addresses.
 //
-// loader.c looks up every function by name when a context is made; none is linked. The types come from the declarations
-// in Debian's libgl-dev. One list serves OpenGL 3.3 and OpenGL ES 3.0.
+// loader.c looks up every function by name when a context is made, so Lambent links no function. The types come from
+// the declarations in Debian's libgl-dev. One list serves OpenGL 3.3 and OpenGL ES 3.0.
 #ifndef GL_FUNCTIONS_H
 #define GL_FUNCTIONS_H
 

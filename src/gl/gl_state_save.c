@@ -15,7 +15,7 @@ static const GLint default_storage[6] = {4, 0, 0, 0, 0, 0};
 
 static bool is_supported(const struct gl_device *device, int i)
 {
-    if (switches[i] == GL_PRIMITIVE_RESTART_FIXED_INDEX) // desktop OpenGL has this state since version 4.3
+    if (switches[i] == GL_PRIMITIVE_RESTART_FIXED_INDEX) // part of desktop OpenGL since version 4.3
         return device->context.es || device->context.major * 10 + device->context.minor >= 43;
     return !device->context.es || i < SWITCHES_ES;
 }

@@ -1,9 +1,9 @@
 // gl_textures.c: uploads the textures of materials with all their levels, once, and binds the textures of a draw call.
 //
 // Shaders read single texels and filter them (texture.glsl). Numbers in 0…1 are stored in 16 bits, with an error of
-// 2⁻¹⁷; other numbers are stored as floats, and so are all numbers if an OpenGL ES driver does not support the 16-bit
-// format. With lam_gl_params.hardware_filter, 8-bit texels are not converted (colours remain sRGB-encoded), and sampler
-// objects set wrapping and filtering.
+// 2⁻¹⁷; other numbers are stored as floats. If an OpenGL ES driver does not support the 16-bit format, all numbers are
+// stored as floats. With lam_gl_params.hardware_filter, 8-bit texels are not converted (colours remain sRGB-encoded),
+// and sampler objects set wrapping and filtering.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -18,7 +18,7 @@
 // The format of an uploaded texture.
 struct format {
     GLenum stored, type; // the formats of the stored texels and of the uploaded numbers
-    size_t bytes;        // per uploaded texel, and approximately per stored texel
+    size_t bytes;        // bytes per uploaded texel, and approximately per stored texel
 };
 
 static uint8_t encoded_byte(float linear) { return (uint8_t)byte_of(srgb_encode(linear)); }

@@ -22,7 +22,7 @@ bool egl_open(struct egl *egl, const char *library, lam_error *error)
 #define FIND(name)                                                                                                     \
     if (!library_find(opened, "egl" #name, &egl->name))                                                                \
         return fail(error, LAM_UNSUPPORTED,                                                                            \
-                    "OpenGL: the library %s has no function egl" #name ", expected EGL 1.4 or newer; " TO_INSTALL,     \
+                    "OpenGL: the library %s lacks the function egl" #name ", expected EGL 1.4 or newer; " TO_INSTALL,  \
                     egl->library);
     EGL_FUNCTIONS(FIND)
 #undef FIND
@@ -52,7 +52,7 @@ const char *egl_reason(const struct egl *egl)
     case EGL_BAD_CONFIG:
         return "the driver has no matching configuration (EGL_BAD_CONFIG)";
     case EGL_BAD_MATCH:
-        return "the driver has no such version (EGL_BAD_MATCH)";
+        return "the driver does not support this version (EGL_BAD_MATCH)";
     case EGL_BAD_DISPLAY:
         return "no such display (EGL_BAD_DISPLAY)";
     case EGL_CONTEXT_LOST:
@@ -78,7 +78,7 @@ bool gl_load(struct gl *gl, lam_gl_get_proc *get, void *user, lam_error *error)
     gl->name = (__typeof__(gl->name))get(user, "gl" #name);                                                            \
     if (!gl->name)                                                                                                     \
         return fail(error, LAM_UNSUPPORTED,                                                                            \
-                    "OpenGL: the driver has no function gl" #name ", expected OpenGL 3.3 or OpenGL ES 3.0");
+                    "OpenGL: the driver lacks the function gl" #name ", expected OpenGL 3.3 or OpenGL ES 3.0");
     GL_FUNCTIONS(FIND)
 #undef FIND
 #define FIND(name) gl->name = (__typeof__(gl->name))get(user, "gl" #name);

@@ -6,7 +6,7 @@
 static bool left_out(lam_error *error)
 {
     return fail(error, LAM_UNSUPPORTED,
-                "OpenGL: this build of lambent does not include it; a build with the headers installed does "
+                "OpenGL: this build of lambent does not support it; install the headers and build again "
                 "(on Debian: apt install libegl-dev libgl-dev)");
 }
 

@@ -63,7 +63,7 @@ static char *path_allowed(const struct import_source *source, const char *path, 
     return real;
 }
 
-// Returns whether a name that refers to a file outside the folder refers to an allowed path.
+// Returns whether a name that points outside the folder leads to an allowed path.
 static bool is_allowed(const struct import_source *source, const char *name)
 {
     const struct companions *companions = source->open_state;
@@ -171,7 +171,7 @@ static void explain_cut(const char *name, lam_error *error)
     char shown[SHOWN_NAME_SIZE];
     size_t used = strlen(error->text);
     snprintf(error->text + used, sizeof error->text - used, " (the name is '%s', outside of this folder%s)",
-             shown_file(name, shown), name[1] == ':' ? "" : "; lam_load_params.allowed_paths lets it be read");
+             shown_file(name, shown), name[1] == ':' ? "" : "; use lam_load_params.allowed_paths to allow it");
 }
 
 bool companion_open(const struct import_source *source, const char *name, struct arena *arena, struct companion *out,
@@ -199,7 +199,7 @@ bool companion_open_of_scene(const struct import_source *source, const char *nam
     *out = (struct companion){0};
     if (companions->open || !companions->folder) {
         if (name[0] == '/' || !copy_components(name, inside, sizeof inside))
-            return fail_name(source, name, "which does not lie in the scene file's folder", error);
+            return fail_name(source, name, "which is outside the scene file's folder", error);
         return open_by_caller(source, inside, arena, out, error);
     }
     return open_beside(source, name, !source->params->models_anywhere,

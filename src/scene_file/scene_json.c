@@ -44,7 +44,7 @@ static bool read_image(struct scene_reader *r, const json_t *root)
     if (!check_keys(r, place, image, keys))
         return false;
     if (mode && former)
-        return fail_place(r, place, "has both color_mode and color, expected one of them");
+        return fail_place(r, place, "contains both color_mode and color, expected only one");
     if (!take_word(r, place, image, mode ? "color_mode" : "color", color_words, &color))
         return false;
     if (mode || former) {
@@ -110,7 +110,7 @@ static bool read_camera(struct scene_reader *r, const json_t *root)
         !take_number(r, place, value, "far", -1e30, 1e30, &camera.far_plane))
         return false;
     if (has_fovy && ortho)
-        return fail_place(r, place, "has both fovy and ortho_half_height, expected one of them");
+        return fail_place(r, place, "contains both fovy and ortho_half_height, expected only one");
     if (has_fovy && !(fovy > 0 && fovy < 180))
         return fail_place(r, KEY_OF(place, "fovy"), "found %.10g, expected degrees above 0 and below 180", fovy);
     if (ortho && camera.ortho_half_height == 0)

@@ -109,7 +109,7 @@ static bool read_target(struct scene_reader *r, const struct place *place, const
     if (!json_object_get(value, "target"))
         return true;
     if (json_object_get(value, "direction"))
-        return fail_place(r, KEY_OF(place, "target"), "is given beside direction, expected one of them");
+        return fail_place(r, KEY_OF(place, "target"), "cannot be combined with direction");
     if (!take_vector(r, place, value, "target", &target))
         return false;
     light->direction = v3_sub(target, light->position);
@@ -130,7 +130,7 @@ static bool check_cone(struct scene_reader *r, const struct place *place, const 
                  *cutoff = json_object_get(value, "cutoff"), *exponent = json_object_get(value, "exponent");
     bool soft = inner || outer;
     if (soft && (cutoff || exponent))
-        return fail_place(r, place, "inner and outer are given beside cutoff or exponent, expected one pair of them");
+        return fail_place(r, place, "inner and outer cannot be combined with cutoff or exponent");
     if (soft && !outer)
         return fail_place(r, place, "inner is given without outer, expected both");
     if (soft && !(light->inner_rad < light->outer_rad))

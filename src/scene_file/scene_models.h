@@ -7,7 +7,7 @@
 // The model that an object refers to, and its parameters.
 struct model_wanted {
     const struct place *place; // the position of the object in the file
-    // either `file` or `shape` is set, unless `formula` is; the file name is spelled as in the scene file
+    // only one of `file`, `shape` and `formula` is set; the file name is spelled as in the scene file
     const char *file, *shape;
     const lam_formula *formula;
     lam_shape_params segments; // the parameters of a shape

@@ -75,8 +75,8 @@ static bool replace_parts(struct scene_reader *r, const struct place *place, con
     return true;
 }
 
-// Returns the material that supplies the missing keys of a back side: the material of the object, otherwise of its
-// first part.
+// Returns the material that supplies the missing keys of a back side: the object's material or, if it has none, the
+// material of its first part.
 static lam_material front_of(const struct lam_scene *scene, const lam_object *object)
 {
     const lam_mesh *mesh = scene_mesh(scene, object->mesh);
@@ -165,7 +165,7 @@ static bool read_formula(struct scene_reader *r, const struct place *place, cons
     if (!check_keys(r, place, value, outer))
         return false;
     if (json_object_size(value) > 1)
-        return fail_place(r, place, "has both parametric and implicit, expected one of them");
+        return fail_place(r, place, "contains both parametric and implicit, expected only one");
     if (json_is_string(given))
         return take_text(r, place, value, kind, &formula->text);
     if (!json_is_object(given)) {
@@ -209,8 +209,8 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
         return false;
     if (is_file == is_shape)
         return fail_place(r, place,
-                          is_file ? "has both shape and file, expected one of them"
-                                  : "has neither shape nor file, expected one of them");
+                          is_file ? "contains both shape and file, expected only one"
+                                  : "contains neither shape nor file, expected one of them");
     const json_t *computed = json_object_get(value, "shape");
     lam_formula formula = {0};
     bool is_formula = is_shape && json_is_object(computed);
@@ -220,7 +220,7 @@ static bool read_object(struct scene_reader *r, const struct place *place, const
     for (size_t i = 0; is_formula && i < sizeof of_shapes / sizeof *of_shapes; i++)
         if (json_object_get(value, of_shapes[i]))
             return fail_place(r, KEY_OF(place, of_shapes[i]),
-                              "is a key of built-in shapes, and the shape is a formula");
+                              "applies only to built-in shapes, but the shape is a formula");
     if ((!is_formula && !take_text(r, place, value, "shape", &shape)) || !take_text(r, place, value, "file", &file) ||
         !take_text(r, place, value, "name", &name) || !take_text(r, place, value, "scene", &inner) ||
         !take_text(r, place, value, "variant", &variant) || !take_text(r, place, value, "animation", &animation) ||

@@ -168,7 +168,7 @@ static bool color_of(struct scene_reader *r, const struct place *place, const js
         if (json_string_length(value) > 40 || !lam_color_parse(json_string_value(value), r->color, out, &reason))
             return unexpected(r, place, value,
                               "a colour: \"#rrggbb\", a name such as \"white\", or a list of linear numbers");
-        return max == 4 || out->a == 1 || fail_place(r, place, "has an alpha, expected a colour of three parts");
+        return max == 4 || out->a == 1 || fail_place(r, place, "contains an alpha, expected a colour without alpha");
     }
     if (!numbers_of(r, place, value, 3, max, part, NULL))
         return false;

@@ -1,5 +1,5 @@
-// scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. A reader gets every
-// number with the same bits.
+// scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. A reader recovers the
+// exact bits of every number.
 //
 // This source file is longer than 600 lines, because it contains one function for each section of a scene file, in the
 // order of these sections.
@@ -294,7 +294,7 @@ static struct change change_of(const struct scene_writer *w, const lam_object *o
     struct change change = {.transform = object->transform, .material = -1, .back_material = -1};
     lam_mat4 inverse, placed = mat4_mul(&w->scene->placement, &own->transform);
     // The model file still contains the object's own transform. A reader that applies the scene's placement to this
-    // transform gets the same bits again.
+    // transform obtains the same bits.
     if (memcmp(&object->transform, &own->transform, sizeof own->transform) == 0)
         change.transform = lam_mat4_identity();
     else if (memcmp(&object->transform, &placed, sizeof placed) == 0)

@@ -17,7 +17,7 @@ void put(struct scene_writer *w, json_t *object, const char *key, json_t *value)
 void append(struct scene_writer *w, json_t *list, json_t *value);
 
 // Prints JSON for human readers: one line for each top-level key, and for each element of a list of objects. Every
-// number has as many digits as are needed to read back the same bits.
+// number is written with enough digits to read back the same bits.
 bool scene_print(const json_t *root, lam_bytes *out, lam_error *error);
 
 #endif

@@ -76,7 +76,7 @@ int formula_number(struct formula_graph *graph, double value);
 int formula_unary(struct formula_graph *graph, enum formula_op op, int a);
 int formula_binary(struct formula_graph *graph, enum formula_op op, int a, int b);
 
-// Appends the derivatives with respect to `parameter`, OP_PARAMETER_0 and following, of the first `count` nodes;
+// Appends the derivatives of the first `count` nodes with respect to `parameter` (OP_PARAMETER_0 or a later one);
 // derivatives[i] belongs to node i.
 void formula_differentiate(struct formula_graph *graph, int count, enum formula_op parameter, int *derivatives);
 
@@ -85,7 +85,7 @@ struct formula {
     struct formula_node *nodes;
     int count;
     bool implicit;  // the parameters are x, y and z instead of u and v
-    int outputs[9]; // x, y, z and their derivatives by u and by v; implicit: f and its derivatives by x, y and z
+    int outputs[9]; // x, y, z and their derivatives ∂/∂u and ∂/∂v; implicit: f and its gradient
     int name_count; // the definitions
     struct formula_name {
         const char *text; // position in the formula's text

@@ -160,7 +160,7 @@ bool tessellate_implicit_formula(const lam_formula *formula, struct arena *arena
     int cells = formula->u_segments;
     if (cells < 0 || cells == 1 || cells > CELLS_MAX || formula->v_segments)
         return fail(error, LAM_BAD_ARGUMENT,
-                    formula->v_segments ? "formula: an implicit surface has cells, expected one number of segments"
+                    formula->v_segments ? "formula: an implicit surface needs a single number of segments"
                                         : "formula: segments is %d, expected 2 to %d cells (0: %d)",
                     cells, CELLS_MAX, CELLS);
     struct arena scratch;

@@ -314,7 +314,7 @@ static int power(struct parser *p, bool *is_number)
     return base;
 }
 
-// Returns whether a factor follows that needs no '*' after a number: a name or a parenthesis.
+// Returns whether the text continues with a factor that needs no '*' after a number: a name or a parenthesis.
 static bool factor_follows(struct parser *p)
 {
     skip_blanks(p);
@@ -335,8 +335,7 @@ static int signed_factor(struct parser *p, bool divides)
     int result = power(p, &is_number);
     if (result >= 0 && is_number && factor_follows(p)) {
         if (divides)
-            return expected(p, start,
-                            "parentheses around a divisor that is a number times something, 1/(2*pi), or a '*'");
+            return expected(p, start, "parentheses around a divisor that is a product, as in 1/(2*pi), or a '*'");
         int next = power(p, &is_number);
         if (next < 0)
             return -1;

@@ -302,7 +302,8 @@ static bool plane_build(const struct shape_request *request, lam_mesh *mesh)
     return tessellate_parametric(&one, 1, request, mesh);
 }
 
-// Builds six faces with upright textures. Edges along X and Z have `slices` segments, edges along Y `stacks`.
+// Builds six faces with upright textures. Edges along X and Z have `slices` segments, and edges along Y have `stacks`
+// segments.
 static bool cube_build(const struct shape_request *request, lam_mesh *mesh)
 {
     struct square faces[6] = {

@@ -70,7 +70,8 @@ static void link_edges(int inside, int next[EDGES])
         }
 }
 
-// Returns whether two edges share a face of the cell. An edge is in the two faces given by its other coordinates.
+// Returns whether two edges share a face of the cell. An edge belongs to the two faces that its other coordinates
+// select.
 static bool share_face(int a, int b)
 {
     for (int axis = 0; axis < 3; axis++) {

@@ -212,8 +212,8 @@ static void copy_attributes(const struct tessellation *t, size_t to, size_t from
     memcpy(t->tangents + 4 * to, t->tangents + 4 * from, 4 * sizeof(float));
 }
 
-// Returns whether row j is the last one of a surface that is closed along v. Its normals and tangents are copied from
-// the first row, after all others are computed.
+// Returns whether row j is the last one of a surface that is closed along v. The normals and tangents of this row are
+// copied from the first row after all other rows are computed.
 static bool closes(const lam_parametric *s, int j) { return s->v_closed && j == s->v_segments; }
 
 // Computes the attributes of row j; at a pole, the attributes of the centres of the cells.
@@ -399,7 +399,7 @@ static bool tessellate_one(struct tessellation *t, struct pool *pool, lam_error 
     if (!should_continue(&t->loop))
         return loop_error(&t->loop, 0, error);
     if (t->failed <= s->v_segments)
-        return compute_row(t, t->failed, t->points, error); // computes the failed row again, which fills `error`
+        return compute_row(t, t->failed, t->points, error); // computes the failed row again, to fill `error`
     for (int i = 0; s->v_closed && i <= s->u_segments; i++)
         copy_attributes(t, attribute_at(t, i, s->v_segments), attribute_at(t, i, 0));
     if (s->v_closed && t->rows[s->v_segments].pole)
@@ -463,7 +463,7 @@ static struct pool *make_pool(int threads, uint64_t vertices)
     return threads > 1 ? pool_make(threads) : NULL;
 }
 
-// The sizes of the surfaces of a mesh together.
+// The total sizes of a mesh's surfaces.
 struct sizes {
     uint64_t attributes, triangles;
     int widest, longest; // the most segments of a surface in u and in v

@@ -92,7 +92,7 @@ static bool check(const struct parser *parser, lam_error *error)
     if (!seen[EYE])
         return fail(error, LAM_BAD_ARGUMENT, "'eye' is missing, expected eye=x/y/z");
     if (seen[FOVY] && seen[ORTHO])
-        return fail(error, LAM_BAD_ARGUMENT, "'fovy' and 'ortho' are given, expected one of them");
+        return fail(error, LAM_BAD_ARGUMENT, "'fovy' and 'ortho' are given, expected only one");
     if (seen[FOVY] && !(camera->fovy_rad > 0 && camera->fovy_rad < 180))
         return fail(error, LAM_BAD_ARGUMENT, "fovy is %.10g, expected degrees above 0 and below 180", camera->fovy_rad);
     if (seen[ORTHO] && !(camera->ortho_half_height > 0))

@@ -9,8 +9,8 @@
 #include "up_axis.h"
 #include "word_values.h"
 
-// The numbers of the keys. A key that is a field has the index of its first row in the table of lam_light_field. The
-// keys below follow the fields.
+// The numbers of the keys. If a key is a field, its number is the index of the field's first row in the table of
+// lam_light_field. The keys below follow the fields.
 enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
 _Static_assert((int)KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -322,12 +322,13 @@ static bool set_place(struct parser *parser, lam_error *error)
     parser->has_direction = seen(parser, "direction");
     parser->has_target = key_seen(parser, TARGET);
     if (parser->has_direction && parser->has_target)
-        return fail(error, LAM_BAD_ARGUMENT, "'direction' and 'target' are given, expected one of them");
+        return fail(error, LAM_BAD_ARGUMENT, "'direction' and 'target' are given, expected only one");
     if (parser->has_position && parser->w == 0) {
         if (light->type == LAM_LIGHT_SPOT)
             return fail(error, LAM_BAD_ARGUMENT, "a spot light needs a position, expected w above 0");
         if (parser->has_direction || parser->has_target)
-            return fail(error, LAM_BAD_ARGUMENT, "position with w = 0 is a direction already, found another");
+            return fail(error, LAM_BAD_ARGUMENT,
+                        "a position with w = 0 is already a direction; omit the other direction");
         if (p->x == 0 && p->y == 0 && p->z == 0)
             return fail(error, LAM_BAD_ARGUMENT, "position is 0/0/0/0, expected a direction");
         light->type = LAM_LIGHT_DIRECTIONAL;
@@ -336,7 +337,7 @@ static bool set_place(struct parser *parser, lam_error *error)
         parser->has_direction = true;
     } else if (light->type == LAM_LIGHT_DIRECTIONAL && parser->has_position != parser->has_target) {
         return fail(error, LAM_BAD_ARGUMENT,
-                    "a directional light takes direction=x/y/z, position=x/y/z/0, or both position and target");
+                    "a directional light needs direction=x/y/z, position=x/y/z/0, or both position and target");
     }
     return true;
 }

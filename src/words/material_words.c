@@ -33,7 +33,7 @@ static bool given(const struct parser *parser, int key) { return parser->given[k
 
 static bool is_color(const lam_field *field) { return field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA; }
 
-// Returns whether a field is a colour that scales light. Such fields have a symbol; the emission has none.
+// Returns whether a field is a colour that scales light. Such fields have a symbol; the emission has no symbol.
 static bool is_share(const lam_field *field) { return is_color(field) && field->symbol; }
 
 static int factor_of(int field) { return LAM_FIELDS_MAX + field; }

@@ -173,7 +173,7 @@ class Sources(Batch):
                                   (["a/x.stl", "--sizes", "16,0"], 1, "such as 1024,256x128"),
                                   (["a/x.stl", "--views", "front", "--azimuth", "3"], 1, "several sides and the option '--azimuth'"),
                                   (["a/x.stl", "--view", "front,left", "--view", "top"], 1, "several sides and the option '--view'"),
-                                  (["a/x.stl", "-s", "16,24", "-s", "32"], 1, "found one size and several"),
+                                  (["a/x.stl", "-s", "16,24", "-s", "32"], 1, "give all sizes in one list"),
                                   (["a/x.stl", "--view", "front,side"], 1, "option '--view': found 'side'"),
                                   (["a/x.stl", "--resume", "--skip-same"], 1, "cannot be used together"),
                                   (["a/x.stl", "--resume", "--journal", "none"], 1, "needs a journal, but")):

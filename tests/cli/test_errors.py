@@ -26,7 +26,7 @@ class Models(Case):
         self.bad(2, "bunny", says="`lambent shapes` lists them")
         self.bad(2, "box", says="did you mean 'cube'?")
         self.bad(2, "*.3mf", says="no file matches this pattern")
-        self.bad(2, "none.png", says="the name of the picture to write follows -o")
+        self.bad(2, "none.png", says="write the name of the picture after -o")
         self.bad(2, "version", says="an option begins with dashes: --version")
         self.bad(2, "missing.obj", "shapes", says="a command comes first: lambent shapes")
 

@@ -142,7 +142,7 @@ class OtherFolders(Case):
 
     def test_allowed(self):
         without = self.good("models/t.obj", "-s", 16, "-o", "-")
-        self.assertIn(b"the name is '../textures/t.mtl', outside of this folder; --allow-path FOLDER lets it be read", without.stderr)
+        self.assertIn(b"the name is '../textures/t.mtl', outside of this folder; use --allow-path FOLDER to allow it", without.stderr)
         allowed = {}
         for path in (".", "textures"):
             for sandbox in ("require", "off"):

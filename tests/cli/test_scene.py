@@ -164,7 +164,7 @@ class Scene(Case):
         answer = json.loads(self.good("info", "formulas.json", "--json").stdout)["counts"]
         self.assertEqual((answer["meshes"], answer["objects"]), (6, 7))
         for shape, says in (({"implicit": "x^2+w"}, "column 5: found 'w'"), ({"implicit": {"x": "0..1"}}, "'formula' is missing"), ({"implicit": {"formula": "x", "u": "0..1"}}, "implicit.u"),
-                            ({"implicit": {"formula": "x", "segments": 1025}}, "segments"), ({"implicit": "x", "parametric": "x=u; y=v; z=0"}, "has both"),
+                            ({"implicit": {"formula": "x", "segments": 1025}}, "segments"), ({"implicit": "x", "parametric": "x=u; y=v; z=0"}, "contains both"),
                             ({"implicit": "x^2+y^2"}, "nowhere negative")):
             self.write({"lambent": 1, "objects": [{"shape": shape}]}, "formulas.json")
             self.bad(2, "formulas.json", "-s", 8, says=("formulas.json: objects[0].shape", says), leaves=self.new_files())

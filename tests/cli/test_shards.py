@@ -191,8 +191,8 @@ class Shards(Batch):
                         for k in range(1, count + 1)]
                 self.assertEqual(sum(d.returncode == 1 and says in d.stderr.decode() for d in done), 1, (lines, count))
         (self.folder / "list").write_text("a/1.stl\n")
-        self.assertIn("shares one list", self.models("b/2.stl", "@list", "--shard", "1/2", "--shard-by", "list", code=1))
-        self.assertIn("shares one list", self.models("@list", "@list", "--shard", "1/2", "--shard-by", "list", code=1))
+        self.assertIn("divides a single list", self.models("b/2.stl", "@list", "--shard", "1/2", "--shard-by", "list", code=1))
+        self.assertIn("divides a single list", self.models("@list", "@list", "--shard", "1/2", "--shard-by", "list", code=1))
         self.assertIn("not a regular file", self.models("-", "--shard", "1/2", "--shard-by", "list", code=1))
         self.assertIn("requires --shard", self.models("@list", "--shard-by", "list", code=1))
 

@@ -98,7 +98,7 @@ static void test_missing(void **state)
     assert_non_null(strstr(error.text, "apt install libegl1"));
     // A library other than EGL.
     assert_false(gl_context_make(&context, "libc.so.6", NULL, GL_PROFILE_CORE, false, &error));
-    assert_non_null(strstr(error.text, "has no function eglBindAPI"));
+    assert_non_null(strstr(error.text, "lacks the function eglBindAPI"));
     lam_gl_params params = {.library = "libNoSuchEGL.so.1"};
     lam_gl_device device;
     assert_int_equal(lam_gl_devices(&params, &device, 1, &error), -1);
@@ -154,7 +154,7 @@ static void test_caller_without(void **state)
     lam_error error = {0};
     assert_false(gl_context_adopt(&context, nothing, NULL, false, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
-    assert_non_null(strstr(error.text, "has no function glActiveTexture"));
+    assert_non_null(strstr(error.text, "lacks the function glActiveTexture"));
     gl_context_free(&context);
 }
 

@@ -757,7 +757,7 @@ static void test_files(void **state)
         {"data:text/plain;base64,AB*C", "",
          "a.gltf: buffers[0].uri: character 25 of the data URI is not of base64 (found '*')", 60},
         {"data:;base64,ABCDE", "", "a.gltf: buffers[0].uri: the data URI is cut: its base64 has 5 characters", 60},
-        {"data:none", "", "a.gltf: buffers[0].uri: this data URI has no ',' before its data", 60},
+        {"data:none", "", "a.gltf: buffers[0].uri: this data URI lacks the ',' before its data", 60},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char buffer[300], text[16384];
@@ -835,7 +835,8 @@ static void test_errors(void **state)
         {"\"indices\": 1", "\"indices\": 1, \"material\": 0",
          ": meshes[0].primitives[0].material: found 0, but the file has no materials", LAM_CANNOT_READ},
         {"\"count\": 4", "\"count\": 3",
-         ": meshes[0].primitives[0].indices: number 5 is 3, expected one below the 3 vertices", LAM_CANNOT_READ},
+         ": meshes[0].primitives[0].indices: number 5 is 3, expected less than 3, the number of vertices",
+         LAM_CANNOT_READ},
         {"\"count\": 4", "\"count\": 5",
          ": accessors[0]: 5 elements from byte 0 on, 12 apart, do not fit the 48 bytes of bufferView 0",
          LAM_CANNOT_READ},
@@ -865,8 +866,8 @@ static void test_errors(void **state)
          ": bufferViews[0].byteLength: found -1, expected a whole number of at least 1", LAM_CANNOT_READ},
         {"\"buffer\": 0, \"byteLength\": 48", "\"buffer\": 1, \"byteLength\": 48",
          ": bufferViews[0].buffer: found 1, expected a number from 0 to 0 (buffers)", LAM_CANNOT_READ},
-        {"%B", "\"buffers\": [{\"byteLength\": 60}]", ": buffers[0]: found no uri, and the file has no binary chunk",
-         LAM_CANNOT_READ},
+        {"%B", "\"buffers\": [{\"byteLength\": 60}]",
+         ": buffers[0]: found no uri, and the file contains no binary chunk", LAM_CANNOT_READ},
         {"\"mesh\": 0", "\"mesh\": 1", ": nodes[0].mesh: found 1, expected a number from 0 to 0 (meshes)",
          LAM_CANNOT_READ},
         {"\"mesh\": 0", "\"mesh\": 0, \"children\": [0]", ": nodes[0]: this node is its own ancestor, expected a tree",
@@ -891,7 +892,7 @@ static void test_errors(void **state)
         {"\"count\": 6",
          "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 0, \"byteOffset\": 12, "
          "\"componentType\": 5125}, \"values\": {\"bufferView\": 0}}",
-         ": accessors[1].sparse.indices: number 0 is 1065353216, expected one below the accessor's count, 6",
+         ": accessors[1].sparse.indices: number 0 is 1065353216, expected less than 6, the accessor's count",
          LAM_CANNOT_READ},
         {ASSET, ASSET ",", ":1: column 30: found ',', expected a key in quotes", LAM_CANNOT_READ},
     };

@@ -394,7 +394,7 @@ static void test_function(void **unused)
                  names[i / 2]);
         assert_null(lam_scene_load_memory(text, strlen(text), "s.json", &params, NULL, &error));
         assert_int_equal(error.code, LAM_CANNOT_READ);
-        if (!strstr(error.text, "which does not lie in the scene file's folder"))
+        if (!strstr(error.text, "which is outside the scene file's folder"))
             fail_msg("%s: %s", names[i / 2], error.text);
     }
     // Without a function and without a folder, nothing can be opened.

@@ -44,7 +44,7 @@ lam_mat4 light_to_world(const struct job *job, const lam_light *light)
 {
     lam_mat4 m = lam_mat4_identity();
     if (light->frame == LAM_FRAME_CAMERA ||
-        light->frame == LAM_FRAME_VIEW) { // the inverse of a rigid view is its transposed rotation about the eye
+        light->frame == LAM_FRAME_VIEW) { // the inverse of a rigid view: its rotation transposed, and the eye as origin
         lam_mat4 view = lam_camera_view_matrix(&job->camera);
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
@@ -115,7 +115,7 @@ static struct surroundings surroundings_of(const struct job *job, const lam_ligh
     return s;
 }
 
-// Returns the vector `way` to the light, changed to another azimuth or elevation, with the same length.
+// Returns the vector `way` to the light, turned to another azimuth or elevation.
 static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth, double degrees)
 {
     double height = dot(way, s->up), length = sqrt(dot(way, way));

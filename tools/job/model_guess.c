@@ -1,5 +1,4 @@
-// model_guess.c: makes suggestions for a model that cannot be read: another command, a similar file, or the kind of
-// object found instead.
+// model_guess.c: makes suggestions for a model that cannot be read: for example, another command or a similar file.
 #include "model_guess.h"
 
 #include <dirent.h>
@@ -64,7 +63,7 @@ void model_guess(const char *model, const struct options *options, lam_error *er
     lam_pixel_format format;
     size_t used = strlen(error->text);
     if (!options->picture.output && lam_image_format_for(model, &format, NULL))
-        snprintf(advice, sizeof advice, "; the name of the picture to write follows -o");
+        snprintf(advice, sizeof advice, "; write the name of the picture after -o");
     else if (error->code == LAM_CANNOT_READ && path_is_folder(model))
         snprintf(advice, sizeof advice, "; lambent batch %.200s draws all models in it, lambent view %.200s shows them",
                  model, model);
@@ -73,7 +72,7 @@ void model_guess(const char *model, const struct options *options, lam_error *er
     else if (strpbrk(model, "*?"))
         snprintf(advice, sizeof advice, "; no file matches this pattern");
     else if (strchr(model, '\\'))
-        snprintf(advice, sizeof advice, "; folders are separated by / here");
+        snprintf(advice, sizeof advice, "; separate folders by /");
     else if (!strpbrk(model, "./"))
         guess_word(model, advice);
     else if (nearest_file(model, nearest))

@@ -16,8 +16,7 @@ bool show_is_all(const struct options *options)
 bool show_all_check(const struct job *job, lam_error *error)
 {
     return strcmp(job->format, "exr") == 0 ||
-           complain(error, LAM_BAD_ARGUMENT,
-                    "option '--show': all terms need a picture with layers; name one with -o FILE.exr");
+           complain(error, LAM_BAD_ARGUMENT, "option '--show all' needs a picture format with layers; use -o FILE.exr");
 }
 
 static const lam_output terms[] = {LAM_OUTPUT_AMBIENT, LAM_OUTPUT_DIFFUSE, LAM_OUTPUT_SPECULAR, LAM_OUTPUT_EMISSION,

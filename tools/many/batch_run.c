@@ -111,8 +111,8 @@ static void warm(const char *path)
         close(file);
 }
 
-// Reads files ahead of the workers. The workers do not wake this thread for each model, but once for as many models as
-// there are workers, because each wake-up costs processor time and needs the lock.
+// Reads files ahead of the workers. N workers wake this thread only once for N models, because each wake-up costs
+// processor time and needs the lock.
 static void *read_ahead(void *user)
 {
     struct batch *b = user;
@@ -254,7 +254,7 @@ static void share_threads(struct batch *b)
     b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;
 }
 
-// Returns text that states the options that all pictures in the journal share, and the side and size of each picture of
+// Returns a text with the options that all pictures in the journal share, and with the side and size of each picture of
 // a model. The text is allocated with malloc. Returns NULL if memory runs out.
 static char *pictures_text(const struct batch *b)
 {

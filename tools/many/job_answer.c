@@ -42,7 +42,7 @@ void job_answers_fail(struct job_answers *answers, int reason)
 
 // --- writing
 
-// Waits until more bytes can be written. Returns false if, after an interrupt, no reader has made space for
+// Waits until more bytes can be written. Returns false if, after an interrupt, no bytes could be written within
 // patience_ms.
 static bool wait_writable(double *since_ms)
 {

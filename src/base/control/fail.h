@@ -1,4 +1,5 @@
-// fail.h: fills a lam_error with one sentence that names the file, the position, what was found and what was expected.
+// fail.h: fills a lam_error with one sentence that names the file, the position, the value found and the value
+// expected.
 #ifndef FAIL_H
 #define FAIL_H
 

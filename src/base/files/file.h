@@ -78,7 +78,7 @@ bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);
 
-// Writes a file by the given method, for tests. FILE_NAMED is the method for file systems without unnamed files.
+// Writes a file with the given method, for tests. FILE_NAMED is the method for file systems without unnamed files.
 enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // FILE_DURABLE is a flag
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);

@@ -88,7 +88,7 @@ struct writing {
 
 // Returns false and sets errno on failure. The errno ECANCELED means that the call must stop; EINTR means that a fatal
 // signal is pending. `before` is the set of signals that were blocked before file_write blocked all signals; NULL means
-// that it has not blocked them.
+// that file_write has not blocked signals.
 static bool write_all(int file, const struct writing *w, const sigset_t *before)
 {
     const uint8_t *at = w->data;

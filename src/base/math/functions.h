@@ -1,8 +1,8 @@
 // functions.h: powers, logarithms and inverse square roots, many at a time, bit-identical on every machine.
 //
 // The functions use only + − × and integer operations on the bits (lanes.h), without libm, tables or divisions. Each
-// function's comment states its range and its error; tests/lighting/test_functions.c measures both. No function returns
-// NaN, for any argument, unless its comment states it.
+// function's comment states its range and its error; tests/lighting/test_functions.c measures both. Unless its comment
+// states otherwise, a function never returns NaN.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 
@@ -72,7 +72,7 @@ LANE_FN num exp2_of(num y)
 }
 
 // Computes y = exponent · log₂ base as head + tail, for a normal base > 0 that is already split. A power needs y with
-// an error of at most 2e-6 for y up to 126, which is two bits more than a float has. Therefore the logarithm and the
+// an error of at most 2e-6 for y up to 126, and a float lacks two bits for this. Therefore the logarithm and the
 // exponent are each split into a head of 12 bits and a tail. (The logarithm's head may be any nearby value; a short
 // estimate is used.) Head · head is then exact, and only small products are rounded. The split of the exponent is the
 // same for every pixel, so the compiler moves it out of the loop.

@@ -82,8 +82,8 @@ double math_cos(double x)
 
 double math_tan(double x) { return math_sin(x) / math_cos(x); }
 
-// Computes atan t for t in [0, 1]. The angle is halved twice by atan t = 2 atan(t / (1 + √(1 + t²))), then the series
-// is used, with t ≤ tan(π/16).
+// Computes atan t for t in [0, 1]. The angle is halved twice, with atan t = 2 atan(t / (1 + √(1 + t²))). The series is
+// then used for t ≤ tan(π/16).
 static double arctangent(double t)
 {
     for (int i = 0; i < 2; i++)

@@ -53,9 +53,9 @@ void *pages_get_sparse(size_t bytes, size_t *held)
 }
 
 // A block of at least one huge page is aligned to the size of huge pages. The kernel then uses huge pages from the
-// first access. The accesses take a third of the time that small pages need. The last huge page is allocated
-// completely, even if only a part of it is needed, if this enlarges the block only slightly. One huge page is faster
-// than hundreds of small pages.
+// first access. The accesses take a third of the time that small pages need. If this enlarges the block only slightly,
+// the last huge page is allocated completely, even if only a part of it is needed. One huge page is faster than
+// hundreds of small pages.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)

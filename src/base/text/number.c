@@ -281,8 +281,8 @@ static int64_t big_digits(const struct decimal *d, struct big *a)
     return power;
 }
 
-// Returns the quotient, by long division. `bits`, at least 0, is by how many bits `over` is longer than `under`.
-// Multiplies `under` by 2^bits; `over` receives the remainder times 2^bits.
+// Returns the quotient, by long division. `over` is `bits` (at least 0) bits longer than `under`. Multiplies `under` by
+// 2^bits; `over` receives the remainder times 2^bits.
 static uint64_t divide(struct big *over, struct big *under, int bits)
 {
     uint64_t quotient = 0;

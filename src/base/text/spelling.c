@@ -4,7 +4,7 @@
 #include <string.h>
 
 // Returns the smallest edit distance at which a word is no longer similar. A word that is too long to be compared is
-// similar to none.
+// not similar to any word.
 static int limit_of(const char *word)
 {
     enum { COMPARED_MAX = 63 }; // the limit of lam_edit_distance

@@ -8,7 +8,7 @@
 struct spelling {
     const char *word;    // as typed
     const char *nearest; // the most similar word so far, or NULL
-    int limit;           // the distance of `nearest`, or at first the smallest distance that is too large
+    int limit;           // the distance of `nearest`; initially, the smallest distance that is too large
 };
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);

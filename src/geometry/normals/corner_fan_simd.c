@@ -127,7 +127,7 @@ static inline __attribute__((always_inline)) void link(struct corner_fan_block *
                                                        const bool by_vertex)
 {
     fan_row with_next = {0}, with_previous = {0},
-            pairs = {0}; // corners (as bits) with a shared edge, and how many there are
+            pairs = {0}; // the corners with a shared edge, as bits, and their number
     memset(b->links, 0, b->count * sizeof *b->links);
     for (uint32_t i = 0; i < b->count; i++)
         for (uint32_t j = i + 1; j < b->count; j++) {

@@ -19,11 +19,11 @@ typedef uint32_t fan_row[FAN_POSITIONS];
 struct corner_fan_block {
     uint32_t count, positions;        // corners per position; the columns after the last position repeat that position
     bool by_vertex;                   // the corners in a column belong to one vertex
-    fan_row corners[FAN_CORNERS_MAX]; // ascending at each position after `make`
+    fan_row corners[FAN_CORNERS_MAX]; // after `make`, in ascending order at each position
     fan_row open;                     // with by_vertex, nonzero if the vertex is not closed (normals.h)
     fan_row flat;                     // nonzero if a triangle is degenerate; the other fields are then invalid
-    // The fans at each position, numbered by their first corners: the corners of a fan as bits (0 if the position has
-    // fewer fans), and the normal of a fan.
+    // The fans at each position, in the order of their first corners. For each fan, `members` contains its corners as
+    // bits (0 if the position has fewer fans), and `unit` its normal.
     uint32_t fans; // the largest number of fans at a position
     fan_row members[FAN_CORNERS_MAX];
     float unit[FAN_CORNERS_MAX][3][FAN_POSITIONS];
@@ -42,9 +42,9 @@ struct corner_fan_simd {
     int lanes; // floats in a register
     // Computes the fans from count, positions and corners.
     void (*make)(struct corner_fan_block *block, const lam_mesh *mesh, double min_cosine);
-    // Fills `elements`. This function must be called after `make`. Only corners of triangles in the set remain members;
-    // the number of the mesh's triangle 0 in the set is `first`. Corners of open vertices, and of vertices whose bits
-    // are set in `done` (may be NULL), are removed. Returns the number of fans that have members.
+    // Fills `elements`; must be called after `make`. Removes the members whose triangles are not in the set, in which
+    // the mesh's triangle 0 has the number `first`. Also removes corners of open vertices, and of vertices whose bits
+    // are set in `done` (may be NULL). Returns the number of fans that have members.
     uint32_t (*locate)(struct corner_fan_block *block, const lam_mesh *mesh, const struct rank_bitset *triangles,
                        uint32_t first, const uint64_t *done);
 };

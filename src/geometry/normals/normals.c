@@ -13,7 +13,7 @@
 
 enum {
     CHUNK = 1 << 16,    // corners or triangles per task
-    LANES_MAX = 1 << 8, // no limit except the processor's
+    LANES_MAX = 1 << 8, // more lanes than any processor has
 };
 
 static size_t chunks_of(size_t total) { return (total + CHUNK - 1) / CHUNK; }

@@ -127,7 +127,7 @@ static bool add_position(struct fan_loop *l, struct fan_worker *worker, const ui
     if (count > FAN_CORNERS_MAX)
         return make_fans(l, worker, corners, count);
     const lam_mesh *mesh = l->search->mesh;
-    for (uint32_t i = 0; i < count; i++) { // prefetches what the batch reads when it is full
+    for (uint32_t i = 0; i < count; i++) { // prefetches the data that a full batch reads
         size_t first = (size_t)corners[i] / 3 * 3;
         if (mesh->indices) {
             __builtin_prefetch(mesh->indices + first);

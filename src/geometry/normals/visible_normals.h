@@ -32,7 +32,7 @@ static inline uint32_t visible_element(const struct visible_normals *visible, si
 
 // The resources of the computation, which do not affect the result.
 struct normals_work {
-    struct scratch_memory scratch; // memory to reuse; zeroed if there is none
+    struct scratch_memory scratch; // memory to reuse, or a zeroed struct
     int lanes;                     // the maximum number of floats that are processed at a time
     struct pool *pool;
     struct call_control *call;

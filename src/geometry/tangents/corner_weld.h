@@ -22,8 +22,8 @@ struct corner_weld {
 };
 
 // Values are compared as floats, so −0 equals 0. Missing normals and texture coordinates are treated as equal. The
-// function takes n steps, or n·log n at worst, for files that were made to cause hash collisions. `memory` owns the
-// result and the scratch memory.
+// function takes n steps. For files that were made to cause hash collisions, it takes at most n·log n steps. `memory`
+// owns the result and the scratch memory.
 bool corner_weld(struct corner_weld *weld, const lam_mesh *mesh, struct arena *memory, struct call_control *call,
                  lam_error *error);
 

@@ -30,7 +30,7 @@
 #include <lambent/mesh.h>
 
 struct mesh_tangents {
-    float *tangents; // 4 per element: unit, perpendicular to the normal; the sign of the bitangent
+    float *tangents; // 4 per element: a unit vector perpendicular to the normal, and the sign of the bitangent
     uint32_t count;
     uint32_t *indices; // the index of each corner
 };

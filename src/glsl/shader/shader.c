@@ -154,8 +154,7 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     if ((unsigned)params->style >= LAM_SHADER_STYLE_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "shader parameters: style is out of its range");
     if (params->mistake && params->style != LAM_SHADER_STYLE_LECTURE)
-        return fail(error, LAM_BAD_ARGUMENT, "mistake '%.60s' is an edit of the lecture style; expected that style",
-                    params->mistake);
+        return fail(error, LAM_BAD_ARGUMENT, "mistake '%.60s' requires the lecture style", params->mistake);
     if (params->mistake && !mistake_find(params->mistake))
         return fail(error, LAM_BAD_ARGUMENT, "mistake '%.60s' is not known; expected one of lam_shader_mistake_row",
                     params->mistake);

@@ -26,7 +26,7 @@ struct writer {
     int quality;
     unsigned char *bytes; // allocated with malloc
     unsigned long size;
-    bool has_bytes; // whether jpeg_mem_dest has returned; if memory runs out, this function does not set its members
+    bool has_bytes; // jpeg_mem_dest has returned, so jpeg.dest is complete
     uint8_t *row;
 };
 

@@ -55,7 +55,7 @@ struct deflate {
 };
 
 // Allocates the arrays from the arena. Returns false if memory runs out. deflate_scratch returns the approximate number
-// of bytes that this needs.
+// of bytes that these arrays need.
 bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int rows, int bytes_per_pixel);
 size_t deflate_scratch(int width, int rows);
 

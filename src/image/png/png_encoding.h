@@ -24,7 +24,7 @@ struct png_encoding {
 // A compression method.
 struct png_method {
     int strip_pixels;   // approximate pixels per strip
-    uint8_t zlib_flags; // the second byte of the zlib header (RFC 1950), which states the level
+    uint8_t zlib_flags; // the second byte of the zlib header (RFC 1950), which contains the level
 
     // Sets `capacity` and `threads`.
     bool (*start)(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);

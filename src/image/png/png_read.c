@@ -101,7 +101,7 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool ke
     if (code == SPNG_EOI)
         // reads to the end of the file, so that a truncation after the pixels is also an error
         code = spng_decode_chunks(spng);
-    // only an allocation can fail in the initialisation of zlib
+    // zlib's initialisation fails only if an allocation fails
     if (code == SPNG_EMEM || code == SPNG_EZLIB_INIT)
         return fail_memory(error, row_bytes);
     return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
@@ -112,7 +112,7 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool ke
 static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     struct spng_ihdr header;
-    enum { MAX_CHUNK_BYTES = 64 << 20 }; // for texts and profiles after decompression
+    enum { MAX_CHUNK_BYTES = 64 << 20 }; // limits the decompressed size of texts and profiles
     int code = spng_set_chunk_limits(spng, MAX_CHUNK_BYTES, MAX_CHUNK_BYTES);
     if (!code)
         code = spng_set_png_buffer(spng, file->bytes, file->size);

@@ -16,7 +16,7 @@
 
 enum {
     PIXELS_MIN = 1 << 14,  // for smaller pictures, opening the library takes more time than it saves
-    BYTES_MAX = 128 << 20, // maximum number of decompressed bytes, because the decompression cannot be cancelled
+    BYTES_MAX = 128 << 20, // limits the number of decompressed bytes, because decompression cannot be cancelled
     CHUNK_EXTRA = 12,      // length, type and checksum of a chunk
 };
 

@@ -1,4 +1,4 @@
-// gltf.c: the glTF importer: recognises the format and runs the steps (gltf.h has the overview).
+// gltf.c: the glTF importer: recognises the format and runs the steps (see gltf.h for an overview).
 #include "gltf.h"
 
 #include "gltf_accessors.h"

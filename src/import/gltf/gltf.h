@@ -52,7 +52,7 @@ struct gltf_accessor {
     int sparse_component;
     const uint8_t *sparse_indices, *sparse_values;
     // These arrays are converted on first use, and are NULL until then.
-    const float *floats[2];  // `width` per element; [0]: kept until the load ends, [1]: kept as long as the scene
+    const float *floats[2]; // `width` per element; [0]: kept until the load ends, [1]: kept as long as the scene exists
     const uint32_t *indices; // one per element
     uint32_t max_index;
     const void *colors[2]; // the colours in a format of lam_mesh; in the second array, alpha is 1

@@ -229,6 +229,6 @@ int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, c
                  name ? shown_name(name, shown) : "", name ? "')" : "");
     }
     fail(gltf->json.error, LAM_BAD_ARGUMENT, "%s: there is no %s '%s'; %s%s", gltf->source->name, what,
-         shown_name(wanted, shown), count ? "expected one of " : "the file has none", known);
+         shown_name(wanted, shown), count ? "expected one of " : "the file contains none", known);
     return -1;
 }

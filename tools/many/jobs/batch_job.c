@@ -127,7 +127,7 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
         return false;
     if (!model == !data)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "expected either key 'model', a file or a shape's name, or key 'data', its bytes");
+                        "expected either key 'model' (a file or a shape) or key 'data' (the model's bytes)");
     if (model && name)
         return refuse(error, "name", "is allowed only with key 'data'");
     if (name && (strlen(name) > NAME_MAX_BYTES || strchr(name, '/')))
@@ -151,7 +151,7 @@ static bool read_output(struct batch_job *job, const json_t *root, lam_error *er
     if (output && format)
         return refuse(error, "format", "applies only to pictures in the answer; the name of a file selects its format");
     if (output && strcmp(output, "-") == 0)
-        return refuse(error, "output", "without it the picture is part of the answer");
+        return refuse(error, "output", "omit this key to receive the picture in the answer");
     if (output && output_name_is_pattern(output) && output_name_has(output, "frame"))
         return refuse(error, "output", "an animation of a job is one file, without {frame} in its name");
     job->in_answer = !output;

@@ -25,7 +25,7 @@ struct batch_job {
 // Settings common to all jobs.
 struct batch_job_rules {
     const struct options *options; // the options of the worker
-    int threads, in_flight;        // the number of threads of a job, and of jobs drawn at the same time
+    int threads, in_flight;        // threads per job, and jobs that are drawn at the same time
     const struct job_roots *roots; // allowed folders for files
     bool has_keys;                 // whether there is a journal
 };

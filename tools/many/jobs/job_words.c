@@ -132,7 +132,7 @@ static bool check(const struct options *given, lam_error *error)
             continue;
         bool output = strcmp(option->name, "output") == 0;
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' is not allowed in a job: %s", option->name,
-                        output ? "key 'output' names its picture" : "it is allowed only on the worker's command line");
+                        output ? "use the job's key 'output'" : "it is allowed only on the worker's command line");
     }
     return true;
 }

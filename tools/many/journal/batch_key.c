@@ -37,7 +37,7 @@ static void print_number(FILE *out, double value)
     fputs(text, out);
 }
 
-// Prints the name of an enumeration value, or a number.
+// Prints the name of an option's value or, if the value has no name, its number.
 static void print_word(FILE *out, const struct option *option, int value)
 {
     const struct choice *choice = option->words;

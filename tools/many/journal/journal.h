@@ -1,8 +1,8 @@
 // journal.h: reads and writes journals: files with one JSON line for each finished or failed picture.
 //
-// A line is appended by a single write() after its picture is written, so a run may be killed at any time: at worst the
-// last line is truncated, which its missing line end reveals. During a run, FILE.running beside the journal lists the
-// models in progress and their processes. A killed run leaves that file behind.
+// After a picture is written, a single write() appends its line, so a run may be killed at any time. At worst, the last
+// line is truncated and lacks its line end. During a run, FILE.running beside the journal lists the models in progress
+// and their processes. A killed run leaves that file behind.
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
@@ -24,8 +24,8 @@ struct journal_run {
     size_t pictures;     // the number of pictures of the whole run, including pictures that are already written
 };
 
-// Opens a journal. `slots` is the maximum number of models drawn at the same time. Fails with LAM_BAD_ARGUMENT
-// (different options, or in use by another run), LAM_CANNOT_READ, LAM_CANNOT_WRITE or LAM_LIMIT.
+// Opens a journal. `slots` is the maximum number of models drawn at the same time. Fails with LAM_BAD_ARGUMENT (the
+// options differ, or another run uses the journal), LAM_CANNOT_READ, LAM_CANNOT_WRITE or LAM_LIMIT.
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 

@@ -22,7 +22,7 @@ struct journal_entry {
     uint64_t output;  // the hash of the picture's path; 0 if free
     const char *line; // `length` bytes, without the line's end
     size_t length;
-    const char *folder; // the last earlier line that names the folder of the pictures, with its line end, or NULL
+    const char *folder; // the latest line before it that names the pictures' folder, with its line end, or NULL
     int part;
     float ms; // the duration of the work; 0 if the picture failed
 };
@@ -38,8 +38,8 @@ struct journal_sum {
     char *first_double;        // "x.png is in a.jsonl and in b.jsonl", allocated with malloc, or NULL
 };
 
-// Adds a journal. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT (not a journal, or its options or its number of shards
-// differ from the previous journals) or LAM_LIMIT.
+// Adds a journal. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT (not a journal, or its options or number of shards
+// differ from those in the previous journals) or LAM_LIMIT.
 bool journal_sum_add(struct journal_sum *sum, const char *path, lam_error *error);
 
 // Adds the journals in a folder: the journals of shards in alphabetical order or, if there are none, lambent.jsonl.

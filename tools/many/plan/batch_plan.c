@@ -55,7 +55,7 @@ static bool check_together(const struct options *o, lam_error *error)
     if (o->batch.shard_by == SHARD_BY_LIST && !o->batch.shard)
         return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by' requires --shard K/N");
     if (o->batch.size_count && option_given(o, "size"))
-        return complain(error, LAM_BAD_ARGUMENT, "option '--size': found one size and several");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--size': give all sizes in one list, such as 256,512");
     if (o->picture.save_scene && (o->batch.view_count > 1 || o->batch.size_count > 1))
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' works only with a single picture");
     return true;
@@ -199,7 +199,7 @@ bool batch_plan_check(struct batch_plan *plan, lam_error *error)
 {
     if (plan->by_list && plan->listed < plan->count)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--shard-by list' shares one list; expected @FILE or --files-from FILE alone");
+                        "option '--shard-by list' divides a single list; give only @FILE or --files-from FILE");
     size_t count = plan->count * (size_t)plan->view_count, used = 0;
     struct named_output *named = calloc(count + 1, sizeof *named);
     bool ok = named != NULL;

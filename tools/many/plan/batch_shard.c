@@ -80,7 +80,7 @@ static bool slurm_array(struct batch_shard *shard, lam_error *error)
     return set_index(shard, task_id, (id - first) / step, count, error);
 }
 
-// If `count` is 0, the environment must state the number of shards.
+// If `count` is 0, the environment must contain the number of shards.
 static bool from_environment(struct batch_shard *shard, long count, lam_error *error)
 {
     const char *const names[] = {task_id, completion, rank}, *found = NULL;
@@ -111,7 +111,7 @@ static bool from_environment(struct batch_shard *shard, long count, lam_error *e
     if (found == completion)
         return complain(
             error, LAM_BAD_ARGUMENT,
-            "option '--shard auto': Kubernetes does not say how many completions the job has; name their number, "
+            "option '--shard auto': Kubernetes does not report the number of completions; give this number N, "
             "--shard auto/N");
     return slurm_array(shard, error);
 }

@@ -83,7 +83,8 @@ static bool find_part(struct batch_plan *plan, FILE *file, const char *path, uin
     if (fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode))
         return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by list': %s is not a regular file", path);
     if (plan->list_bytes)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by list' shares one list, and %s is another", path);
+        return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by list' divides a single list, and %s is another",
+                        path);
     uint64_t size = (uint64_t)about.st_size, count = (uint64_t)shard->count;
     plan->list_bytes = size;
     *at = size * (uint64_t)(shard->number - 1) / count;

@@ -90,7 +90,7 @@ struct files {
     bool changed;       // a file has changed since it was read, so the hashes are not valid
 };
 
-// Returns whether a file may have changed after the time `start` of the file systems' clock.
+// Returns whether a file may have changed since `start`, a time of the clock that file systems use.
 static bool changed_since(const char *path, const struct timespec *start)
 {
     struct stat about;
@@ -249,7 +249,7 @@ struct model_run {
     const struct batch_item *item;
     const struct batch_artist *artist;
     struct batch_result *result;
-    struct timespec start; // the start on the file systems' clock
+    struct timespec start; // by the clock that file systems use
     struct files files;
     int warnings; // of the scene, counted after the previous picture
     bool hashed;

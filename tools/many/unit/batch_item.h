@@ -13,7 +13,7 @@ struct batch_item {
     const char *options_text; // the options as text for the keys; NULL if records have no keys
     bool has_records;         // whether records are needed
     const char *model;
-    bool leads_out;               // the model is a link out of its folder (batch_plan.h)
+    bool leads_out;               // the model is a link that leads out of its folder (batch_plan.h)
     const lam_bytes *model_bytes; // the bytes of the model that `model` names; NULL if the model is a file
     const struct job_view *views; // the views of the pictures
     char *const *outputs;         // the paths of the pictures
@@ -55,7 +55,7 @@ struct batch_result {
 void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result);
 void batch_result_free(struct batch_result *result);
 
-// Returns the record of a picture for which drawing could not report the failure itself.
+// Returns the record of a failed picture whose drawing ended before it could report the failure.
 json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text);
 
 #endif

@@ -37,7 +37,7 @@ struct batch_task {
 };
 
 struct batch {
-    const struct batch_plan *plan; // contains no models if jobs arrive by --jobs
+    const struct batch_plan *plan; // contains no models with --jobs
     const struct options *options;
     bool is_batch;
     char *options_text;          // NULL if there are no keys
@@ -49,8 +49,8 @@ struct batch {
     struct environment_cache *environments; // shared by all models; NULL if each process loads its own
 
     pthread_mutex_t lock;           // protects the following members
-    pthread_cond_t changed;         // a worker is done
-    pthread_cond_t moved;           // `next` is at `read_from`, or a worker is done
+    pthread_cond_t changed;         // signals that a worker is done
+    pthread_cond_t moved;           // signals that `next` has reached `read_from`, or that a worker is done
     struct batch_picture *pictures; // the pictures of all models in order
     json_t **records;               // the records of all pictures, in the same order; NULL if not needed
     bool *taken;                    // for each model, whether a worker has taken the model in this pass

@@ -33,8 +33,8 @@ bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const struct options *options,
                      lam_device *device, const lam_cancel *cancel, bool capture);
 
-// Marks all open pictures as failed with an error class, if drawing could not report the failure itself. The message
-// `text` must name the model.
+// Marks all open pictures as failed with an error class, if drawing ended before it could report the failure. The
+// message `text` must name the model.
 void batch_unit_fail(struct batch_unit *unit, const struct batch *batch, const char *class, int exit, const char *text);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-enum { WORD = 64 }; // vertices or corners that are processed together: as many as a word of a bit set has bits
+enum { WORD = 64 }; // vertices or corners that are processed together: one for each bit in a word of a bit set
 
 // A Bloom filter with two bits per position, both in the word selected by the hash's upper bits.
 struct position_filter {
@@ -50,7 +50,7 @@ struct position_simd {
     // Numbers the members in one word of a set, starting with `first`. All other items get UINT32_MAX.
     void (*number)(uint64_t members, uint32_t first, uint32_t numbers[WORD]);
     // Among `count` corners, starting with number `first`, lists the corners whose vertices (`indices`) have a
-    // position. The lists need capacity for `count` entries and one more register.
+    // position. Each list needs capacity for `count` entries plus one register.
     uint32_t (*list)(const uint32_t *indices, const uint32_t *position_of, uint32_t first, uint32_t count,
                      uint32_t *corners, uint32_t *positions);
 };

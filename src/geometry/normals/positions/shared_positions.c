@@ -12,7 +12,7 @@
 
 enum {
     WORDS = 1 << 8,      // words of a bit set per task
-    AHEAD = 16,          // number of words by which the positions of triangles are prefetched ahead
+    AHEAD = 16,          // distance in words at which the positions of triangles are prefetched
     TOGETHER = 8,        // words whose vertices are looked up together, after prefetching
     SLAB = 2 << 20,      // size in bytes of the blocks that are allocated together
     CACHE_MAX = 1 << 13, // positions in a thread's cache, which fits the second-level cache

@@ -38,7 +38,7 @@ static bool read_buffer(struct gltf *gltf, int index)
         size = buffer->file.size;
     } else if (index != 0 || !data) {
         return json_fail(&gltf->json, place, "found no uri, %s",
-                         index == 0 ? "and the file has no binary chunk"
+                         index == 0 ? "and the file contains no binary chunk"
                                     : "but only the first buffer may be the file's binary chunk");
     }
     if (size < length)

@@ -93,7 +93,7 @@ static bool each_sparse(struct gltf *gltf, const struct gltf_accessor *a,
         uint32_t index = index_at(a->sparse_component, a->sparse_indices, i);
         if (index >= a->count)
             return json_fail(&gltf->json, KEY_OF(place, "indices"),
-                             "number %zu is %u, expected one below the accessor's count, %zu", i, index, a->count);
+                             "number %zu is %u, expected less than %zu, the accessor's count", i, index, a->count);
         put(user, index, a->sparse_values + i * element);
     }
     return true;

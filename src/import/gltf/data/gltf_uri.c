@@ -84,7 +84,7 @@ static bool read_data(struct gltf *gltf, const struct place *place, const char *
     static const char mark[] = ";base64";
     const char *comma = strchr(uri, ',');
     if (!comma)
-        return json_fail(&gltf->json, place, "this data URI has no ',' before its data");
+        return json_fail(&gltf->json, place, "this data URI lacks the ',' before its data");
     const char *data = comma + 1;
     size_t kind = (size_t)(comma - uri), length = strlen(data);
     bool base64 = kind >= sizeof mark - 1 && strncasecmp(comma - (sizeof mark - 1), mark, sizeof mark - 1) == 0;

@@ -13,8 +13,8 @@ static bool fail_index(struct gltf *gltf, const struct place *place, const struc
     for (size_t i = 0; i < accessor->count; i++) {
         uint32_t index = accessor->indices[i];
         if (index >= vertex_count)
-            return json_fail(&gltf->json, place, "number %zu is %u, expected one below the %u vertices", i, index,
-                             vertex_count);
+            return json_fail(&gltf->json, place, "number %zu is %u, expected less than %u, the number of vertices", i,
+                             index, vertex_count);
         if (index == restart)
             return json_fail(
                 &gltf->json, place,

@@ -150,7 +150,7 @@ typedef struct lam_parametric {
     LAM_RESERVED(8);
 } lam_parametric;
 
-// A surface given by formulas in a text. docs/shapes.md describes the language. Normals come from the symbolic
+// A surface defined by formulas in a text. docs/shapes.md describes the language. Normals come from the symbolic
 // derivatives.
 //
 // Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". If the two ends of a range meet,

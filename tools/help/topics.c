@@ -156,7 +156,7 @@ const struct topic topics[] = {
      "STL, PLY or 3MF. The command writes geometry, materials with their textures, lights and cameras, as far as the "
      "format supports these kinds of data. Lambent prints a sentence for each kind that it omits. For details, see "
      "`docs/convert.md`."},
-    {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
+    {"formulas", "Surfaces defined by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v. `--implicit 'x^2+y^2+z^2-1'` "
      "draws the surface on which an expression of x, y and z is zero. `-o torus.obj`, `.stl` or `.ply` saves the "
      "surface as a model file. You can also save built-in shapes: `lambent shape teapot -o teapot.stl`. Normals come "

@@ -119,7 +119,7 @@ struct shading_options {
     double environment_rotation_deg;
 };
 
-// Surfaces given by formulas (shape).
+// Surfaces defined by formulas (shape).
 struct shape_options {
     // The formulas and the ranges of the command `shape`, as typed; NULL if not given. `parametric` uses the ranges of
     // u and v, `implicit` uses the ranges of x, y and z. The model is named after the option.

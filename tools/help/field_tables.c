@@ -89,7 +89,7 @@ void field_tables_markdown(void)
     printf("\n## Fields of materials\n\nKeys of `--material` and of a scene file's materials.\n\n"
            "| key | value | default | MTL | |\n|---|---|---|---|---|\n");
     markdown_rows(lam_material_field);
-    printf("\n## Fields of lights\n\nKeys of `--light` and of a scene file's lights, besides the keys in "
+    printf("\n## Fields of lights\n\nKeys of `--light` and of a scene file's lights, in addition to the keys in "
            "docs/scene-file.md.\n\n| key | value | default | lights | |\n|---|---|---|---|---|\n");
     markdown_rows(lam_light_field);
 }

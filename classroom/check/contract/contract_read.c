@@ -156,8 +156,8 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
     }
     if (c->reflection == LAM_REFLECTION_GGX && !has(c, SEMANTIC_METALLIC) && !has(c, SEMANTIC_ROUGHNESS))
         return json_fail(&r->json, KEY_OF(NULL, "uniforms"),
-                         "found no name with the role metallic or roughness, which the highlight metallic-roughness "
-                         "needs");
+                         "found no name with the role metallic or roughness; the highlight metallic-roughness needs "
+                         "one of these roles");
     bool drawn = has(c, SEMANTIC_POSITION);
     for (const char *const *word = c->built_ins; *word; word++)
         drawn = drawn || strcmp(*word, "gl_Vertex") == 0;

@@ -15,7 +15,8 @@ struct mesh_polygons {
     const struct mesh_polygon *items;
     size_t count;
     const float *positions; // finite
-    uint32_t *corners[3];   // the mesh's index arrays: positions, in range, and other attributes or NULL
+    uint32_t *corners[3];   // the mesh's index arrays: of positions (all valid), and of two other attributes (may be
+                            // NULL)
     uint64_t triangles;     // of the mesh, including the triangles of the polygons
 };
 

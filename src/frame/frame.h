@@ -244,7 +244,7 @@ void frame_materials_build(struct frame *frame, const lam_scene *scene);
 // Returns the layers of a material that the frame draws: LAYER_…. Transmission works only with Phong shading.
 int frame_layers(const struct frame *frame, const lam_material *material);
 
-// Adds the ranges of a draw to the frame, and sets draw->clear. Each range has one material on either side.
+// Adds the ranges of a draw to the frame, and sets draw->clear. Each range has one material on each side.
 void frame_ranges_build(struct frame *frame, const lam_scene *scene, int draw_index);
 
 // Returns the index of material `back`, or of a converted copy of it if the model that lights `front` lights only the

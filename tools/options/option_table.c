@@ -739,9 +739,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
      .store = store_number, .others = "frame-rate framerate speed delay", FIELD(animation.fps), .min = 0.1, .max = 240},
 
-    {"threads", 'j', GROUP_WORK, "N", "one per processor",
-     "The number of threads; the picture is the same with any number.", NULL, .store = store_integer,
-     .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024, .single = TAKES_THREADS},
+    {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads; the picture does not depend on it.",
+     NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
+     .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
      "All instruction sets draw identical pictures. Lambent rejects an instruction set that this machine or this build "
      "does not support (exit 3).",
@@ -835,10 +835,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL,
      "Allow models to use this file, or the files in this folder; repeatable.",
      "By default, a model may use only the files in its own folder. If the textures are in `../textures`, add "
-     "`--allow-path ../textures`. Scene files may also refer to files in the allowed folder with `--files-inside`, and "
-     "links in the folders of `batch` may lead there. In the sandbox, Lambent can also read the allowed folder. With "
-     "`--jobs`, all files named in jobs must be in an allowed folder, but models can still use only the files in their "
-     "own folders. Pages (`-o FILE.html`) and `view` never include files from other folders.",
+     "`--allow-path ../textures`. Even with `--files-inside`, scene files may refer to files in the allowed folder. "
+     "Links in the folders of `batch` may also lead to it. In the sandbox, Lambent can also read the allowed folder. "
+     "With `--jobs`, all files named in jobs must be in an allowed folder, but models can still use only the files in "
+     "their own folders. Pages (`-o FILE.html`) and `view` never include files from other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -1003,7 +1003,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"contract", 0, GROUP_CHECK, "NAME", "auto",
      "The contract that defines the shaders' variables: a built-in contract's name, or a file.",
      "`auto` recognises a built-in contract by the names of its variables. If no contract fits, Lambent infers the "
-     "role of each input from the use of the input. `auto` never selects `chile` or `glsl120`; to use one of these "
+     "role of each input from its use in the shader. `auto` never selects `chile` or `glsl120`; to use one of these "
      "contracts, give its name. `--list` prints the contracts. You can also write your own contract in JSON "
      "(`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
@@ -1028,10 +1028,10 @@ struct option option_table[OPTIONS_MAX] = {
      "and whether the search stopped at this limit.",
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},
     {"class", 0, GROUP_CHECK, "FOLDER", NULL, "Check every submission in a folder.",
-     "A submission is a sub-folder with one fragment shader, at most one vertex shader and any other files. In the top "
-     "folder, and in sub-folders with more shaders, each fragment shader forms one submission with the vertex shader "
-     "of the same name. With `-o FOLDER/`, Lambent writes a page for the whole class, `index.html`, and a sheet for "
-     "each submission.",
+     "A submission is a sub-folder with one fragment shader, at most one vertex shader and possibly other files. In "
+     "the top folder, and in sub-folders with more shaders, each fragment shader forms one submission with the vertex "
+     "shader of the same name. With `-o FOLDER/`, Lambent writes a page for the whole class, `index.html`, and a sheet "
+     "for each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
     {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,
      .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
@@ -1045,7 +1045,7 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(check.submitty)},
     {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
      "If Lambent recognises a contract, the file contains that contract. Otherwise, the file contains the role of each "
-     "input, which Lambent infers from the use of the input. Correct the file, then check with `--contract FILE` "
+     "input, which Lambent infers from its use in the shader. Correct the file, then check with `--contract FILE` "
      "(`docs/check/contract-file.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,

@@ -214,8 +214,8 @@ static inline bool frame_has_rays(const struct frame *frame)
     return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
-// After the draws and lights are built, fills the data that rays need from them, and determines whether any light casts
-// shadows.
+// Fills the data that rays need, and determines whether any light casts shadows. The draws and lights must have been
+// built.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
 // Determines the edges to draw, and fills their data. `pixel` is the matrix from eye space to pixels.

@@ -118,8 +118,8 @@ static void complete_defaults(struct contract *c)
             *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
-// Returns the space of the lights: the space of the first name that belongs to a light. If there is no such name,
-// returns the space of the default light. Without a default light, returns the space of the lighting.
+// Returns the space of the first name that belongs to a light. If there is no such name, the result is the space of the
+// default light or, without a default light, the space of the lighting.
 static lam_light_frame light_frame_of(const struct contract *c)
 {
     const struct contract_defaults *d = &c->defaults;

@@ -198,7 +198,7 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
 }
 
 // Returns the fan for a corner of a degenerate triangle: the fan of the first non-degenerate triangle that shares an
-// edge with this triangle. If there is none, returns the fan of corner `otherwise`.
+// edge with this triangle. Returns the fan of corner `otherwise` if there is no such triangle.
 static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count, uint32_t i, uint32_t otherwise)
 {
     enum { EXAMINED_MAX = 64 }; // limits the time for a million such corners at one position

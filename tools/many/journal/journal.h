@@ -29,8 +29,8 @@ struct journal_run {
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
-// Returns the latest line for a picture's path. With SAME, also finds a line by the path below the folder of the
-// pictures, regardless of the spelling of this folder. Returns NULL if there is no line. The caller calls json_decref.
+// Returns the latest line for a picture's path. SAME also finds a line by the path below the folder of the pictures,
+// regardless of the spelling of this folder. Returns NULL if there is no line. The caller calls json_decref.
 json_t *journal_find(const struct journal *journal, const char *output);
 
 // Appends a record. One thread at a time may call it. Fails with LAM_CANNOT_WRITE.

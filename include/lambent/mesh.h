@@ -56,7 +56,8 @@ typedef struct lam_mesh {
     const uint32_t *indices; // 3 per triangle, each < vertex_count
     uint32_t triangle_count; // triangles of the mesh
 
-    // 3 per element, of any length; they are normalised when used. NULL: the scene computes smooth normals.
+    // Three numbers for each element. The normals may have any length and are normalised when used. NULL: the scene
+    // computes smooth normals.
     const float *normals;
     uint32_t normal_count;          // elements of `normals`
     const uint32_t *normal_indices; // 3 per triangle; NULL: `indices`

@@ -151,7 +151,7 @@ struct work_options {
 struct limits_options {
     double time_limit_s;         // 0 means the default, infinity means no limit
     uint64_t memory_limit_bytes; // 0 means the default, UINT64_MAX means no limit
-    uint64_t triangle_limit;     // 0 means the library's default, also for the next fields
+    uint64_t triangle_limit;     // here and in the next fields, 0 means the library's default
     uint64_t pixel_limit;
     uint64_t file_limit_bytes;
     uint64_t expansion_limit, object_limit, layer_limit; // 0 means a limit that depends on the file size

@@ -59,7 +59,7 @@ void journal_each_running(const struct journal *journal,
 // errno is 0 if the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
-// Closes the journal. `done` means that the run was completed. FILE.running is removed, also after a failed run, unless
+// Closes the journal. `done` means that the run was completed. FILE.running is removed, even after a failed run, unless
 // the run was interrupted while drawing. NULL is allowed.
 void journal_close(struct journal *journal, bool done, bool interrupted);
 

@@ -1135,7 +1135,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, .others = "no-text no-labels", FIELD(captions.no_captions)},
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
-     "The settings file. It contains keys of scene files, which replace the default picture settings.",
+     "The settings file, with keys of scene files that replace the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if this file exists "
      "and the environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks "
      "and options on the command line override settings. Lambent does not apply settings to scene files. `lambent "

@@ -102,7 +102,8 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
 }
 
 // Finds a position for an arrow's letter around the arrow's tip, so that the letter does not overlap the arrows and
-// earlier letters. Returns the last tried position, at the largest distance from the tip, if every position overlaps.
+// earlier letters. If every tried position overlaps, returns the last tried position, at the largest distance from the
+// tip.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
     struct point way = difference(g->tips[arrow], g->from), at = g->tips[arrow];
@@ -221,7 +222,7 @@ static bool draw_vectors(const struct explain_figure *f, const struct subject *s
 }
 
 // Draws the vectors in the plane of the normal and the light (or of n and v, if there is no light), with the surface as
-// a horizontal line. For a thread, the plane contains t and l, and the thread is the horizontal line, because only the
+// a horizontal line. For a thread, draws the plane of t and l, with the thread as the horizontal line, because only the
 // angle between t and l matters.
 static bool draw_from_the_side(const struct subject *s, const struct sheet_layout *at, struct drawing *d,
                                lam_error *error)

@@ -137,7 +137,7 @@ void lam_font_free(lam_font *font)
     free(font);
 }
 
-// Returns the code point at *text and advances *text. Returns U+FFFD for an invalid byte or sequence.
+// Returns the code point at *text and advances *text. For an invalid byte or sequence, returns U+FFFD.
 static FT_ULong next_letter(const char **text)
 {
     const unsigned char *s = (const unsigned char *)*text;

@@ -84,7 +84,7 @@ static void skip_space(struct parser *p)
         p->at++;
 }
 
-// Skips spaces. Also skips the next character and returns true if it is `c`.
+// Skips spaces. If the next character is `c`, skips it too and returns true.
 static bool accept(struct parser *p, char c)
 {
     skip_space(p);

@@ -85,7 +85,7 @@ struct formula {
     struct formula_node *nodes;
     int count;
     bool implicit;  // the parameters are x, y and z instead of u and v
-    int outputs[9]; // x, y, z and their u and v derivatives; implicit: f and its x, y and z derivatives
+    int outputs[9]; // x, y, z and their derivatives by u and by v; implicit: f and its derivatives by x, y and z
     int name_count; // the definitions
     struct formula_name {
         const char *text; // position in the formula's text

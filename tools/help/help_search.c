@@ -23,7 +23,7 @@ struct search {
     char **words;
     int count;
     const char *heading;
-    bool whole; // whether to search details and prose in addition to names and summaries
+    bool whole; // whether to search details and prose too, besides names and summaries
     int found;
 };
 

@@ -1,4 +1,5 @@
-// info_text.c: prints a model as text on one screen. Each list shows at most ROWS rows, and the number of omitted rows.
+// info_text.c: prints a model as text on one screen. If a list has more than ROWS rows, prints ROWS rows and the number
+// of omitted rows.
 #include "info.h"
 
 #include <inttypes.h>
@@ -42,7 +43,7 @@ static const char *shown(const char *name, char out[NAME_BYTES + 12])
 
 static const char *label(const char *text, int index) { return index == 0 ? text : ""; }
 
-// Returns true if a row of a long list is omitted. Prints the number of omitted rows in place of the first of them.
+// Returns true if a row of a long list is omitted. For the first omitted row, prints the number of omitted rows.
 static bool omitted(int index, int count)
 {
     if (index == ROWS && count > ROWS + 1) {

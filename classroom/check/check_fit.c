@@ -295,7 +295,7 @@ static bool open_fit(struct fit *f, struct run *r, lam_error *error)
     return ok;
 }
 
-// Finds the pixels to compare. For each scene, computes the share of the pixels that the shader does not draw, and sets
+// Finds the pixels to compare. Computes the share of pixels that the shader does not draw, for each scene, and sets
 // `missing` to the smallest share. A scene that faces away may be black and transparent.
 static bool find_inside(struct run *r, double *missing, lam_error *error)
 {

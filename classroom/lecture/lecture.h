@@ -9,7 +9,7 @@
 // The style, for glsl_choices.style.
 extern const struct glsl_style lecture_style;
 
-// Returns whether the style supports these choices. If not, fails with LAM_UNSUPPORTED, and the message names the
+// Returns whether the style supports these choices. Otherwise the error is LAM_UNSUPPORTED, and its message names the
 // unsupported option.
 bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
 

@@ -178,8 +178,8 @@ typedef struct lam_mat4 {
 // Returns the identity.
 LAM_API lam_mat4 lam_mat4_identity(void);
 
-// Returns the right-handed rotation about an axis through the origin, of any nonzero length. The result is
-// bit-identical on every machine.
+// Returns the right-handed rotation about an axis through the origin. The axis may have any nonzero length. The result
+// is bit-identical on every machine.
 LAM_API lam_mat4 lam_mat4_rotation(lam_vec3 axis, double angle_rad);
 
 // Returns the version of the library, "major.minor.patch". The string is static.

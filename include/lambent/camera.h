@@ -12,8 +12,8 @@ extern "C" {
 typedef struct lam_camera {
     lam_vec3 eye;    // position, world space
     lam_vec3 target; // a point in the middle of the picture, other than `eye`
-    // The direction of the picture's top, of any nonzero length. If it is parallel to the line of sight, another axis
-    // is used.
+    // The direction of the picture's top; its length does not matter, but must not be 0. If it is parallel to the line
+    // of sight, another axis is used.
     lam_vec3 up;
     // Full vertical field of view, radians, in (0, π). Used if `ortho_half_height` is 0.
     double fovy_rad;
@@ -32,7 +32,7 @@ LAM_API lam_camera lam_camera_default(void);
 LAM_API lam_mat4 lam_camera_view_matrix(const lam_camera *camera);
 
 // Projects a point of eye space into a picture of width × height pixels (both above 0). *x and *y are in pixels from
-// the upper left corner, also for points outside the picture. The near and far planes are ignored. Returns false and
+// the upper left corner, even for points outside the picture. The near and far planes are ignored. Returns false and
 // changes nothing if the point is beside or behind the eye of a perspective camera.
 LAM_API bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec3 eye_position, double *x,
                                 double *y);
@@ -76,7 +76,7 @@ LAM_API const char *lam_side_name(lam_side side);
 // Returns the side with this name, or LAM_SIDE_COUNT if there is none.
 LAM_API lam_side lam_side_find(const char *name);
 
-// Returns the view of a side, in perspective. If `side` is out of range, returns the three-quarter view.
+// Returns the view of a side, in perspective, or the three-quarter view if `side` is out of range.
 LAM_API lam_view lam_view_of_side(lam_side side);
 
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height

@@ -69,10 +69,10 @@ LAM_API void lam_environment_free(lam_environment *environment);
 // Returns the width and height of each face in pixels.
 LAM_API int lam_environment_size(const lam_environment *environment);
 
-// Returns the linear light from a direction in the environment's own axes, of any length; (0, 0, 0) gives black. The
-// lookup is bilinear and seamless across faces. Drawing adds this light times the reflectivity of a classic material.
-// Physical materials use prefiltered means of this light. The first frame that needs these means computes them, and the
-// environment stores them (docs/lighting/environment.md).
+// Returns the linear light from a direction, given in the environment's own axes. The length of the direction does not
+// matter, but (0, 0, 0) gives black. The lookup is bilinear and seamless across faces. Drawing adds this light times
+// the reflectivity of a classic material. Physical materials use prefiltered means of this light. The first frame that
+// needs these means computes them, and the environment stores them (docs/lighting/environment.md).
 LAM_API lam_rgb lam_environment_sample(const lam_environment *environment, lam_vec3 direction);
 
 // Makes the texture `environment_light` of exported shaders (lambent/shader.h), which lights physical materials: a

@@ -191,8 +191,8 @@ typedef struct lam_explained_values {
     // The roughness with which a physical material is lit: `roughness`, or more by specular antialiasing
     // (lam_specular_aa); 0 for other materials.
     float lit_roughness;
-    // The interpolated normal before a normal map, unit; and the mesh's tangent, of any length, zero if no map and no
-    // model uses it.
+    // The interpolated unit normal before a normal map, and the mesh's tangent, which may have any length. The tangent
+    // is zero if no map and no model uses it.
     lam_vec3 mesh_normal, tangent;
     float bitangent_sign; // the bitangent is this times n × t
     LAM_RESERVED(8);

@@ -60,7 +60,7 @@ typedef struct lam_light {
     const char *name;      // UTF-8; NULL: unnamed
 
     lam_vec3 position; // point, spot
-    // Directional, spot: the direction of travel of the light, of any nonzero length.
+    // Directional, spot: the direction in which the light travels. It may have any nonzero length.
     lam_vec3 direction;
     // La, for all types except hemisphere. Neither attenuation nor the cone dims this colour, except with
     // lam_draw_params.gl1.

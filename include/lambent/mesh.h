@@ -56,7 +56,8 @@ typedef struct lam_mesh {
     const uint32_t *indices; // 3 per triangle, each < vertex_count
     uint32_t triangle_count; // triangles of the mesh
 
-    // 3 per element, of any length; they are normalised when used. NULL: the scene computes smooth normals.
+    // Three numbers for each element. The normals may have any length and are normalised when used. NULL: the scene
+    // computes smooth normals.
     const float *normals;
     uint32_t normal_count;          // elements of `normals`
     const uint32_t *normal_indices; // 3 per triangle; NULL: `indices`
@@ -150,7 +151,7 @@ typedef struct lam_parametric {
     LAM_RESERVED(8);
 } lam_parametric;
 
-// A surface given by formulas in a text. docs/shapes.md describes the language. Normals come from the symbolic
+// A surface defined by formulas in a text. docs/shapes.md describes the language. Normals come from the symbolic
 // derivatives.
 //
 // Parametric: "a = 2; x = (a + cos(v))*cos(u); y = (a + cos(v))*sin(u); z = sin(v)". If the two ends of a range meet,

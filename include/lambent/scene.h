@@ -106,8 +106,8 @@ typedef struct lam_load_params {
     double time_s;
     // OBJ and PLY: marks the edges that splitting polygons into triangles added (lam_mesh.inner_edges), for wireframes.
     bool polygon_edges;
-    // Folders and files that a model or a scene file may refer to, besides its own folder. Without them, a name that
-    // leads out of that folder, such as "../textures/wood.png", is reduced to its last component.
+    // Folders and files that a model or a scene file may refer to, in addition to its own folder. Without them, a name
+    // that leads out of that folder, such as "../textures/wood.png", is reduced to its last component.
     const char *const *allowed_paths;
     int allowed_path_count; // number of allowed_paths
     LAM_RESERVED(8);

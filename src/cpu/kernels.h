@@ -1,6 +1,6 @@
 // kernels.h: the table of performance-critical functions. The source is compiled once for each instruction set
 // (kernels.c). The results of all versions are bit-identical to those that `scalar` computes. A step accesses only its
-// parameters; those that it only reads are const.
+// parameters. The parameters that it does not change are const.
 #ifndef KERNELS_H
 #define KERNELS_H
 

@@ -41,7 +41,8 @@ struct frame_draw {
     // If above 0, the mesh has no normals, and the device computes the normals of visible triangles with this crease
     // angle.
     double crease_rad;
-    // Like crease_rad, but with a crease at every edge: each point uses its facet's normal, which nothing else reads.
+    // Like crease_rad, but with a crease at every edge: each point uses its facet's normal. Set only if no other step
+    // reads normals.
     bool facets;
 };
 
@@ -54,7 +55,7 @@ struct frame_draw_range {
     bool translucent;
     lam_reflection reflection; // the model for both sides, never AUTO
     bool passes_rays;          // rays treat the triangles as translucent, for every output
-    bool transmits;            // the material transmits light (LAYER_TRANSMISSION), and the output shows that
+    bool transmits;            // the material transmits light (LAYER_TRANSMISSION), and the output shows this
 };
 
 // A point, directional or spot light in eye space.
@@ -122,8 +123,8 @@ struct frame {
     int width, height;
     // The draw parameters with defaults resolved. samples, tone, stage and occlusion are never AUTO. `shadows` is set
     // if a light casts shadows and the output shows it. `reflection` may be AUTO, the material's own model
-    // (frame_draw_range.reflection). A light_cutoff of 0 skips no light. edge_angle_rad and occlusion_radius are
-    // unchanged.
+    // (frame_draw_range.reflection). If light_cutoff is 0, every light is evaluated. edge_angle_rad and
+    // occlusion_radius are unchanged.
     lam_draw_params settings;
     float exposure;            // 2^stops, from the parameters and `brightened`
     double brightened;         // stops (lam_brighten)
@@ -143,7 +144,7 @@ struct frame {
     bool translucent;       // whether any range is translucent
     bool passes_rays;       // whether any range has passes_rays
     bool masked;            // whether any range has a material of LAM_ALPHA_MASK
-    // whether any range transmits light, for any output, so that its material colours this light
+    // whether the material of any range transmits light and colours it, whatever the output shows
     bool tints_rays;
     bool transmits; // whether any range transmits, so that layers need a transmittance per channel
     // whether any range is rough or thick glass, which blurs and refracts the picture behind it
@@ -158,8 +159,8 @@ struct frame {
     // The depth key of a point: 1/w in perspective; (1 − z/w)/2 if orthographic. Larger keys are nearer. The key is an
     // affine function of the window coordinates.
     float near_plane, far_plane;
-    // LAM_OUTPUT_DEPTH: the range of distances that 8 bits encode: the distances of the scene's vertices, clipped to
-    // the near and far planes.
+    // LAM_OUTPUT_DEPTH: the range of distances that 8 bits encode, from the scene's nearest vertex to its farthest,
+    // clipped to the near and far planes.
     float depth_near, depth_far;
 
     struct frame_draw *draws;
@@ -183,7 +184,7 @@ struct frame {
     float ambient[3]; // La_global + Σ La of all lights (gl1: of lights without a position only)
 
     const lam_environment *environment; // may be NULL
-    lam_environment *studio;    // the built-in studio, kept from the first frame that uses it; owned, NULL before
+    lam_environment *studio;            // the built-in studio, owned; NULL until a frame uses it
     bool environment_lights;    // whether the environment lights a range with a physical model (environment_light.h)
     float to_environment[3][3]; // from eye space to the environment's axes
 
@@ -213,8 +214,8 @@ static inline bool frame_has_rays(const struct frame *frame)
     return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
-// After the draws and lights are built, fills the data that rays need from them, and determines whether any light casts
-// shadows.
+// Fills the data that rays need, and determines whether any light casts shadows. The draws and lights must have been
+// built.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
 // Determines the edges to draw, and fills their data. `pixel` is the matrix from eye space to pixels.
@@ -243,7 +244,7 @@ void frame_materials_build(struct frame *frame, const lam_scene *scene);
 // Returns the layers of a material that the frame draws: LAYER_…. Transmission works only with Phong shading.
 int frame_layers(const struct frame *frame, const lam_material *material);
 
-// Adds the ranges of a draw to the frame, and sets draw->clear. Each range has one material on either side.
+// Adds the ranges of a draw to the frame, and sets draw->clear. Each range has one material on each side.
 void frame_ranges_build(struct frame *frame, const lam_scene *scene, int draw_index);
 
 // Returns the index of material `back`, or of a converted copy of it if the model that lights `front` lights only the

@@ -18,13 +18,14 @@
 #define MOST   2.5
 #define WHITE  1.0
 
-// A model is white if all its materials are physical, without metal or glass, and have a base colour with a luminance
-// of at least PAPER, without a texture or colours of vertices. Its exposure decreases by DIM stops.
+// A model is white if all its materials are physical, but not metal or glass, and if their base colours have a
+// luminance of at least PAPER. Models with textures or vertex colours are never white. The exposure of white models
+// decreases by DIM stops.
 #define PAPER 0.9
 #define DIM   (5.0 / 6)
 
 // The colours of textures are rarely white. Textured models of classic materials with flat faces are brightened until
-// 98 % of the surface have at most this luminance, so that the lightest texels look nearly white on faces that the key
+// 98 % of the surface has at most this luminance, so that the lightest texels look nearly white on faces that the key
 // light reaches.
 #define LIGHTEST 1.7
 

@@ -52,7 +52,7 @@ static bool others_check(const lam_draw_params *params, lam_error *error)
     return true;
 }
 
-// Checks the rules between settings.
+// Checks combinations of settings.
 static bool rules_check(const lam_draw_params *params, lam_error *error)
 {
     if (params->cavity == LAM_CAVITY_ON && params->occlusion == LAM_OCCLUSION_RAYS)

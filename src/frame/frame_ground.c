@@ -6,8 +6,8 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// The distances at which the ground begins to fade and has faded out, in radii of the scene's sphere. A catcher only
-// shows its shadow.
+// The distances at which the ground begins to fade and has faded out, in radii of the scene's sphere. A catcher shows
+// only its shadow.
 #define WHOLE       3.0
 #define END         6.0
 #define CATCHER_END 4.0
@@ -18,7 +18,8 @@
 // The distance below the lowest point, in radii. Without this distance, a flat underside would have the same depth as
 // the ground.
 #define DROP 0x1p-14
-// The sides of squares without a checker pattern, as fractions of the ground's radius, and for a catcher.
+// The sides of the mesh's squares, as fractions of the ground's radius: for a ground without a checker pattern, and for
+// a catcher.
 #define PLAIN_SQUARE   0.0625
 #define CATCHER_SQUARE 0.015625
 // The brightness of a checker's dark squares relative to its bright ones.

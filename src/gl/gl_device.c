@@ -13,8 +13,8 @@
 
 // --- a frame
 
-// Resets the choices about lighting, for a program that does not depend on lighting. If `maps` is false, also resets
-// the choices about maps.
+// Resets the choices about lighting, for a program that does not depend on lighting. Also resets the choices about maps
+// if `maps` is false.
 static void forget_lighting(struct glsl_choices *c, bool maps)
 {
     const struct glsl_choices wanted = *c;

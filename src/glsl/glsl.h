@@ -134,8 +134,8 @@ struct glsl_text {
 struct glsl_facts;
 struct text;
 struct glsl_style {
-    // Returns whether the style supports these choices. If not, fails with LAM_UNSUPPORTED, and the message names the
-    // unsupported option.
+    // Returns whether the style supports these choices. Otherwise the error is LAM_UNSUPPORTED, and its message names
+    // the unsupported option.
     bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
     // Appends the code of a stage, without its version and its uniforms.
     void (*add_stage)(struct text *text, const struct glsl_facts *stage);

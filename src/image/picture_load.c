@@ -23,7 +23,7 @@ static bool blame_memory(lam_error *error)
     return false;
 }
 
-// Decodes a picture. If `wide` is not NULL, keeps all bits of the file (codec.read_wide).
+// Decodes a picture. Keeps all bits of the file if `wide` is not NULL (codec.read_wide).
 static bool decode(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)
 {
     const struct codec *codec = codec_of(file->bytes, file->size, file->name);

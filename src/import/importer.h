@@ -46,7 +46,8 @@ struct importer {
     // a scene file: it names other models, and its importer prepares their normals and origins itself
     bool is_scene_file;
     bool flat_normals; // the format requires flat normals for meshes without normals
-    // Returns whether the bytes are in this format: 0: no; 1: possibly (the file's extension decides); 2: certainly.
+    // Returns how certain it is that the bytes are in this format: 0 (no), 1 (possibly; the file's extension decides)
+    // or 2 (certainly).
     int (*probe)(const uint8_t *bytes, size_t size);
     // Fills an empty scene with meshes, materials, and one object per mesh. On failure, the caller frees the scene.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);

@@ -15,8 +15,9 @@ struct mesh_polygons {
     const struct mesh_polygon *items;
     size_t count;
     const float *positions; // finite
-    uint32_t *corners[3];   // the mesh's index arrays: positions, in range, and other attributes or NULL
-    uint64_t triangles;     // of the mesh, including the triangles of the polygons
+    // the mesh's index arrays: of positions (all valid), and of two other attributes (may be NULL)
+    uint32_t *corners[3];
+    uint64_t triangles; // of the mesh, including the triangles of the polygons
 };
 
 // Splits the polygons in place, in parallel. If load_params.polygon_edges is set, sets *inner_edges

@@ -265,8 +265,7 @@ LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, co
     }
 }
 
-// For each active lane, computes the share of a light that reaches the lane's point, in each of passed_channels
-// channels.
+// Computes the share of a light that reaches the point of each active lane, in each of passed_channels channels.
 LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, const struct frame_light *light,
                          unsigned active, float passed[3][LANES])
 {

@@ -163,9 +163,9 @@ bool scene_needs_tangents(const struct lam_scene *scene);
 // Assigns a white material to surfaces that have vertex colours but no material, because the default grey would darken
 // the colours. Call this function directly after a scene is read. Returns false if memory runs out.
 bool scene_give_colors_white(struct lam_scene *scene, lam_error *error);
-// Computes MikkTSpace tangents for meshes without tangents whose material uses a normal map. If `all` is set, computes
-// them for every mesh that has normals and texture coordinates but no tangents. The tangents follow the texture
-// coordinates of the normal map. Memory is charged to `call`.
+// Computes MikkTSpace tangents for meshes without tangents whose material uses a normal map. If `all` is set, every
+// mesh that has normals and texture coordinates but no tangents gets MikkTSpace tangents. The tangents follow the
+// texture coordinates of the normal map. Memory is charged to `call`.
 bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);
 
 // Checks a mesh, copies it to the scene's arena and computes its missing normals. Fails with LAM_BAD_ARGUMENT or

@@ -32,8 +32,8 @@ struct view_extents {
     lam_vec3 point[EXTENT_DIRECTIONS]; // x, y and z of the point with the maximum
 };
 
-// Gets a point of the scene: the middle of the box of the first object that has triangles. If no object has triangles,
-// returns false and sets the point to zero.
+// Gets a point of the scene: the middle of the box of the first object that has triangles. Returns false and sets the
+// point to zero if no object has triangles.
 bool view_extents_centre(const lam_scene *scene, lam_vec3 *centre);
 
 // Sets all extents for the given kx and ky.

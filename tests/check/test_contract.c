@@ -138,9 +138,8 @@ static void test_errors(void **state)
     bad(GOOD LIGHT "}, \"physical\": {\"masking\": \"smth\"}}",
         "my.json:1: physical.masking: found \"smth\", expected smith or schlick; did you mean 'smith'?");
     bad(GOOD LIGHT "}, \"highlight\": \"metallic-roughness\"}",
-        "my.json:1: uniforms: found no name with the role metallic or roughness, which the highlight "
-        "metallic-roughness "
-        "needs");
+        "my.json:1: uniforms: found no name with the role metallic or roughness; the highlight metallic-roughness "
+        "needs one of these roles");
     bad("{\"contract\": 1, \"name\": \"x\", \"highlight\": \"fong\"}",
         "my.json:1: highlight: found \"fong\", expected phong, blinn-phong or metallic-roughness; did you mean "
         "'phong'?");

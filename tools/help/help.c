@@ -53,8 +53,8 @@ static bool is_own(const struct option *o, const struct command *command)
     return !o->now && option_is_taken(o, command->groups) && !option_is_taken(o, command_table->groups);
 }
 
-// Prints the command's own options and the common picture options. For a command without its own options, prints all
-// common options. Returns false if there are none.
+// Prints the command's own options and the common picture options. Prints all common options if the command has no
+// options of its own. Returns false if there are none.
 static bool brief_options(const struct command *command)
 {
     bool own = false, any = false;

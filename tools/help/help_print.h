@@ -14,8 +14,8 @@ void help_text(const char *text, int indent, int width);
 // `left` is too long.
 void help_row(const char *left, int column, int width, const char *text);
 
-// Prints an option's row: its summary and its default, or the default of `command` if that default differs. With
-// `details`, prints all information about the option.
+// Prints an option's row: its summary and its default, or the default of `command` if that default differs. Prints all
+// information about the option if `details` is set.
 void help_option(const struct option *option, const struct command *command, bool details);
 
 // Prints the options that a command accepts, by group: first the command's own options, then only the names of the

@@ -78,12 +78,12 @@ const struct topic topics[] = {
      "pixel. X is the pixel's column and Y is its row, counted from 0 at the top left corner. For each visible "
      "triangle, Lambent prints the samples, the object, the position in the triangle, the vectors n, v and t, and the "
      "material. For each light, Lambent prints the colours (rows ambient, diffuse, specular), the vectors l, r and h, "
-     "and the distance. Lambent also prints three angles: between n and l, between r and v, and between n and h. The "
-     "attenuation and spot factors, the base and exponent of the highlight, and the diffuse and specular terms of the "
-     "light follow. At the end, Lambent prints the terms and their sum, the weighted sum of the triangles over the "
-     "background, the encoding and the bytes. Vectors are in eye space. The numbers are bit-identical to the numbers "
-     "from which Lambent computes the picture. For the formulas, see `docs/lighting.md`. `--json` prints the same "
-     "numbers on one line. `-o figure.svg` draws the numbers as a figure."},
+     "and the distance. Lambent also prints three angles: between n and l, between r and v, and between n and h. Then "
+     "Lambent prints the light's attenuation and spot factors, the base and exponent of the highlight, and the diffuse "
+     "and specular terms. At the end, Lambent prints the terms and their sum, the weighted sum of the triangles over "
+     "the background, the encoding and the bytes. Vectors are in eye space. The numbers are bit-identical to the "
+     "numbers from which Lambent computes the picture. For the formulas, see `docs/lighting.md`. `--json` prints the "
+     "same numbers on one line. `-o figure.svg` draws the numbers as a figure."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
      "the program that wrote the file, the size and the up axis, triangles, meshes, parts and objects, and the names "
@@ -92,31 +92,31 @@ const struct topic topics[] = {
      "the end, the command prints the memory, the loading time and the warnings. Each list is limited to 8 rows; "
      "`--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF files (in metres) and 3MF "
      "files (which state their unit), the command prints the size, area and volume in millimetres. Other formats "
-     "define no unit. `info` prints the volume only for closed surfaces. In a closed surface, each edge belongs to as "
-     "many triangles in one direction as in the other. `info` also reads files that require an unknown extension, as "
-     "with `--lenient`, and reports the extension. The memory is the sum of the model's size and the memory needed to "
-     "draw a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the depths. If Lambent "
+     "define no unit. `info` prints the volume only for closed surfaces. A surface is closed if the triangles at each "
+     "edge pass along it equally often in both directions. `info` also reads files that require an unknown extension, "
+     "as with `--lenient`, and reports the extension. The memory is the sum of the model's size and the memory needed "
+     "to draw a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the depths. If Lambent "
      "cannot read a model, Lambent reports the error and continues. The exit code is then the highest exit code of all "
      "models."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
      "these pictures with the pictures of the CPU device. Without `--vertex`, Lambent generates a correct vertex "
      "shader. Lambent recognises the contract by the names of uniforms and attributes. If no contract fits, Lambent "
-     "infers the role of each input from the use of the input. `--list` prints the contracts, the scenes and the known "
-     "mistakes. If pictures differ, Lambent draws the same scenes with known mistakes. Lambent reports the smallest "
-     "set of mistakes that reproduces the shader's pictures, and a corrected line for each mistake. `-o` writes a "
-     "sheet that shows, for each scene, the shader's picture, the reference and the difference between them (times "
-     "`--gain`). `--tolerance` (default 2) applies to each channel of a pixel. At most one pixel in 200 may exceed the "
-     "tolerance. The mean difference may be at most a quarter of the tolerance. The shaders run in a separate process. "
-     "`--stop-after` limits the processor time of this process, and `--memory-limit` limits its memory. `lambent check "
-     "--class FOLDER --csv grades.csv -o sheets/` checks a class. A submission is a folder with one fragment shader "
-     "and at most one vertex shader. In a folder with more shaders, each fragment shader forms one submission with the "
-     "vertex shader of the same name. `sheets/index.html` is a page with all results. You can also give several "
-     "shaders: `lambent check */phong.frag */phong.vert` pairs the fragment and vertex shaders of the same folder and "
-     "name. `-o sheets/` then writes a sheet for each shader. If Lambent cannot check a shader, it reports the error "
-     "and checks the other shaders. The exit code is 0 if every scene of every shader matches the reference. "
-     "Otherwise, the exit code is the highest exit code of all shaders. A shader that differs, does not compile, does "
-     "not end or writes NaN has the exit code 6. With `--json`, Lambent prints the report on one line "
+     "infers the role of each input from its use in the shader. `--list` prints the contracts, the scenes and the "
+     "known mistakes. If pictures differ, Lambent draws the same scenes with known mistakes. Lambent reports the "
+     "smallest set of mistakes that reproduces the shader's pictures, and a corrected line for each mistake. `-o` "
+     "writes a sheet that shows, for each scene, the shader's picture, the reference and the difference between them "
+     "(times `--gain`). `--tolerance` (default 2) applies to each channel of a pixel. At most one pixel in 200 may "
+     "exceed the tolerance. The mean difference may be at most a quarter of the tolerance. The shaders run in a "
+     "separate process. `--stop-after` limits the processor time of this process, and `--memory-limit` limits its "
+     "memory. `lambent check --class FOLDER --csv grades.csv -o sheets/` checks a class. A submission is a folder with "
+     "one fragment shader and at most one vertex shader. In a folder with more shaders, each fragment shader forms one "
+     "submission with the vertex shader of the same name. `sheets/index.html` is a page with all results. You can also "
+     "give several shaders: `lambent check */phong.frag */phong.vert` pairs the fragment and vertex shaders of the "
+     "same folder and name. `-o sheets/` then writes a sheet for each shader. If Lambent cannot check a shader, it "
+     "reports the error and checks the other shaders. The exit code is 0 if every scene of every shader matches the "
+     "reference. Otherwise, the exit code is the highest exit code of all shaders. A shader that differs, does not "
+     "compile, does not end or writes NaN has the exit code 6. With `--json`, Lambent prints the report on one line "
      "(`docs/check.schema.json`). For details, see `docs/check.md`."},
     {"shaders", "Shaders for other programs", BIT(SHADER), TOPIC_NO_TABLE, NULL},
     {"diff", "Comparing pictures", BIT(DIFF), TOPIC_NO_TABLE,
@@ -128,11 +128,11 @@ const struct topic topics[] = {
      "`A-difference.png` in that folder. Each channel shows its difference times `--gain`, clamped at white; black "
      "means equal. A pixel that differs only in alpha is grey. A `.pfm` file stores the differences as floats without "
      "clamping. `--json` prints one line with these keys: `a`, `b`, `width`, `height`, `maximum`, `mean`, `rmse`, "
-     "`psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (0 or 1: beyond the tolerance) and `picture`. "
-     "The exit code is 6 if the largest difference exceeds the tolerance, and 1 if the sizes or kinds differ. If OLD "
-     "and NEW are two models or two folders, `lambent diff OLD NEW` draws the models of both sides with one camera. "
-     "`-o report.html` writes a page of added, removed and changed models, with pictures before and after. For "
-     "details, see `docs/pull-requests.md`."},
+     "`psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (1 if the difference exceeds the tolerance, "
+     "otherwise 0) and `picture`. The exit code is 6 if the largest difference exceeds the tolerance, and 1 if the "
+     "sizes or kinds differ. If OLD and NEW are two models or two folders, `lambent diff OLD NEW` draws the models of "
+     "both sides with one camera. `-o report.html` writes a page of added, removed and changed models, with pictures "
+     "before and after. For details, see `docs/pull-requests.md`."},
     {"hash", "Hashes of pictures", BIT(HASH), TOPIC_NO_TABLE,
      "`lambent hash models/ -o pictures.hash` writes a line for each model. The line contains the XXH64 hash of the "
      "picture's pixels (rows from the top; red, green, blue, alpha) and the model's path relative to the file. The "
@@ -156,7 +156,7 @@ const struct topic topics[] = {
      "STL, PLY or 3MF. The command writes geometry, materials with their textures, lights and cameras, as far as the "
      "format supports these kinds of data. Lambent prints a sentence for each kind that it omits. For details, see "
      "`docs/convert.md`."},
-    {"formulas", "Surfaces given by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
+    {"formulas", "Surfaces defined by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v. `--implicit 'x^2+y^2+z^2-1'` "
      "draws the surface on which an expression of x, y and z is zero. `-o torus.obj`, `.stl` or `.ply` saves the "
      "surface as a model file. You can also save built-in shapes: `lambent shape teapot -o teapot.stl`. Normals come "
@@ -175,14 +175,14 @@ const struct topic topics[] = {
      "the lighting of pixels.\nBy default, Lambent writes a picture of 1600x1000 pixels to `attenuation.png`, "
      "`spot.png` or `highlight.png` (with `-o plots/`, in that folder). If the name ends in `.svg`, Lambent writes an "
      "SVG file. The table on standard output lists the distance or angle at which each curve falls below 1/255. With "
-     "`--json`, the table is one line: `plot`, `x`, `y`, `curves` (each with `label`, `below_1_255_from`, null for "
-     "never, and `points`, 101 pairs) and `picture`."},
+     "`--json`, the table is one line: `plot`, `x`, `y`, `curves` and `picture`. Each curve contains `label`, `points` "
+     "(101 pairs) and `below_1_255_from`, which is null if the curve stays above 1/255."},
     {"work", "Threads and devices", BIT(WORK), TOPIC_NO_TABLE, NULL},
     {"limits", "Limits", BIT(LIMITS), TOPIC_NO_TABLE,
      "A malicious file could crash or block a program, or exhaust the machine's memory. Limits prevent such attacks; "
-     "you can change each limit by an option. If a file exceeds a limit, Lambent reports the number found, the number "
-     "allowed, and the option that raises the limit. The exit code is 4. The same limits apply to the decoders for "
-     "pictures and compressed meshes. `SECURITY.md` describes Lambent's security guarantees and their tests."},
+     "you can change each limit with an option. If a file exceeds a limit, Lambent reports the number found, the "
+     "number allowed, and the option that raises the limit. The exit code is 4. The same limits apply to the decoders "
+     "for pictures and compressed meshes. `SECURITY.md` describes Lambent's security guarantees and their tests."},
     {"reports", "Reports", BIT(REPORT), TOPIC_NO_TABLE, NULL},
     {"bytes", "Same picture everywhere", 0, TOPIC_NO_TABLE,
      "The same model and options give identical bytes with every instruction set, number of threads and compiler, on "

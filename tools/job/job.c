@@ -163,7 +163,7 @@ static void warn_maps(struct job *job)
         lam_scene_add_warning(job->scene, text);
 }
 
-// Finds the background of the command line, or else of the scene file.
+// Sets job->background to the background from the command line or, if the command line sets none, from the scene file.
 static bool find_background(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;

@@ -19,7 +19,7 @@ struct job_times {
     int frames;
 };
 
-// The contents of the model before options add to it.
+// The model's contents, before the options add objects and lights.
 struct model_counts {
     uint64_t triangles, lines, points, vertices;
     int meshes, objects, materials, lights;
@@ -72,7 +72,7 @@ struct job {
     bool keeps_scene;            // another job will draw the scene again
     struct model_counts model_counts;
     lam_rig rig;          // the rig that drawing adds to the scene's own lights
-    bool file_lights;     // whether lights of a glTF file, in candela and lux, light the model
+    bool file_lights;     // whether the model is lit by the lights of a glTF file, which are in candela and lux
     bool exposure_fitted; // whether draw.exposure was computed for this picture
     // the scene's lights before lam_studio_fill scaled them, allocated with malloc; NULL if not scaled
     lam_light *unfilled;

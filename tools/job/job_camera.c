@@ -1,4 +1,4 @@
-// job_camera.c: places the camera of a job, and the lights that depend on it.
+// job_camera.c: places the camera of a job, and the lights that depend on the camera.
 #include "job_steps.h"
 
 #include <stdio.h>
@@ -143,7 +143,7 @@ bool job_place_camera(struct job *job, lam_error *error)
     double start = clock_ms();
     if (job->view_count && !(job->cameras = calloc((size_t)job->view_count, sizeof *job->cameras)))
         return complain(error, LAM_LIMIT, "out of memory");
-    for (int i = job->view_count - 1; i >= 0; i--) { // ends with the first view
+    for (int i = job->view_count - 1; i >= 0; i--) { // in reverse order, so that the job is left with the first view
         job_choose_view(job, &job->views[i]);
         fit_camera(job, sphere, job->views[i].side >= 0);
         job->cameras[i] = job->camera;

@@ -29,8 +29,8 @@ bool batch_jobs_is_ready(const struct batch_jobs *jobs);
 // Returns whether no job is waiting and none will arrive.
 bool batch_jobs_over(struct batch_jobs *jobs);
 
-// Gets the next waiting job. With `waits`, waits until there is a job. Returns false if there is no job. Any thread may
-// call it.
+// Gets the next waiting job. Waits until there is a job if `waits` is set. Returns false if there is no job. Any thread
+// may call it.
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
 // Answers a job with its result, and frees it. Any thread may call it.

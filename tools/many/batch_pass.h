@@ -13,8 +13,8 @@ bool batch_begin_pass(struct batch *batch, int pass);
 bool batch_begin_suspects(struct batch *batch);
 void batch_end_suspects(struct batch *batch);
 
-// Gets the next model of the pass, or the next job. With `waits`, waits for a job. Returns false if there is no next
-// model or job, or if the batch must not start any more models. Any thread may call it.
+// Gets the next model of the pass, or the next job. Waits for a job if `waits` is set. Returns false if there is no
+// next model or job, or if the batch must not start any more models. Any thread may call it.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
 // Processes the results of a unit: counters, journal lines, messages, the answer to a job. Any thread may call it.

@@ -5,9 +5,9 @@
 #include "batch_plan.h"
 #include "batch_use.h"
 
-// Draws the planned models and writes the journal and the page. `journal` is the path of the journal, or NULL. With
-// `is_batch`, prints the messages of `batch` (errors and a summary) instead of the messages of `render`. Returns the
-// program's exit code.
+// Draws the planned models and writes the journal and the page. `journal` is the path of the journal, or NULL. Prints
+// the messages of `batch` (errors and a summary) if `is_batch` is set, and otherwise the messages of `render`. Returns
+// the program's exit code.
 int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch);
 
 // Draws the planned models for a purpose other than writing files. Errors are printed in the order of the models.

@@ -58,8 +58,8 @@ static const struct choice shard_by_words[] = {
     {NULL, 0, NULL}};
 static const struct choice light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT,
-     "in object space: the model-view matrix transforms the position, as it transforms the vertices"},
-    {"camera", LAM_FRAME_CAMERA, "in eye space; Lambent does not transform the position"},
+     "object space; the model-view matrix transforms the position in the same way as the vertices"},
+    {"camera", LAM_FRAME_CAMERA, "eye space; Lambent does not transform the position"},
     {NULL, 0, NULL}};
 
 static const struct choice highlight_words[] = {
@@ -126,7 +126,7 @@ static const struct choice show_words[] = {
 
 static const struct choice glsl_words[] = {
     {"330", LAM_GLSL_330, "OpenGL 3.3"},
-    {"120", LAM_GLSL_120, "OpenGL 2.1: with attribute and varying, without uniform blocks and flat inputs"},
+    {"120", LAM_GLSL_120, "OpenGL 2.1: with attribute and varying, without uniform blocks or flat inputs"},
     {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
     {NULL, 0, NULL}};
 
@@ -705,10 +705,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
      "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
      "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
-     "exposure. By default, and with a name that ends in `.png` or `.webp`, Lambent writes all frames to one animated "
-     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame "
-     "to a separate file, in any format. `36,light=model` turns the lights with the model, instead of keeping the "
-     "lights fixed to the camera. Lights that are fixed to an object always turn with the object. For examples, see "
+     "exposure. By default, or if the name ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or "
+     "WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame to a "
+     "separate file, in any format. `36,light=model` turns the lights with the model, instead of keeping the lights "
+     "fixed to the camera. Lights that are fixed to an object always turn with the object. For examples, see "
      "`docs/animation.md`.",
      .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
      FIELD(animation.turntable), .min = 2, .max = 100000},
@@ -739,9 +739,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
      .store = store_number, .others = "frame-rate framerate speed delay", FIELD(animation.fps), .min = 0.1, .max = 240},
 
-    {"threads", 'j', GROUP_WORK, "N", "one per processor",
-     "The number of threads; the picture is the same with any number.", NULL, .store = store_integer,
-     .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024, .single = TAKES_THREADS},
+    {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads; the picture does not depend on it.",
+     NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
+     .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
      "All instruction sets draw identical pictures. Lambent rejects an instruction set that this machine or this build "
      "does not support (exit 3).",
@@ -781,9 +781,9 @@ struct option option_table[OPTIONS_MAX] = {
      .single = TAKES_PICTURE_LIMITS},
     {"triangle-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a model has more triangles than this (exit 4).",
-     "Lines and points count as triangles. Each object counts with all triangles of its mesh, even if several objects "
-     "share the mesh. The default is 50 million plus 100 per byte of the model's files, but at most 200 million. k, M "
-     "and G are powers of 1000.",
+     "Lines and points count as triangles. If several objects share a mesh, its triangles count once for each object. "
+     "The default is 50 million plus 100 per byte of the model's files, but at most 200 million. k, M and G are powers "
+     "of 1000.",
      .store = store_count, .others = "max-triangles polygon-limit vertex-limit", FIELD(limits.triangle_limit),
      .max = 2147483647},
     {"object-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
@@ -824,21 +824,21 @@ struct option option_table[OPTIONS_MAX] = {
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
      "rendering process can read only the folders of the models and of `--allow-path`, and the system's libraries and "
      "fonts. The rendering process cannot change any file. A separate small process outside the sandbox writes the "
-     "pictures, and nothing else. The sandbox consists of two methods: Linux's Landlock and a seccomp filter. `auto` "
-     "uses each method that the kernel supports. `require` fails if a method is missing (exit 3), and restricts scene "
-     "files to their own folder (`--files-inside`) and `--allow-path`. `-v`, `--json` and `--version` report the "
-     "methods in use. The sandbox applies to commands that read models or pictures. `check` and OpenGL need more "
-     "privileges for the graphics driver. With `auto`, Lambent therefore runs both without a sandbox. With `auto`, a "
-     "scene file (`.json`) may refer to files in any folder, unless you give `--files-inside` or `--allow-path`.",
+     "pictures, and nothing else. The sandbox uses two methods of Linux: Landlock and a seccomp filter. `auto` uses "
+     "each method that the kernel supports. `require` fails if a method is missing (exit 3), and restricts scene files "
+     "to their own folder (`--files-inside`) and `--allow-path`. `-v`, `--json` and `--version` report the methods in "
+     "use. The sandbox applies to commands that read models or pictures. `check` and OpenGL need more privileges for "
+     "the graphics driver. With `auto`, Lambent therefore runs both without a sandbox. With `auto`, a scene file "
+     "(`.json`) may refer to files in any folder, unless you give `--files-inside` or `--allow-path`.",
      sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(limits.sandbox),
      .single = TAKES_PICTURE_LIMITS},
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL,
      "Allow models to use this file, or the files in this folder; repeatable.",
      "By default, a model may use only the files in its own folder. If the textures are in `../textures`, add "
-     "`--allow-path ../textures`. Scene files with `--files-inside`, and links in the folders of `batch`, may then "
-     "also point to the allowed folder. The sandbox permits reading the allowed folder. With `--jobs`, all files named "
-     "in jobs must be in an allowed folder, but models can still use only the files in their own folders. Pages (`-o "
-     "FILE.html`) and `view` never include files from other folders.",
+     "`--allow-path ../textures`. Even with `--files-inside`, scene files may refer to files in the allowed folder. "
+     "Links in the folders of `batch` may also lead to it. In the sandbox, Lambent can also read the allowed folder. "
+     "With `--jobs`, all files named in jobs must be in an allowed folder, but models can still use only the files in "
+     "their own folders. Pages (`-o FILE.html`) and `view` never include files from other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -870,9 +870,9 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
-     "Open MPI stops all ranks if one rank exits with a code other than 0. Other schedulers repeat such a task. The "
-     "journal and the messages still report the failures. If a run ends early, for example after a wrong option or an "
-     "interrupt, the command still exits with an error code.",
+     "Open MPI stops all ranks if one rank exits with a code other than 0. Other schedulers repeat a task that exits "
+     "with such a code. The journal and the messages still report the failures. If a run ends early, for example after "
+     "a wrong option or an interrupt, the command still exits with an error code.",
      .store = store_switch, .others = "keep-going ignore-failures ignore-errors", FIELD(batch.failures_ok),
      .single = TAKES_MANY},
     {"skip-same", 0, GROUP_BATCH, NULL, NULL, "Skip pictures whose files and options match the journal.",
@@ -914,7 +914,7 @@ struct option option_table[OPTIONS_MAX] = {
      "of waiting jobs use at most twice this amount of memory.",
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write an HTML page that shows all pictures, failures first.",
-     "Lambent writes the thumbnails to the folder FILE-files next to the page. The page needs no other files and no "
+     "Lambent writes the thumbnails to the folder FILE-files next to the page. The page needs only this folder, and no "
      "network.",
      .kind = VALUE_FILE, .store = store_text, .others = "contact-sheet html gallery page", FIELD(batch.report_page),
      .single = TAKES_REPORT},
@@ -972,7 +972,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,
      .others = "layout", FIELD(sheet.name)},
-    {"title", 0, GROUP_SHEET, "TEXT", NULL, "The title of a sheet, a plot or a figure, in any language; '' for none.",
+    {"title", 0, GROUP_SHEET, "TEXT", NULL,
+     "The title of a sheet, a plot or a figure, in any language; '' omits the title.",
      "An SVG file stores titles and captions as text, so the viewer provides the fonts, supports right-to-left "
      "languages and can read the text aloud. In a PNG file, Lambent draws each letter separately, from left to right. "
      "The default font covers Latin, Greek and Cyrillic. For Chinese, Japanese and Korean, give a font that covers "
@@ -987,9 +988,9 @@ struct option option_table[OPTIONS_MAX] = {
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
      "accepts. The default values of `shininess` are 10, 50 and 1000. `light` draws one light of each type by default, "
      "and `show` (also called `term`) draws the five terms. If you give `--across` twice, the first defines the rows "
-     "of a grid, and the second defines the columns. `mistake=A,B` uses OpenGL to draw a picture with each faulty "
-     "shader next to the correct picture, with the difference between the two pictures. `lambent shader --mistake "
-     "list` lists the known mistakes. `mistake` alone draws all mistakes that are visible in the scene.",
+     "of a grid, and the second defines the columns. `mistake=A,B` uses OpenGL to draw one picture for each mistake, "
+     "next to the correct picture and the difference between the two. `lambent shader --mistake list` lists the known "
+     "mistakes. `mistake` alone draws all mistakes that are visible in the scene.",
      .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(sheet.across)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or an angle in degrees.",
@@ -1002,7 +1003,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"contract", 0, GROUP_CHECK, "NAME", "auto",
      "The contract that defines the shaders' variables: a built-in contract's name, or a file.",
      "`auto` recognises a built-in contract by the names of its variables. If no contract fits, Lambent infers the "
-     "role of each input from the use of the input. `auto` never selects `chile` or `glsl120`; to use one of these "
+     "role of each input from its use in the shader. `auto` never selects `chile` or `glsl120`; to use one of these "
      "contracts, give its name. `--list` prints the contracts. You can also write your own contract in JSON "
      "(`docs/check/contract-file.md`).",
      contract_words, .kind = VALUE_FILE, .store = store_text, FIELD(check.contract)},
@@ -1012,7 +1013,7 @@ struct option option_table[OPTIONS_MAX] = {
      highlight_words, .store = store_word, FIELD(check.highlight)},
     {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
      "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
-     "By default, Lambent expects a term if the shaders declare an input of this term. For example, Lambent expects a "
+     "By default, Lambent expects a term if the shaders declare an input for this term. For example, Lambent expects a "
      "highlight only if the shaders declare a specular colour. If the shaders do not declare an expected colour, "
      "Lambent uses white.",
      term_words, .store = store_words, FIELD(check.terms)},
@@ -1027,10 +1028,10 @@ struct option option_table[OPTIONS_MAX] = {
      "and whether the search stopped at this limit.",
      .store = store_integer, .others = "effort budget tries", FIELD(check.search_limit), .min = 1, .max = 1000000000},
     {"class", 0, GROUP_CHECK, "FOLDER", NULL, "Check every submission in a folder.",
-     "A submission is a sub-folder with one fragment shader, at most one vertex shader and any other files. In the top "
-     "folder, and in sub-folders with more shaders, each fragment shader forms one submission with the vertex shader "
-     "of the same name. With `-o FOLDER/`, Lambent writes a page for the whole class, `index.html`, and a sheet for "
-     "each submission.",
+     "A submission is a sub-folder with one fragment shader, at most one vertex shader and possibly other files. In "
+     "the top folder, and in sub-folders with more shaders, each fragment shader forms one submission with the vertex "
+     "shader of the same name. With `-o FOLDER/`, Lambent writes a page for the whole class, `index.html`, and a sheet "
+     "for each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
     {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,
      .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
@@ -1044,7 +1045,7 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(check.submitty)},
     {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
      "If Lambent recognises a contract, the file contains that contract. Otherwise, the file contains the role of each "
-     "input, which Lambent infers from the use of the input. Correct the file, then check with `--contract FILE` "
+     "input, which Lambent infers from its use in the shader. Correct the file, then check with `--contract FILE` "
      "(`docs/check/contract-file.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
@@ -1105,8 +1106,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"z", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of z, as for `--x`.", NULL, .store = store_text,
      .others = "z-range", FIELD(shape.z_range), .loads = true},
     {"flip", 0, GROUP_SHAPE, NULL, NULL, "Swap front and back faces.",
-     "By default, the front of a parametric surface is the side to which the cross product of the derivatives by u and "
-     "by v points. The front of an implicit surface is the side to which the gradient points.",
+     "By default, the front of a parametric surface is the side to which the cross product of the derivatives with "
+     "respect to u and v points. The front of an implicit surface is the side to which the gradient points.",
      .store = store_switch, .others = "flip-normals invert-normals", FIELD(shading.flip), .loads = true},
     {"object", 0, GROUP_SHADER, "N", "all", "Print the shaders for only one object of the scene, counted from 0.",
      "One pair of shaders usually works for the whole scene. Exceptions are scenes in which only some objects are "
@@ -1126,15 +1127,15 @@ struct option option_table[OPTIONS_MAX] = {
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
      "By default, Lambent uses the font that the environment variable `LAMBENT_FONT` names. If this variable is not "
      "set, Lambent uses the first of these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, "
-     "Noto Sans, FreeSans, Roboto. FreeType draws the letters. Between versions of FreeType, the letters may differ by "
-     "a few shades. The pictures on the sheet are always identical. An SVG file requests DejaVu Sans, but the viewer "
-     "may use another font.",
+     "Noto Sans, FreeSans, Roboto. FreeType draws the letters. With another version of FreeType, the letters may look "
+     "slightly different. The pictures on the sheet are always identical. An SVG file requests DejaVu Sans, but the "
+     "viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw no text, so that no font is needed.", NULL,
      .store = store_switch, .others = "no-text no-labels", FIELD(captions.no_captions)},
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
-     "The settings file: keys of scene files that override the default picture settings.",
+     "The settings file, with keys of scene files that replace the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if this file exists "
      "and the environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks "
      "and options on the command line override settings. Lambent does not apply settings to scene files. `lambent "

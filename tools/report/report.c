@@ -396,7 +396,7 @@ FILE *report_stream(const struct options *options)
     return options->picture.output && strcmp(options->picture.output, "-") == 0 ? stderr : stdout;
 }
 
-// Refers the user to the help of the option or command with which a usage error begins.
+// Prints the command that shows the help of the option or command named at the start of a usage error.
 static void say_where_to_look(const char *text)
 {
     char name[64];

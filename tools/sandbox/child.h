@@ -1,4 +1,4 @@
-// child.h: child processes: copies of this process, each connected to it by two pipes.
+// child.h: starts copies of this process; two pipes connect each copy to this process.
 #ifndef CHILD_H
 #define CHILD_H
 
@@ -15,8 +15,8 @@ struct child {
 #define NO_CHILD ((struct child){0, -1, -1})
 
 // Starts `work` in a copy of this process. The copy ends when this process ends. `work` reads from `from`, writes to
-// `to` and does not return. Other threads of this process may hold locks. If there are any, `work` may only make system
-// calls. Returns false and sets errno on failure.
+// `to` and does not return. If this process has other threads, `work` may only make system calls, because these threads
+// may hold locks. Returns false and sets errno on failure.
 typedef void child_work(void *user, int from, int to);
 bool child_start(struct child *child, child_work *work, void *user);
 
@@ -37,7 +37,8 @@ struct child_bytes {
     size_t size, capacity;
 };
 
-// Makes room for `more` more bytes, or appends bytes. Both return false if memory runs out.
+// child_bytes_reserve makes room for `more` more bytes, and child_bytes_add appends bytes. Both return false if memory
+// runs out.
 bool child_bytes_reserve(struct child_bytes *bytes, size_t more);
 bool child_bytes_add(struct child_bytes *bytes, const void *data, size_t size);
 

@@ -138,8 +138,8 @@ static uint64_t rights_of(int version)
            (version >= 5 ? IOCTL_DEV : 0);
 }
 
-// Returns whether the process has run out of file handles or memory. This error is unrelated to the sandbox and to the
-// path.
+// Returns whether the process has run out of file handles or memory. Such an error is unrelated to the sandbox and to
+// the path.
 static bool is_exhausted(int reason) { return reason == EMFILE || reason == ENFILE || reason == ENOMEM; }
 
 // Adds a rule for a path. Returns false if the kernel rejects the rule, or if file handles or memory run out. A path

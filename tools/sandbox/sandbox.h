@@ -1,6 +1,6 @@
-// sandbox.h: drops the privileges that reading untrusted files does not need: access to files outside a few folders
-// (Landlock), to other programs, the network and other processes (a seccomp filter). Dropped privileges cannot be
-// regained. The sandbox works on Linux on x86-64 and aarch64; other systems have no sandbox.
+// sandbox.h: drops the privileges that reading untrusted files does not need. Landlock removes access to files outside
+// a few folders. A seccomp filter removes access to other programs, the network and other processes. Dropped privileges
+// cannot be regained. The sandbox works on Linux on x86-64 and aarch64; other systems have no sandbox.
 #ifndef SANDBOX_H
 #define SANDBOX_H
 
@@ -8,7 +8,7 @@
 
 enum {
     SANDBOX_READ = 1,  // a file, or all files in a folder and its subfolders
-    SANDBOX_WRITE = 2, // a pipe or a device; the writer writes files (writer.h)
+    SANDBOX_WRITE = 2, // a pipe or a device, but not a file, which the writer writes (writer.h)
     // SANDBOX_MAKE lets the writer create a file, and replace a file that Lambent wrote. SANDBOX_REPLACE lets the
     // writer replace any file.
     SANDBOX_MAKE = 4,
@@ -49,9 +49,9 @@ struct sandbox_state {
 // Returns the protections that the kernel offers. Changes nothing.
 struct sandbox_state sandbox_offered(void);
 
-// Enters the sandbox. Landlock applies to this thread and the threads that it starts later, the filter to all threads,
-// so call it before threads start. Skips protections that the kernel lacks and reports them in `state`. Fails with
-// LAM_LIMIT if memory runs out.
+// Enters the sandbox. Must be called before threads start: Landlock applies only to this thread and the threads that it
+// starts later. The filter applies to all threads. Skips protections that the kernel lacks and reports them in `state`.
+// Fails with LAM_LIMIT if memory runs out.
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error);
 
 // Writes one line such as "Landlock 7 and seccomp", "seccomp; Landlock is missing: …" or "off". Returns `out`.

@@ -1,7 +1,7 @@
 // sandbox_filter.c: installs the seccomp filter, which allows the system calls needed for reading and drawing. All
-// other calls fail with ENOSYS. The process therefore cannot run programs, create sockets, create, trace, signal,
-// measure or slow down other processes, create, rename, remove or change the permissions of files, or mount file
-// systems. https://docs.kernel.org/userspace-api/seccomp_filter.html
+// other calls fail with ENOSYS. The process therefore cannot run programs, create sockets or mount file systems. It
+// cannot create, trace, signal, measure or slow down other processes, and it cannot create, rename or remove files or
+// change their permissions. https://docs.kernel.org/userspace-api/seccomp_filter.html
 
 // The filter returns ENOSYS instead of killing the process, so that C libraries that try a newer call fall back to an
 // older call. The filter is written by hand because it consists of two lists, and libseccomp would be another library
@@ -247,8 +247,8 @@ static void put(struct program *p, unsigned short code, unsigned k, unsigned cha
 static void load(struct program *p, size_t offset) { put(p, BPF_LD | BPF_W | BPF_ABS, (unsigned)offset, 0, 0); }
 static void end(struct program *p, unsigned result) { put(p, BPF_RET | BPF_K, result, 0, 0); }
 
-// Executes the next `length` instructions, which end the program, only for this call. The number of the call must
-// already be loaded.
+// Executes the next `length` instructions only for this call. These instructions end the filter program. The number of
+// the call must already be loaded.
 static void if_call(struct program *p, unsigned call, size_t length)
 {
     put(p, BPF_JMP | BPF_JEQ | BPF_K, call, 0, (unsigned char)length);
@@ -262,7 +262,7 @@ static void allow(struct program *p, const unsigned *calls, size_t count)
     }
 }
 
-enum { BESIDE_VALUES = 3 }; // the number of instructions of a condition besides the comparisons
+enum { BESIDE_VALUES = 3 }; // the number of instructions of a condition, not counting the comparisons
 
 static void check(struct program *p, const struct condition *c)
 {

@@ -61,7 +61,7 @@ void sandbox_add_older(struct sandbox_paths *paths, const char *path)
     if (strcmp(path, "-") == 0 || stat(path, &about) != 0)
         return;
     if (S_ISREG(about.st_mode))
-        sandbox_add(paths, path, SANDBOX_READ); // reading shows whether Lambent wrote the file
+        sandbox_add(paths, path, SANDBOX_READ); // reading the file shows whether Lambent wrote it
     else if (!S_ISDIR(about.st_mode))
         sandbox_add(paths, path, SANDBOX_WRITE);
 }

@@ -27,8 +27,8 @@ enum writer_right {
 // Returns the access right that the writer has for a path. Called in the writer, by one thread at a time.
 typedef enum writer_right writer_rule(void *user, const char *path);
 
-// Starts the writer with `count` connections for as many threads. The writer writes files of at most `largest` bytes (0
-// means unlimited). Must be called before threads start. Fails with LAM_LIMIT.
+// Starts the writer with one connection for each of `count` threads. The writer writes files of at most `largest` bytes
+// (0 means unlimited). Must be called before threads start. Fails with LAM_LIMIT.
 bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error);
 
 // Returns whether this process or its parent has started the writer.

@@ -196,8 +196,7 @@ bool material_option_set(const struct material_option *option, bool back, const 
     return found > 0;
 }
 
-// Returns a copy of a material that is masked out everywhere: surfaces with the copy are not drawn and do not block
-// light.
+// Returns an invisible copy of a material: surfaces with the copy are not drawn and do not block light.
 static lam_material clear_copy(lam_material material)
 {
     material.diffuse.a = 0;

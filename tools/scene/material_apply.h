@@ -11,8 +11,8 @@ bool material_option_set(const struct material_option *option, bool back, const 
                          lam_error *error);
 
 // Hides the objects with this name (--hide). If there are no such objects, hides the parts with this name. If there are
-// no such parts either, hides the surfaces with a material of this name. If the model does not contain the name, adds a
-// warning if `may_lack` is set, and fails otherwise.
+// no such parts either, hides the surfaces with a material of this name. If the model does not contain the name, the
+// function adds a warning (if `may_lack` is set) or fails.
 bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, lam_error *error);
 
 #endif

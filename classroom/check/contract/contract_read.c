@@ -118,8 +118,8 @@ static void complete_defaults(struct contract *c)
             *colors[i].color = (struct default_color){COLOR_GIVEN, {1, 1, 1}};
 }
 
-// Returns the space of the lights: the space of the first name that belongs to a light. If there is no such name,
-// returns the space of the default light. Without a default light, returns the space of the lighting.
+// Returns the space of the first name that belongs to a light. If there is no such name, the result is the space of the
+// default light or, without a default light, the space of the lighting.
 static lam_light_frame light_frame_of(const struct contract *c)
 {
     const struct contract_defaults *d = &c->defaults;
@@ -156,8 +156,8 @@ static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
     }
     if (c->reflection == LAM_REFLECTION_GGX && !has(c, SEMANTIC_METALLIC) && !has(c, SEMANTIC_ROUGHNESS))
         return json_fail(&r->json, KEY_OF(NULL, "uniforms"),
-                         "found no name with the role metallic or roughness, which the highlight metallic-roughness "
-                         "needs");
+                         "found no name with the role metallic or roughness; the highlight metallic-roughness needs "
+                         "one of these roles");
     bool drawn = has(c, SEMANTIC_POSITION);
     for (const char *const *word = c->built_ins; *word; word++)
         drawn = drawn || strcmp(*word, "gl_Vertex") == 0;

@@ -45,8 +45,8 @@ bool contract_read_varyings(struct contract_reader *r, const json_t *root)
             i++;
         if (i == sizeof words / sizeof *words)
             return json_fail(&r->json, KEY_OF(place, key),
-                             "unknown key; expected normal, position, to_light or to_eye, also after object_, world_ "
-                             "or eye_, distance or texture_coordinate");
+                             "unknown key; expected normal, position, to_light or to_eye, alone or after object_, "
+                             "world_ or eye_; or distance or texture_coordinate");
         rows->semantic = words[i].semantic;
         rows->space = (lam_light_frame)space;
         if (!contract_read_list(r, KEY_OF(place, key), list, " ", true, true, &rows->names))

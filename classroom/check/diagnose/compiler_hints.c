@@ -119,8 +119,7 @@ static bool hint_young_function(struct diagnostics *diagnostics, const struct de
     return false;
 }
 
-// For the undeclared `name`, used at word `at`, returns the name that was probably meant: one of the names that are
-// declared there, or NULL.
+// Returns the declared name that the author probably meant by the undeclared `name` at word `at`, or NULL.
 static const char *nearest_declared(const struct declarations *d, const char *name, int at)
 {
     bool called = at + 1 < d->word_count && strcmp(d->words[at + 1].text, "(") == 0;

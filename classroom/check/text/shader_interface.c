@@ -248,8 +248,8 @@ static void apply_lambent_rules(struct shader_interface *r)
         r->groups[g].kinds |= NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
 }
 
-// For a shader with Lambent's names, returns the possible kinds of light, which follow from the members that the shader
-// reads, such as lights[i].cone.
+// Returns the possible kinds of light of a shader with Lambent's names. The kinds follow from the members that the
+// shader reads, such as lights[i].cone.
 static unsigned lambent_light_kinds(const struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;

@@ -37,10 +37,10 @@ bool file_read_named(const char *path, size_t folder, const char *shown, bool fr
 // Checks that a path is a regular file, before another library opens it. Fails with LAM_CANNOT_READ if it is not.
 bool file_check_regular(const char *path, lam_error *error);
 
-// Resolves every link and ".." of a path. If the resolved path is the folder or is inside it, returns the resolved
-// path, allocated with malloc. A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is
-// then true) or cannot be resolved (errno says why). Sets *length to the length of the folder at the start of the
-// result, including its '/', or to 0 if the path is the folder itself.
+// Resolves every link and ".." of a path. Returns the resolved path, allocated with malloc, if it is the folder or is
+// inside the folder. A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is then
+// true) or cannot be resolved (errno says why). Sets *length to the length of the folder at the start of the result,
+// including its '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
 // A large open file, of which any thread may read sections.

@@ -242,7 +242,7 @@ bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const
             fill_group(&w, g, count);
     }
     fill_materials(&w, count, capacity, frame, materials);
-    // No tone curve is steeper than linear light, except these three.
+    // Only these three tone curves are steeper than linear light.
     lam_tone tone = frame->settings.tone;
     float steep = tone == LAM_TONE_ACES || tone == LAM_TONE_AGX || tone == LAM_TONE_CONTRAST ? 4.0f : 1.0f;
     float slope = steep * (frame->settings.color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;

@@ -19,7 +19,7 @@ enum {
 struct bin_block {
     struct bin_block *next;
     uint32_t count;
-    uint32_t ids[BIN_BLOCK_IDS]; // for back faces, BIN_BLOCK_BACK_FACES numbers followed by as many bounds
+    uint32_t ids[BIN_BLOCK_IDS]; // for back faces, BIN_BLOCK_BACK_FACES numbers followed by their bounds
 };
 
 // One triangle of a clipped polygon: its own window coordinates, and the number of the original triangle.

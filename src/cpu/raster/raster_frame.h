@@ -13,7 +13,7 @@ struct chunk {
     uint32_t draw, first, count;
 };
 
-// The steps only read this struct. The exceptions are the vertices, which vertex_transform fills, and the work.
+// The steps change only two members: vertex_transform fills `vertices`, and the workers add to `work`.
 struct raster_frame {
     const struct frame *frame;
     const struct sample_pattern *pattern;

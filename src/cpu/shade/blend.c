@@ -203,8 +203,8 @@ struct layer_sum {
 static float mean_of(const float left[3]) { return (left[0] + left[1] + left[2]) * (1 / 3.0f); }
 
 // Sums the layers of a sample with a transmittance per channel. A fragment with opacity a, colour C and transmittance T
-// changes the light L behind it to C a + L (1 - a (1 - T)). Behind a surface that refracts, opaque surfaces are
-// omitted, because the picture behind, which this surface shows, already contains them.
+// changes the light L behind it to C a + L (1 - a (1 - T)). A surface that refracts shows the picture behind it, which
+// already contains the opaque surfaces. They are therefore omitted.
 static struct layer_sum sum_layers(const struct fragments *fragments, const struct layer_rows *rows,
                                    const struct layer *layers, uint32_t count, int sample, struct recorder *recorder,
                                    int pixel, float share)

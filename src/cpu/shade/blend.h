@@ -42,8 +42,8 @@ uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragmen
                       const struct layer_rows *rows, struct blend_scratch *scratch, const struct tile_part *part,
                       struct pixel_sums *sums, struct recorder *recorder);
 
-// For outputs without colours, replaces sorting and blending: stores the nearest fragment of each sample in the tile's
-// visibility buffer.
+// Stores the nearest fragment of each sample in the tile's visibility buffer. This step replaces sorting and blending
+// for outputs without colours.
 void show_layers(const struct sample_pattern *pattern, const struct fragments *fragments, const struct layer_rows *rows,
                  struct tile_samples *samples);
 

@@ -33,7 +33,7 @@ struct list_block {
         uint32_t duplicates[BLOCK_DUPLICATES][2]; // a vertex, and the vertex that represents its position
     };
 };
-_Static_assert(sizeof(struct list_block) <= BLOCK_BYTES, "blocks lie side by side");
+_Static_assert(sizeof(struct list_block) <= BLOCK_BYTES, "a list's block must fit into BLOCK_BYTES");
 
 // The lists of one thread.
 struct block_lists {

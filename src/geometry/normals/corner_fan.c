@@ -15,7 +15,7 @@ struct fan_edge {
     uint32_t incoming; // 0: the triangle's edge starts at the position; 1: the edge ends at the position
 };
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
-               "a fan's sum must fit into the memory of a corner's edges");
+               "the memory of a corner's two edges must also hold a fan's sum of normals");
 
 // Tolerance for the rounding of float positions: equal angles between faces may differ in the seventh digit.
 #define CREASE_SLACK 1e-6
@@ -144,7 +144,7 @@ static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_c
 }
 
 // Neighbours with consistent winding traverse their common edge in opposite directions: the next corner of one is at
-// the previous corner of the other. This function tests every pair, and is used for few corners.
+// the previous corner of the other. Tests every pair, so it is used only for few corners.
 static void join_few(struct fan_corner *around, uint32_t count, double min_cosine)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -164,9 +164,9 @@ static int compare_edges(const void *left, const void *right)
     return a->corner < b->corner ? -1 : a->corner > b->corner;
 }
 
-// Sorts the edges first; this function is used for many corners. If very many triangles share an edge, there would be
-// too many pairs. In this case, each outgoing edge is tested only against the incoming edge of the same rank. No real
-// surface has such an edge.
+// Joins many corners, after sorting their edges. If very many triangles share an edge, there are too many pairs of
+// corners. Each outgoing edge is then tested only against the incoming edge of the same rank. No real surface has such
+// an edge.
 static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_t count, double min_cosine)
 {
     enum { PAIRS_MAX = 256 };
@@ -198,7 +198,7 @@ static void join_many(struct fan_corner *around, struct fan_edge *edges, uint32_
 }
 
 // Returns the fan for a corner of a degenerate triangle: the fan of the first non-degenerate triangle that shares an
-// edge with this triangle, or else the fan of corner `otherwise`.
+// edge with this triangle. Returns the fan of corner `otherwise` if there is no such triangle.
 static uint32_t neighbouring_fan(const struct fan_corner *around, uint32_t count, uint32_t i, uint32_t otherwise)
 {
     enum { EXAMINED_MAX = 64 }; // limits the time for a million such corners at one position

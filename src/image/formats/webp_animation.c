@@ -111,7 +111,7 @@ static bool animation_finish(void *state, const lam_save_params *params, lam_byt
         !animation->WebPAnimEncoderAssemble(animation->encoder, &data))
         return fail(error, LAM_LIMIT, "WebP: libwebpmux cannot make the animation: %.200s",
                     animation->WebPAnimEncoderGetError(animation->encoder));
-    *out = (lam_bytes){malloc(data.size), data.size}; // copied, because the library may use another allocator
+    *out = (lam_bytes){malloc(data.size), data.size}; // the library may use another allocator
     if (out->data)
         memcpy(out->data, data.bytes, data.size);
     animation->webp.WebPFree((void *)(uintptr_t)data.bytes);

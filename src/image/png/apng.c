@@ -217,7 +217,7 @@ static size_t frame_bytes(const struct apng_frame *frame)
     return bytes;
 }
 
-// Copies the chunks of a frame's PNG. For the first frame, also copies the chunks before the picture.
+// Copies the chunks of a frame's PNG. Also copies the chunks before the picture if the frame is the first.
 static void put_frame(struct writer *writer, const struct apng *apng, int index)
 {
     const struct apng_frame *frame = &apng->frames[index];

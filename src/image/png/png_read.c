@@ -107,8 +107,8 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool ke
     return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
 }
 
-// Sets *wide to whether the file has 16 bits per channel; if so, all bits are kept. If `wide` is NULL, converts 16-bit
-// samples to 8 bits and adds an alpha channel if the file has none.
+// Sets *wide to whether the file has 16 bits per channel; if so, all bits are kept. If `wide` is NULL, 16-bit samples
+// are converted to 8 bits, and an alpha channel is added if the file has none.
 static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     struct spng_ihdr header;

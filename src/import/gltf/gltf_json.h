@@ -48,8 +48,8 @@ const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok);
 
 // Returns the index of the element of `list` (NULL means empty) whose name is `wanted`. If no name matches, `wanted`
-// may be an index. If there is no such element, returns −1 with an error that lists the elements; `what` is the noun
-// for an element.
+// may be an index. Returns −1 if there is no such element; the error then lists the elements. `what` is the noun for an
+// element.
 int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, const char *what);
 
 #endif

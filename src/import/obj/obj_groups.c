@@ -110,7 +110,7 @@ static bool same_name(const char *a, const char *b) { return a == b || (a && b &
 
 // --- parts
 
-// Sets *out to "object/group", or to the only one of the two names that exists.
+// Sets *out to "object/group" or, if only one of the two names exists, to that name.
 static bool join_names(const struct state *state, const char *object, const char *group, const char **out,
                        lam_error *error)
 {

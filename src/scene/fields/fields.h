@@ -16,8 +16,8 @@ enum field_reader {
     FIELD_LOBE,        // read by reflection models that list it as a parameter
     FIELD_LAYER,       // read for physical materials with the layer
     FIELD_ENVIRONMENT, // read for the mirrored environment
-    FIELD_CHOICE,      // not read, because it selects the reflection model
-    FIELD_NEVER,       // not read, because it is part of another field
+    FIELD_CHOICE,      // selects the reflection model and is therefore not read
+    FIELD_NEVER,       // is part of another field and is therefore not read
 };
 
 struct material_field {

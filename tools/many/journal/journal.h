@@ -29,8 +29,8 @@ struct journal_run {
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
-// Returns the latest line for a picture's path. With SAME, also finds a line by the path below the folder of the
-// pictures, regardless of the spelling of this folder. Returns NULL if there is no line. The caller calls json_decref.
+// Returns the latest line for a picture's path. SAME also finds a line by the path below the folder of the pictures,
+// regardless of the spelling of this folder. Returns NULL if there is no line. The caller calls json_decref.
 json_t *journal_find(const struct journal *journal, const char *output);
 
 // Appends a record. One thread at a time may call it. Fails with LAM_CANNOT_WRITE.
@@ -59,7 +59,7 @@ void journal_each_running(const struct journal *journal,
 // errno is 0 if the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
-// Closes the journal. `done` means that the run was completed. FILE.running is removed, also after a failed run, unless
+// Closes the journal. `done` means that the run was completed. FILE.running is removed, even after a failed run, unless
 // the run was interrupted while drawing. NULL is allowed.
 void journal_close(struct journal *journal, bool done, bool interrupted);
 

@@ -22,7 +22,7 @@
 #include "picture_json.h"
 #include "view_words.h"
 
-static lam_cancel cancel; // cancels the current request; global, because a signal handler uses it
+static lam_cancel cancel; // cancels the current request; it is global because a signal handler uses it
 
 static void cancel_request(int number)
 {

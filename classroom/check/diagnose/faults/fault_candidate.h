@@ -6,7 +6,7 @@
 
 // A scene, or the set of all scenes, is explained if at most this fraction of the difference without faults remains.
 static const double max_ratio_explained = 0.125;
-// Used as the limit of a mean difference if there is no limit.
+// This limit of a mean difference excludes nothing.
 static const double no_limit = 1e9;
 
 // A set of faults, and the remaining difference.

@@ -174,7 +174,7 @@ static bool find_also(struct state *t, const struct candidate *best, int i, stru
     return true;
 }
 
-// Stores a candidate as the result, with the fault that explains most first.
+// Stores a candidate as the result, and puts the fault that explains most first.
 static bool store(struct state *t, struct candidate *c, lam_error *error)
 {
     struct fault_search *s = t->s;

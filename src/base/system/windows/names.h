@@ -8,7 +8,7 @@
 // Converts a path for the Windows API: with backslashes, and absolute if it is long. The result is allocated with
 // malloc. Returns NULL and sets errno on failure.
 wchar_t *wide_path(const char *path);
-// Converts text to UTF-8, allocated with malloc. With `is_path`, replaces backslashes with slashes. Returns NULL if
+// Converts text to UTF-8, allocated with malloc. Replaces backslashes with slashes if `is_path` is set. Returns NULL if
 // memory runs out.
 char *narrow_text(const wchar_t *text, int is_path);
 // Sets errno from GetLastError(), and returns −1.

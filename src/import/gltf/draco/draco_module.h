@@ -40,7 +40,7 @@ struct draco_functions {
     void (*free)(void *mesh);
 };
 
-// The only symbol that the shared object exports, besides the C++ operators new and delete, which count Draco's memory.
+// The only symbol that the shared object exports, except the C++ operators new and delete, which count Draco's memory.
 const struct draco_functions *lambent_draco_functions(void);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-// gltf_textures.c: reads textures, samplers and images. Materials request their maps while they are read. Then the
-// pictures of all maps are decoded in parallel.
+// gltf_textures.c: reads textures, samplers and images. Each material requests its maps while the material is read.
+// Then the pictures of all maps are decoded in parallel.
 #include "gltf_textures.h"
 
 #include "gltf_buffers.h"
@@ -272,7 +272,7 @@ static void decode_picture(void *user, size_t index, int thread)
         texture_decode(picture->data, picture->size, picture->name, picture->values, decoding->call, &picture->error);
 }
 
-// Finds the bytes of the requested pictures. Stores the *count pictures to decode in `list`.
+// Finds the bytes of the requested pictures. Fills `list` with the *count pictures that must be decoded.
 static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t *count)
 {
     lam_error *error = gltf->json.error, reason;

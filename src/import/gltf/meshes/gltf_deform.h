@@ -12,9 +12,8 @@ struct gltf_deformation {
     const struct gltf_skin *skin; // may be NULL
 };
 
-// If a skin, or morph targets with nonzero weights, change positions, normals, tangents or texture coordinates,
-// replaces these arrays of the mesh with changed copies. Sets *skinned to whether the positions are now in the file's
-// space.
+// Replaces the mesh's positions, normals, tangents and texture coordinates with changed copies, if a skin or morph
+// targets with nonzero weights change them. Sets *skinned to whether the positions are now in the file's space.
 bool gltf_deform(struct gltf *gltf, const struct place *place, const json_t *primitive,
                  const struct gltf_deformation *deformation, lam_mesh *mesh, bool *skinned);
 

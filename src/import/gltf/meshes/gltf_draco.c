@@ -118,7 +118,7 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
     if (!gltf_take_accessor(gltf, primitive_place, primitive, "indices", &accessor))
         return false;
     if (!accessor)
-        return json_fail(&gltf->json, primitive_place, "indices is missing, which a compressed mesh has");
+        return json_fail(&gltf->json, primitive_place, "indices is missing; a compressed mesh needs it");
     if (accessor->width != 1 ||
         (accessor->component != GLTF_U8 && accessor->component != GLTF_U16 && accessor->component != GLTF_U32))
         return true; // gltf_indices reports the wrong type
@@ -168,7 +168,7 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     struct gltf *gltf = d->gltf;
     struct draco_claim claim;
     if (!draco_header_read(view->data, view->size, &claim))
-        return json_fail(&gltf->json, d->place, "the compressed bytes are damaged: they have no header of a mesh");
+        return json_fail(&gltf->json, d->place, "the compressed bytes are damaged: they contain no mesh header");
     if (!call_check_triangles(gltf->source->call, gltf->source->name, claim.faces, "triangles", gltf->json.error))
         return false;
     uint64_t points_max = 3 * call_triangle_limit(gltf->source->call);

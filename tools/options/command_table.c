@@ -114,8 +114,8 @@ const struct command command_table[] = {
              1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
          .min_operands = 1, .max_operands = 1, .one_more = "the command prints the lights of one model"},
     [COMMAND_shape] = {"shape", "[NAME]",
-                       "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save the "
-                       "shape as OBJ, STL or PLY.",
+                       "Draw a built-in shape or a surface that formulas define (--parametric, --implicit), or save it "
+                       "as OBJ, STL or PLY.",
                        ALL | 1ull << GROUP_SHAPE | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 0,
                        .max_operands = 1, .defaults = shape_defaults},
     [COMMAND_view] =
@@ -223,7 +223,7 @@ const struct example examples[] = {
     {"lambent shader teapot --glsl 120 --host c -o teapot",
      "writes the model's shaders, and C code that sets their inputs", false},
     {"lambent shape --parametric 'x=u*cos(v); y=u*sin(v); z=cos(3u)' --u 0..4 -o ripple.obj",
-     "saves a surface given by formulas as a model", false},
+     "saves a model of a surface that formulas define", false},
     {"lambent shape --implicit 'x^2+y^2+z^2-1'", "draws an implicit surface, here a sphere", false},
     {"lambent diff old.png new.png -o where.png", "prints and draws the difference between two pictures", false},
     {"lambent diff old/ new/ -o report.html", "shows models before and after a change on one page", false},

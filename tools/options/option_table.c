@@ -360,8 +360,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto",
      "The tone curve: none, reinhard, aces, agx, khronos-neutral or contrast.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
-     "with physical materials, and `contrast` for grey scans, figures and terrains that the studio's lights light. For "
-     "all other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. Floating-point "
+     "with physical materials, and `contrast` for grey scans, figures and terrains under the studio's lights. For all "
+     "other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. Floating-point "
      "pictures store the light without the curve. For the formulas, see `docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
@@ -574,7 +574,7 @@ struct option option_table[OPTIONS_MAX] = {
      NULL, .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
      "Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then for surfaces "
-     "with the material of that name. Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent "
+     "whose material has that name. Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent "
      "view` and the web page list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL,

@@ -159,7 +159,7 @@ static bool is_dark(const struct scene_comparison *scene, const float *picture)
 }
 
 // A black picture of a black scene proves nothing. A black scene scores no points if the shader fails in another scene.
-// A shader with only black scenes gets no verdict.
+// If all scenes are black, there is no verdict.
 static bool weigh_darkness(struct run *r, lam_error *error)
 {
     bool lit = false;
@@ -172,7 +172,7 @@ static bool weigh_darkness(struct run *r, lam_error *error)
     return lit || r->report->verdict == LAM_CHECK_NOT_NUMBER || r->interface.printed_model == LAM_REFLECTION_NONE ||
            fail(error, LAM_BAD_ARGUMENT,
                 "no verdict: the shader declares no colour, strength or light of the contract %s, so nothing can be "
-                "lit; `undeclared` in a contract states the numbers (docs/check/contract-file.md)",
+                "lit; `undeclared` in a contract sets their values (docs/check/contract-file.md)",
                 r->interface.contract->name);
 }
 
@@ -291,7 +291,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         usable += !r->scenes[i].spoilt;
     }
     s.before /= usable;
-    for (int i = 0; i < r->scene_count; i++) // because some scenes show other features besides the tested one
+    for (int i = 0; i < r->scene_count; i++) // because some scenes show the tested feature together with other features
         s.needs |=
             (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
             (r->interface.contract->has_attenuation && (r->interface.supports & NEED_POINT) ? NEED_ATTENUATION : 0);

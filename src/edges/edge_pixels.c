@@ -2,9 +2,9 @@
 //
 // The coverage of a pixel is the area of its square that a strip of the stroke's width covers. Projected across the
 // strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
-// strip's angle. Therefore, for any position of a line, its coverage along any row or column that crosses the line adds
-// up to the width of the line in that direction. At a crossing the largest coverage is used, so that edges shared by
-// two triangles, and corners, are not darker than other edges.
+// strip's angle. Therefore, in any row or column that crosses a line, the line's coverage adds up to the width of the
+// line in that direction. The sum does not depend on the line's position. If several strokes cover a pixel, the largest
+// coverage is used, so that corners and edges shared by two triangles are not darker than other edges.
 #define LANES 1
 #include "edge_lines.h"
 

@@ -31,7 +31,7 @@ struct environment_samples {
     const float *density; // 6 faces, row by row: the density of `light` per area, for faces from −1 to 1
 };
 
-// Selects `count` directions. `to_environment` rotates the caller's axes to the environment's. `storage` owns the
+// Selects `count` directions. `to_environment` rotates the caller's axes to the environment's axes. `storage` owns the
 // samples. `call` may be NULL.
 bool environment_samples_make(struct environment_samples *samples, const struct lam_environment *cube,
                               const float to_environment[3][3], int count, struct buffer *storage,

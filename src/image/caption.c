@@ -60,7 +60,7 @@ struct lam_font {
 static bool open_freetype(struct freetype *ft, lam_error *error)
 {
     const char *fault = library_open_functions(&ft->handle, "libfreetype.so.6", false, LIBRARY_NAMES(FUNCTIONS),
-                                               "lacks functions that FreeType 2 has");
+                                               "lacks functions that FreeType 2 provides");
     return !fault || fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 %s; " NEEDED, fault);
 }
 
@@ -259,7 +259,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
 lam_font *lam_font_open(const char *path, lam_error *error)
 {
     (void)path;
-    fail(error, LAM_UNSUPPORTED, "text: this build has no FreeType (libfreetype-dev was missing)");
+    fail(error, LAM_UNSUPPORTED, "text: this build does not include FreeType (libfreetype-dev was missing)");
     return NULL;
 }
 
@@ -275,7 +275,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
                    const char *text, lam_error *error)
 {
     (void)image, (void)font, (void)x, (void)y, (void)size_px, (void)color, (void)text;
-    return fail(error, LAM_UNSUPPORTED, "text: this build has no FreeType (libfreetype-dev was missing)");
+    return fail(error, LAM_UNSUPPORTED, "text: this build does not include FreeType (libfreetype-dev was missing)");
 }
 
 #endif

@@ -106,7 +106,7 @@ static const struct codec *codec_for(const char *path, lam_error *error)
 
 struct pool *encoding_pool(const lam_image *image, int threads)
 {
-    // Starting a thread takes as long as encoding some thousand pixels, so each thread gets at least 65536 pixels.
+    // Starting a thread takes as long as encoding a few thousand pixels, so each thread encodes at least 65536 pixels.
     const int64_t max_threads = (int64_t)image->width * image->height >> 16;
     if (threads == 0)
         threads = processor_count();

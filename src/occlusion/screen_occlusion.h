@@ -2,8 +2,8 @@
 //
 // The visible surfaces are treated as a height field. Around a pixel, a plane through the view vector cuts the height
 // field. In this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
-// (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). Sixteen neighbours rotate
-// their planes by different angles, and an edge-aware filter of that size averages the results.
+// (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). The planes of 4 × 4
+// neighbouring pixels are rotated by different angles, and an edge-aware filter averages the results.
 // docs/lighting/occlusion.md lists the formulas.
 #ifndef SCREEN_OCCLUSION_H
 #define SCREEN_OCCLUSION_H
@@ -16,7 +16,7 @@
 struct pool;
 
 // The grid of cells for which occlusion is computed: the picture's pixels or, in pictures of more than SCREEN_FINE
-// pixels, cells of two by two pixels, which take a quarter of the time. Each pixel then gets the mean of the
+// pixels, cells of two by two pixels, which take a quarter of the time. The value of a pixel is then the mean of the
 // surrounding cells on its surface.
 struct screen_occlusion {
     int width, height;           // the size of the picture

@@ -1,4 +1,4 @@
-// reference_scene.h: the reference scenes, each of which tests one feature. Other code gets the reference scenes as
+// reference_scene.h: the reference scenes, each of which tests one feature. Other code uses the reference scenes as
 // scenes for the CPU device and as values for a shader's uniforms.
 #ifndef REFERENCE_SCENE_H
 #define REFERENCE_SCENE_H

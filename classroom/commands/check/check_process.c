@@ -2,7 +2,7 @@
 // stopped when it exceeds its time or memory limit. A crash is reported as a verdict.
 //
 // The time limit applies to the processor time of all threads, so that other load on the machine does not make a shader
-// appear endless. The processor may be idle while a graphics card works, so the elapsed time is limited too, to
+// appear endless. The processor may be idle while a graphics card works, so the elapsed time is also limited, to
 // WALL_TIMES times the limit of processor time.
 #include "check.h"
 

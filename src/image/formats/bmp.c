@@ -4,7 +4,7 @@
 // https://www.fileformat.info/format/os2bmp/egff.htm
 //
 // In pixels of 32 bits without masks, the fourth byte is ignored, as the format specifies. Pixels that the run lengths
-// skip get the first colour of the palette. Colour profiles are ignored.
+// skip have the first colour of the palette. Colour profiles are ignored.
 #include "codec.h"
 #include "fail.h"
 #include "little_endian.h"

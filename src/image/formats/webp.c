@@ -27,13 +27,13 @@ static bool webp_probe(const uint8_t *bytes, size_t size)
 
 #ifdef HAVE_WEBP
 
-#define NEEDED "the Debian package libwebp7 has it"
+#define NEEDED "the Debian package libwebp7 provides it"
 
 bool webp_open(struct webp_library *webp, const char *file, lam_error *error)
 {
     const char *name = file ? file : "", *colon = file ? ": " : "";
     const char *fault = library_open_functions(&webp->handle, WEBP_LIBRARY, false, LIBRARY_NAMES(WEBP_FUNCTIONS),
-                                               "lacks functions that libwebp 1.0 has");
+                                               "lacks functions that libwebp 1.0 provides");
     return !fault ||
            fail(error, LAM_UNSUPPORTED, "%s%sWebP needs " WEBP_LIBRARY ", which %s; " NEEDED, name, colon, fault);
 }
@@ -264,15 +264,15 @@ static bool webp_write(const lam_image *image, const lam_save_params *params, st
 {
     (void)image, (void)params, (void)pool, (void)out;
     return fail(error, LAM_UNSUPPORTED,
-                "WebP is not in this build" REMEDY("; the Debian package libwebp-dev was missing", ""));
+                "this build does not include WebP" REMEDY("; the Debian package libwebp-dev was missing", ""));
 }
 
 static bool webp_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
     (void)image;
     return fail(error, LAM_UNSUPPORTED,
-                "%s: " REMEDY("WebP is not in this build; the Debian package libwebp-dev was missing",
-                              "is a WebP picture, which this page does not read; the program lambent does"),
+                "%s: " REMEDY("this build does not include WebP; the Debian package libwebp-dev was missing",
+                              "is a WebP picture, which this page cannot read; use the lambent program"),
                 file->name);
 }
 

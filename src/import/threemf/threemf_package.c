@@ -42,7 +42,7 @@ static uint64_t little(const uint8_t *at, int bytes)
     return value;
 }
 
-// Returns the number of entries that the end record of an archive, at `end`, declares.
+// Returns the number of entries declared by the end record at `end` in an archive.
 static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
 {
     uint64_t count = little(bytes + end + 10, 2);
@@ -98,7 +98,7 @@ static bool open_library(struct threemf *file)
     struct zip_library *zip = arena_alloc_zeroed(file->scratch, sizeof *zip);
     if (!zip)
         return threemf_no_memory(file, sizeof *zip);
-    static const char *const lacking = "lacks functions of libzip 1.7";
+    static const char *const lacking = "lacks functions that libzip 1.7 provides";
     const char *fault = library_open_functions(&zip->handle, NEWER_LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), lacking);
     if (fault)
         fault = library_open_functions(&zip->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), lacking);

@@ -1,6 +1,6 @@
 // view_files.h: opens the files that the viewer serves: models and files that models read, in one folder and below it.
 //
-// A path of the page begins with "/", which is that folder: "/bunny.obj", "/textures/fur.png".
+// A path of the page begins with "/", which means this folder: "/bunny.obj", "/textures/fur.png".
 #ifndef VIEW_FILES_H
 #define VIEW_FILES_H
 

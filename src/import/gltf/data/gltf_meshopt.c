@@ -138,7 +138,7 @@ bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const jso
         return has_plain || fail(gltf->json.error, LAM_UNSUPPORTED,
                                  "%s: is compressed by EXT_meshopt_compression" REMEDY(
                                      ", and libmeshoptimizer is not installed (Debian's package libmeshoptimizer2d)",
-                                     ", which this page does not read; the program lambent does"),
+                                     ", which this page cannot read; use the lambent program"),
                                  gltf->source->name);
     }
     *done = decode(gltf, here, &c, decode_bytes, filter, out);

@@ -150,8 +150,8 @@ static bool draw_here(struct run *r, const lam_bytes *request, lam_error *error)
     return check_draw(request->data, request->size, &r->painter, &r->bytes, error);
 }
 
-// Draws the scenes. Returns false if no verdict is possible. If the drawing process timed out or crashed, sets the
-// report's verdict.
+// Draws the scenes. Returns false if no verdict is possible. Sets the report's verdict if the drawing process timed out
+// or crashed.
 static bool draw(struct run *r, unsigned scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;

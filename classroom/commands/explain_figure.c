@@ -102,8 +102,8 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
 }
 
 // Finds a position for an arrow's letter around the arrow's tip, so that the letter does not overlap the arrows and
-// earlier letters. If every tried position overlaps, returns the last tried position, at the largest distance from the
-// tip.
+// earlier letters. If every tried position overlaps, the result is the last tried position, at the largest distance
+// from the tip.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
     struct point way = difference(g->tips[arrow], g->from), at = g->tips[arrow];

@@ -76,7 +76,7 @@ LAM_API const char *lam_side_name(lam_side side);
 // Returns the side with this name, or LAM_SIDE_COUNT if there is none.
 LAM_API lam_side lam_side_find(const char *name);
 
-// Returns the view of a side, in perspective. If `side` is out of range, returns the three-quarter view.
+// Returns the view of a side, in perspective, or the three-quarter view if `side` is out of range.
 LAM_API lam_view lam_view_of_side(lam_side side);
 
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height

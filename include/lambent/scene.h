@@ -344,8 +344,8 @@ LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec
 LAM_API int lam_scene_camera_count(const lam_scene *scene);
 LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
 
-// Returns the index of the camera with this name. If there is none, and the name is a number in digits, returns the
-// camera with this index. Returns −1 if there is no such camera.
+// Returns the index of the camera with this name. If no camera has this name, a name in digits selects the camera with
+// this index. Returns −1 if there is no such camera.
 LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
 // These functions get and set the up axis (LAM_UP_AUTO means y; a value out of range is ignored). The up axis rotates

@@ -87,7 +87,7 @@ bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32
 // Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is allowed.
 void picture_free(struct call_control *call, lam_image *image);
 
-// Returns whether decoding may continue with row `y`. If not, fills the error.
+// Returns whether decoding may continue with row `y`. Fills the error if it may not continue.
 static inline bool picture_continues(const struct picture_file *file, int64_t y, lam_error *error)
 {
     return y % 16 != 0 || call_should_continue(file->call) || call_error(file->call, error);

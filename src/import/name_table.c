@@ -11,7 +11,7 @@ static uint32_t hash(const char *name)
     return h;
 }
 
-// Returns the entry of a name. If the name is missing, returns the free entry that can store it.
+// Returns the entry of a name or, if the name is missing, the free entry that can store it.
 static struct name_entry *entry_of(const struct name_table *table, const char *name)
 {
     for (uint32_t i = hash(name);; i++) {

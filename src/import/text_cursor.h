@@ -45,8 +45,8 @@ size_t text_count_word(const uint8_t *at, const uint8_t *end, const char *word);
 // only for messages.
 size_t text_line(const uint8_t *bytes, const uint8_t *at);
 
-// Formats the word at `at` for a message, in quotes and shortened by shown_name. If there is no word, writes "white
-// space" or "the end of the file". Returns `out`.
+// Formats the word at `at` for a message, in quotes and shortened by shown_name. Writes "white space" or "the end of
+// the file" if there is no word. Returns `out`.
 enum { TEXT_FOUND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE]);
 

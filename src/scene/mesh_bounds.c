@@ -126,10 +126,10 @@ static void shift_chunk(void *user, size_t index, int thread)
             shifting->to[3 * i + axis] = shifted(shifting->from[3 * i + axis], shifting->by[axis]);
 }
 
-// If a mesh is far from zero, stores its positions relative to an origin, because drawing uses floats and would lose
-// detail. The new positions are exact, because they are smaller than the old positions and multiples of the same last
-// bits. The origin is also a multiple of these bits. The scene owns the mesh's arrays; if several meshes share them,
-// the mesh gets its own copy. Returns false if memory runs out.
+// Stores the positions of a mesh relative to an origin if they are far from zero, because drawing uses floats and would
+// lose detail. The new positions are exact, because they are smaller than the old positions and multiples of the same
+// last bits. The origin is also a multiple of these bits. The scene owns the mesh's arrays; if several meshes share
+// them, the mesh gets its own copy. Returns false if memory runs out.
 static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool,
                         lam_error *error)
 {

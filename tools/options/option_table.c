@@ -225,8 +225,8 @@ static const struct choice cull_words[] = {{"none", LAM_CULL_NONE, "draw both si
                                            {"front", LAM_CULL_FRONT, NULL},
                                            {NULL, 0, NULL}};
 
-static const struct choice back_face_words[] = {{"two-sided", 0, "with the reversed normal"},
-                                                {"one-sided", 1, "like front faces, with the unchanged normal"},
+static const struct choice back_face_words[] = {{"two-sided", 0, "lit with the reversed normal"},
+                                                {"one-sided", 1, "lit like front faces, with the unchanged normal"},
                                                 {NULL, 0, NULL}};
 
 static const struct choice normals_words[] = {
@@ -688,10 +688,10 @@ struct option option_table[OPTIONS_MAX] = {
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
-     "built in. `none` removes the environment of a scene file. For models, `none` selects lights instead of the "
-     "built-in studio environment. To use a file named `sky`, write `./sky`. Classic materials reflect the environment "
-     "only if they have a reflectivity (`--material reflectivity=0.5`). `docs/lighting/reflection.md` describes how "
-     "Lambent maps each kind around the model.",
+     "built in. `none` removes the environment of a scene file. For models, `none` disables the built-in studio "
+     "environment, so that lights light the model. To use a file named `sky`, write `./sky`. Classic materials reflect "
+     "the environment only if they have a reflectivity (`--material reflectivity=0.5`). `docs/lighting/reflection.md` "
+     "describes how Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",

@@ -239,7 +239,7 @@ int shader_interface_light(const struct shader_interface *r, const struct refere
     return -1;
 }
 
-// Removes the lights for which there is no array element. If an element is free, adds a black light, so that a shader
+// Removes the lights for which there is no array element. Adds a black light if an element is free, so that a shader
 // that reads only the last light draws black.
 static void place_lights(const struct shader_interface *r, struct reference_scene *s)
 {

@@ -82,7 +82,7 @@ static float linear(const struct mtl_parser *reader, float c)
     return reader->raw || c >= 1 ? c : (float)srgb_linear((double)c);
 }
 
-// Reads K… r [g b]; a single number sets all three channels. If the statement must be ignored, warns and returns false.
+// Reads K… r [g b]; a single number sets all three channels. Warns and returns false if the statement must be ignored.
 static bool read_color(struct mtl_parser *reader, const uint8_t *at, const uint8_t *end, const char *what, lam_rgb *out)
 {
     at = text_skip_white(at, end);

@@ -71,7 +71,7 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// Reads numbers that affect the map. If a number is out of range, warns and ignores all numbers of the option.
+// Reads numbers that affect the map. Warns and ignores all numbers of the option if one of them is out of range.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];

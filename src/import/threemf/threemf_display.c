@@ -25,7 +25,7 @@ bool begin_display(struct threemf_xml *xml, const char *const *attributes)
     return group != NULL;
 }
 
-// Gets an optional number from 0 to 1. If the number is out of range, warns and returns false.
+// Gets an optional number from 0 to 1. Warns and returns false if the number is out of range.
 static bool take_share(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out)
 {
     if (!threemf_attribute(attributes, name))

@@ -128,8 +128,8 @@ static lam_wrap wrap_of(const char *const *attributes, const char *name)
                                                 : LAM_WRAP_CLAMP;
 }
 
-// Decodes a picture of the package; the scene owns the texture. If the picture cannot be read, warns and sets *out to
-// NULL.
+// Decodes a picture of the package; the scene owns the texture. Warns and sets *out to NULL if the picture cannot be
+// read.
 static bool decode_picture(struct threemf *file, const char *path, lam_texture **out)
 {
     const uint8_t *bytes;

@@ -74,7 +74,7 @@ static bool check_keys(json_t *root, lam_error *error)
     return true;
 }
 
-// Gets the text of a key. If the key is missing or null, sets *text to NULL and returns true.
+// Gets the text of a key. Sets *text to NULL and returns true if the key is missing or null.
 static bool text_of(const json_t *root, const char *key, const char **text, lam_error *error)
 {
     const json_t *value = json_object_get(root, key);

@@ -31,7 +31,7 @@ static bool write_all(int file, const uint8_t *at, size_t left, struct call_cont
     return true;
 }
 
-// Writes the data to `name`, which is a new file or a device. If writing fails and `is_new` is true, removes the file.
+// Writes the data to `name`, which is a new file or a device. Removes the file if writing fails and `is_new` is true.
 static bool write_to(const char *name, bool is_new, const void *data, size_t size, bool durable,
                      struct call_control *call)
 {

@@ -50,7 +50,7 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
     if (!s->round[1])
         whole *= share_below(length - along, ux, uy);
     int end = along > length ? 1 : 0;
-    if ((along < 0 || end) && s->round[end]) { // measured across the ray from the end
+    if ((along < 0 || end) && s->round[end]) { // at a round cap, the distance from the end
         double ex = x - s->x[end], ey = y - s->y[end];
         across = math_sqrt(ex * ex + ey * ey);
         ux = ex / across;
@@ -61,7 +61,7 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
 
 static int clamped(double x, int limit) { return x <= 0 ? 0 : x >= limit ? limit : (int)x; }
 
-// Finds the columns of a row that a stroke may touch: those within `reach` of the stroke's line, and inside its box.
+// Finds the columns of a row that a stroke may touch. They are within `reach` of the stroke's line, and inside its box.
 static void columns(const struct edge_stroke *s, double y, double ux, double uy, double reach, int width, int *first,
                     int *last)
 {

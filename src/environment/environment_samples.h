@@ -1,6 +1,6 @@
 // environment_samples.h: fixed directions for summing an environment's light over a lobe. Three methods of importance
-// sampling are combined. Half of the directions are sampled by the brightness of the environment, a quarter by the GGX
-// microfacets that the eye sees, and a quarter by the cosine. The sum weights each direction by all three densities
+// sampling are combined. Half of the directions follow the brightness of the environment, a quarter follow the GGX
+// microfacets that the eye sees, and a quarter follow the cosine. The sum weights each direction by all three densities
 // (multiple importance sampling). A single sampling method therefore need not match the whole lobe. These weights are
 // the balance heuristic (Veach and Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
 //

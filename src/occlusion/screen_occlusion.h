@@ -29,7 +29,7 @@ struct screen_occlusion {
     float radius;        // radius of occlusion in eye units; 0 disables occlusion at this radius
     float cavity_radius; // radius of cavity shading (lam_cavity)
     bool ridges;         // whether cavity shading lightens ridges
-    bool deepens;        // whether cavity shading darkens valleys by the sixth power instead of the third
+    bool deepens;        // whether cavity shading darkens valleys with the sixth power instead of the third
     // The distance of the visible surface in front of the eye at each pixel, or SCREEN_EMPTY: one plane for each pixel
     // of a cell (screen_pixel). The caller fills `depth`; screen_occlusion_start writes SCREEN_EMPTY around the
     // picture.

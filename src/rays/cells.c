@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
-// The centres of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
-// of its cells, which are far fewer than its triangles. A range of few triangles, or a range within one cell, is
-// removed from its cells. One thread then divides the range (splits.c). For a large range within one cell, a separate
-// grid is built instead. Tasks depend only on the number of triangles, and the position of a range's nodes depends only
-// on its triangles. The result is therefore the same for any number of threads.
+// The centres of a large range's triangles are sorted into the cells of a grid, and the boxes of the cells determine
+// how the range is divided. There are far fewer cells than triangles. A range of few triangles, or a range within one
+// cell, is removed from its cells. One thread then divides the range (splits.c). For a large range within one cell, a
+// separate grid is built instead. Tasks depend only on the number of triangles, and the position of a range's nodes
+// depends only on its triangles. The result is therefore the same for any number of threads.
 #include "ranges.h"
 
 #include "fail.h"

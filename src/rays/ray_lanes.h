@@ -23,7 +23,7 @@
 #include "hierarchy.h"
 
 // The rays of a bundle differ from the first of them by at most this distance, summed over coordinates. This limit
-// applies at the starts of the rays, and at their ends at full length (at most 1).
+// applies to the starts of the rays, and to their ends at full length (at most 1).
 #define BUNDLE_SPREAD 0.2f
 
 struct ray_lanes {

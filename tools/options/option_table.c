@@ -689,9 +689,9 @@ struct option option_table[OPTIONS_MAX] = {
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
      "built in. `none` removes the environment of a scene file. For models, `none` disables the built-in studio "
-     "environment, so that lights light the model. To use a file named `sky`, write `./sky`. Classic materials reflect "
-     "the environment only if they have a reflectivity (`--material reflectivity=0.5`). `docs/lighting/reflection.md` "
-     "describes how Lambent maps each kind around the model.",
+     "environment, so that light sources illuminate the model. To use a file named `sky`, write `./sky`. Classic "
+     "materials reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
+     "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",

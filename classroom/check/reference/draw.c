@@ -194,7 +194,7 @@ static double seconds(clockid_t clock)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-#ifdef __wasi__ // WASI has no processor time, so the caller stops endless loops
+#ifdef __wasi__ // WASI does not report processor time, so the caller stops endless loops
 static double time_limit_s(int size) { return size > 0 ? DBL_MAX : 0; }
 #else
 enum { RUNS = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };

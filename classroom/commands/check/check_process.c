@@ -240,7 +240,7 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
         return LAM_CHECK_DRAW_MEMORY;
     if (WEXITSTATUS(status) == 127) {
         complain(error, LAM_LIMIT,
-                 "cannot start the drawing process: neither /proc/self/exe nor the program's own path");
+                 "cannot start the drawing process: neither /proc/self/exe nor the program's own path can be executed");
         return LAM_CHECK_DRAW_FAILED;
     }
     if (WEXITSTATUS(status) > LAM_CANCELLED) // the driver called exit()

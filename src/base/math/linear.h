@@ -46,7 +46,7 @@ void mat4_normal_matrix(const lam_mat4 *m, double out[3][3]);
 
 lam_mat4 mat4_translate(double x, double y, double z);
 lam_mat4 mat4_scale(double x, double y, double z);
-lam_mat4 mat4_rotate(double radians, lam_vec3 axis);               // right-handed; the axis has any nonzero length
+lam_mat4 mat4_rotate(double radians, lam_vec3 axis);               // right-handed; the axis may have any nonzero length
 lam_mat4 mat4_look_at(lam_vec3 eye, lam_vec3 target, lam_vec3 up); // world to eye space
 // The projection matrices of OpenGL: z is −1 at the near plane and 1 at the far plane. The distances of both planes are
 // positive.

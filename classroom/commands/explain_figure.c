@@ -1,6 +1,6 @@
 // explain_figure.c: draws the figure of `explain -o`. The figure shows the vectors n, l, v, r and h as arrows on the
-// surface (t instead of r and h for threads), and the same vectors from the side. Tables list the point's coordinates,
-// the vectors, the angles and the terms.
+// surface, and the same vectors from the side. For threads, the figure shows t instead of r and h. Tables list the
+// point's coordinates, the vectors, the angles and the terms.
 #include "explain_figure.h"
 
 #include <stdio.h>

@@ -15,9 +15,9 @@
 
 struct pool;
 
-// The grid of cells for which occlusion is computed: the picture's pixels or, in pictures of more than SCREEN_FINE
-// pixels, cells of two by two pixels, which take a quarter of the time. The value of a pixel is then the mean of the
-// surrounding cells on its surface.
+// The grid of cells for which occlusion is computed. Usually, each pixel is a cell. In pictures of more than
+// SCREEN_FINE pixels, a cell is two by two pixels, which takes a quarter of the time. The value of a pixel is then the
+// mean of the surrounding cells on its surface.
 struct screen_occlusion {
     int width, height;           // the size of the picture
     int step;                    // pixels along the side of a cell: 1 or 2

@@ -13,7 +13,7 @@
 //
 // Rays with nearly the same direction form a bundle and traverse the hierarchy together. At a node, the intervals of
 // their origins and directions are tested against the boxes of all children of the node at once (Boulos, Wald and
-// Shirley, "Geometric and arithmetic culling methods for entire ray packets", 2006); only leaves test individual rays.
+// Shirley, "Geometric and arithmetic culling methods for entire ray packets", 2006). Only leaves test individual rays.
 // A ray with a different direction is a bundle of one.
 #ifndef RAY_LANES_H
 #define RAY_LANES_H

@@ -39,8 +39,8 @@ enum reference_need {
     NEED_EMISSION_MAP = 8192,
 };
 
-// Restrictions that follow from the shader's source, stored in the same integer as reference_need: the kind of each
-// light and whether the light is attenuated, a missing specular term, and flat shading.
+// Restrictions that follow from the shader's source: the kind of each light, whether the light is attenuated, a missing
+// specular term, and flat shading. They are stored in the same integer as reference_need.
 enum reference_rule {
     RULE_POINT = 1,
     RULE_DIRECTIONAL = 2,

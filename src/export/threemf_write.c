@@ -31,8 +31,8 @@ struct library {
 
 static bool open_library(struct exporting *e, struct library *zip)
 {
-    const char *fault = library_open_functions(&zip->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS),
-                                               "lacks functions that libzip 1.6 provides");
+    const char *fault =
+        library_open_functions(&zip->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), "lacks functions of libzip 1.6");
     return !fault || fail(e->error, LAM_UNSUPPORTED,
                           "%s: writing 3MF needs " LIBRARY ", which %s (Debian's package libzip4)", e->name, fault);
 }

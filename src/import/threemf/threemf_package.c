@@ -98,7 +98,7 @@ static bool open_library(struct threemf *file)
     struct zip_library *zip = arena_alloc_zeroed(file->scratch, sizeof *zip);
     if (!zip)
         return threemf_no_memory(file, sizeof *zip);
-    static const char *const lacking = "lacks functions that libzip 1.7 provides";
+    static const char *const lacking = "lacks functions of libzip 1.7";
     const char *fault = library_open_functions(&zip->handle, NEWER_LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), lacking);
     if (fault)
         fault = library_open_functions(&zip->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), lacking);

@@ -287,8 +287,8 @@ bool threemf_xml_open(struct threemf *file)
     struct expat_library *expat = arena_alloc_zeroed(file->scratch, sizeof *expat);
     if (!expat)
         return threemf_no_memory(file, sizeof *expat);
-    const char *fault = library_open_functions(&expat->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS),
-                                               "lacks functions that expat 2 provides");
+    const char *fault =
+        library_open_functions(&expat->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), "lacks functions of expat 2");
     file->expat = fault ? NULL : expat;
     return !fault ||
            fail(file->error, LAM_UNSUPPORTED,

@@ -11,8 +11,8 @@ void encode_values(const struct frame *frame, lam_pixel_format format, const flo
 // output for coverage, overdraw or clipping.
 void encode_empty(const struct frame *frame, lam_pixel_format format, void *to);
 
-// Writes by how much the picture's pixel p (premultiplied) is outside 0…1. If the format has 8 bits, a marker colour is
-// written instead.
+// Writes the distance of the picture's pixel p (premultiplied) from the range 0…1. In an 8-bit format, writes a marker
+// colour instead.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to);
 
 // Returns whether 8-bit pixels of this frame store values without the sRGB encoding.

@@ -126,10 +126,10 @@ static void shift_chunk(void *user, size_t index, int thread)
             shifting->to[3 * i + axis] = shifted(shifting->from[3 * i + axis], shifting->by[axis]);
 }
 
-// Stores the positions of a mesh relative to an origin if they are far from zero, because drawing uses floats and would
-// lose detail. The new positions are exact, because they are smaller than the old positions and multiples of the same
-// last bits. The origin is also a multiple of these bits. The scene owns the mesh's arrays; if several meshes share
-// them, the mesh gets its own copy. Returns false if memory runs out.
+// If a mesh is far from zero, stores its positions relative to an origin, because drawing uses floats and would lose
+// detail. The new positions are exact, because they are smaller than the old positions and multiples of the same power
+// of two. The origin is also a multiple of this power. The scene owns the mesh's arrays; if several meshes share them,
+// the mesh gets its own copy. Returns false if memory runs out.
 static bool move_origin(struct lam_scene *scene, lam_mesh *mesh, struct aabb_tree *boxes, struct pool *pool,
                         lam_error *error)
 {
@@ -193,7 +193,7 @@ static lam_vec3 upper(lam_vec3 a, lam_vec3 b)
     return v3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
-// Returns whether the transform maps boxes to boxes, because it only scales and permutes axes.
+// Returns whether the transform only scales and permutes axes, so that it maps boxes to boxes.
 static bool keeps_boxes(const lam_mat4 *m)
 {
     for (int i = 0; i < 3; i++)

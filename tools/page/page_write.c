@@ -77,7 +77,7 @@ static bool put_page(FILE *out, const struct job *job, const struct options *giv
     if (!end)
         return complain(
             error, LAM_UNSUPPORTED,
-            "the page named by LAMBENT_PAGE or by the build is not lambent.html: the end of its body is missing");
+            "the page given by LAMBENT_PAGE or by the build is not lambent.html: the end of its body is missing");
     size_t left = PAGE_FILES_MAX;
     bool ok = true;
     fwrite(page, 1, (size_t)(end - page), out);

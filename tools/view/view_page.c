@@ -122,7 +122,7 @@ static bool fill(struct view_page *page, const char *text, const char *model, la
         end = at;
     if (!directive || !end || directive > end)
         return complain(error, LAM_UNSUPPORTED,
-                        "the page named by LAMBENT_PAGE or by the build is not the lambent.html of `make web`");
+                        "the page given by LAMBENT_PAGE or by the build is not the lambent.html of `make web`");
     FILE *out = open_memstream(&page->text, &page->size);
     if (!out)
         return complain(error, LAM_LIMIT, "out of memory");

@@ -13,8 +13,8 @@ struct named_value {
 
 #define COUNT_OF(list) (int)(sizeof(list) / sizeof *(list))
 
-// Defines the function that returns the keywords of a list, for lam_setting.word, and the function that returns their
-// summaries, for lam_setting.word_summary.
+// Defines a list of keywords, and two functions that return the keywords (lam_setting.word) and their summaries
+// (lam_setting.word_summary).
 #define WORDS(name, ...)                                                                                               \
     static const struct named_value name##_list[] = {__VA_ARGS__};                                                     \
     static const char *name(int index, int *value)                                                                     \
@@ -42,7 +42,7 @@ WORDS(viewer_words, {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
       {"infinite", LAM_VIEWER_INFINITE,
        "the eye is infinitely far away, so the direction to the eye is the same at every point"})
 WORDS(flat_normal_words, {"face", LAM_FLAT_NORMAL_FACE, "the normal of the triangle"},
-      {"vertex", LAM_FLAT_NORMAL_VERTEX, "the normal of its last vertex, as in OpenGL"})
+      {"vertex", LAM_FLAT_NORMAL_VERTEX, "the normal of the triangle's last vertex, as in OpenGL"})
 WORDS(occlusion_words,
       {"auto", LAM_OCCLUSION_AUTO,
        "`screen` if the studio's lights or an environment light the model, otherwise `off`"},
@@ -131,7 +131,7 @@ static const lam_setting rows[] = {
     {"specular_aa", MEMBER(WORD, specular_aa), WORDS_OF(specular_aa_words), .expected = "lam_specular_aa",
      .summary = "Reduce glitter on bumpy physical materials: auto, off or on."},
     {"brighten", MEMBER(WORD, brighten), WORDS_OF(brighten_words), .expected = "lam_brighten",
-     .summary = "Brighten the studio for dark models, and dim it for white models: auto or off."},
+     .summary = "Use a brighter studio for dark models and a dimmer studio for white models: auto or off."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .expected = "more than 0, up to 10",
      .summary = "The largest distance at which surfaces occlude, as a fraction of half the diagonal of the scene's "

@@ -119,7 +119,7 @@ struct shading_options {
     double environment_rotation_deg;
 };
 
-// Surfaces that formulas define (shape).
+// Surfaces defined by formulas (shape).
 struct shape_options {
     // The formulas and the ranges of the command `shape`, as typed; NULL if not given. `parametric` uses the ranges of
     // u and v, `implicit` uses the ranges of x, y and z. The model is named after the option.
@@ -151,7 +151,7 @@ struct work_options {
 struct limits_options {
     double time_limit_s;         // 0 means the default, infinity means no limit
     uint64_t memory_limit_bytes; // 0 means the default, UINT64_MAX means no limit
-    uint64_t triangle_limit;     // 0 means the library's default, also for the next fields
+    uint64_t triangle_limit;     // here and in the next fields, 0 means the library's default
     uint64_t pixel_limit;
     uint64_t file_limit_bytes;
     uint64_t expansion_limit, object_limit, layer_limit; // 0 means a limit that depends on the file size

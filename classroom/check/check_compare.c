@@ -159,7 +159,7 @@ static bool is_dark(const struct scene_comparison *scene, const float *picture)
 }
 
 // A black picture of a black scene proves nothing. A black scene scores no points if the shader fails in another scene.
-// If all scenes are black, there is no verdict.
+// If all reference pictures are black, the program reports no verdict.
 static bool weigh_darkness(struct run *r, lam_error *error)
 {
     bool lit = false;
@@ -189,9 +189,9 @@ static bool is_searchable(struct run *r, bool writes)
                  (model == LAM_REFLECTION_GGX && !r->interface.multiple_scattering));
     if (!known)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "lambent does not search for mistakes in this shader of `lambent shader`: it knows mistakes of "
-                        "Lambert's, Phong's and Blinn-Phong's models, and of GGX with --single-scattering, but not "
-                        "with --gl1 or --viewer infinite");
+                        "lambent does not search for mistakes in this shader of `lambent shader`: it searches only "
+                        "with the models of Lambert, Phong and Blinn-Phong, and GGX with --single-scattering, and "
+                        "never with --gl1 or --viewer infinite");
     for (int i = 0; i < r->scene_count; i++) {
         clear += check_missing_share(&r->scenes[i], false) / r->scene_count;
         r->scenes[i].spoilt = check_missing_share(&r->scenes[i], true) > 0.25;
@@ -213,12 +213,13 @@ static bool accept_styles(struct run *r, struct fault_search *s, bool writes, la
             if (!r->scenes[i].passes && !fault_search_draw_style(s, i, r->scenes[i].reference, error))
                 return false;
     for (int i = 0; i < s->style_count; i++)
-        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s%s%s", s->styles[i]->explanation,
-                        s->styles[i]->demand ? "; the contract accepts this form: " : "",
-                        s->styles[i]->demand == DEMAND_GATE           ? "it has no \"gate\": \"required\""
-                        : s->styles[i]->demand == DEMAND_UNIT_NORMALS ? "it has no \"unit_normals\": \"required\""
-                        : s->styles[i]->demand == DEMAND_BARE_AMBIENT ? "it has no \"bare_ambient\": \"required\""
-                                                                      : "");
+        diagnostics_add(
+            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s%s%s", s->styles[i]->explanation,
+            s->styles[i]->demand ? "; the contract accepts this form: " : "",
+            s->styles[i]->demand == DEMAND_GATE           ? "it does not contain \"gate\": \"required\""
+            : s->styles[i]->demand == DEMAND_UNIT_NORMALS ? "it does not contain \"unit_normals\": \"required\""
+            : s->styles[i]->demand == DEMAND_BARE_AMBIENT ? "it does not contain \"bare_ambient\": \"required\""
+                                                          : "");
     if (s->count == 0)
         check_measure(r, writes);
     return true;

@@ -60,7 +60,7 @@ struct lam_font {
 static bool open_freetype(struct freetype *ft, lam_error *error)
 {
     const char *fault = library_open_functions(&ft->handle, "libfreetype.so.6", false, LIBRARY_NAMES(FUNCTIONS),
-                                               "lacks functions that FreeType 2 provides");
+                                               "lacks functions of FreeType 2");
     return !fault || fail(error, LAM_UNSUPPORTED, "text: libfreetype.so.6 %s; " NEEDED, fault);
 }
 

@@ -223,7 +223,7 @@ const struct example examples[] = {
     {"lambent shader teapot --glsl 120 --host c -o teapot",
      "writes the model's shaders, and C code that sets their inputs", false},
     {"lambent shape --parametric 'x=u*cos(v); y=u*sin(v); z=cos(3u)' --u 0..4 -o ripple.obj",
-     "saves a model of a surface that formulas define", false},
+     "defines a surface by formulas and saves it as a model", false},
     {"lambent shape --implicit 'x^2+y^2+z^2-1'", "draws an implicit surface, here a sphere", false},
     {"lambent diff old.png new.png -o where.png", "prints and draws the difference between two pictures", false},
     {"lambent diff old/ new/ -o report.html", "shows models before and after a change on one page", false},

@@ -19,13 +19,12 @@ bool http_open(struct http *http, lam_error *error)
 {
     void *library = dlopen(HTTP_LIBRARY, RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        return complain(
-            error, LAM_UNSUPPORTED,
-            "view needs " HTTP_LIBRARY
-            ", which is not installed; the Debian package libmicrohttpd12 or libmicrohttpd12t64 provides it");
+        return complain(error, LAM_UNSUPPORTED,
+                        "view needs " HTTP_LIBRARY
+                        ", which is not installed; install the Debian package libmicrohttpd12 or libmicrohttpd12t64");
     bool all = true;
 #define LOOK_UP(name) all = find(library, #name, &http->name) && all;
     HTTP_FUNCTIONS(LOOK_UP)
     return all || complain(error, LAM_UNSUPPORTED,
-                           HTTP_LIBRARY " lacks functions that libmicrohttpd 0.9.71 provides; install a newer version");
+                           HTTP_LIBRARY " lacks functions of libmicrohttpd 0.9.71; install a newer version");
 }

@@ -48,9 +48,9 @@ struct core {
 static bool open_core(struct core *core, lam_error *error)
 {
     const char *fault = library_open_functions(&core->handle, LIBRARY, false, LIBRARY_NAMES(FUNCTIONS),
-                                               "lacks functions that OpenEXR 3.1 provides");
+                                               "lacks functions of OpenEXR 3.1");
     return !fault ||
-           fail(error, LAM_UNSUPPORTED, "EXR: " LIBRARY " %s; the Debian package libopenexr-3-1-30 provides it", fault);
+           fail(error, LAM_UNSUPPORTED, "EXR: " LIBRARY " %s; install the Debian package libopenexr-3-1-30", fault);
 }
 
 // Replaces the error handler of OpenEXRCore, which would print to standard error.
@@ -408,8 +408,8 @@ static bool exr_read(const struct picture_file *picture, lam_image *image, lam_e
 #else
 
 #define NOT_BUILT                                                                                                      \
-    REMEDY("EXR: this build does not include OpenEXR; the Debian package libopenexr-dev was missing",                  \
-           "EXR: this page cannot read EXR files; use the lambent program")
+    REMEDY("EXR: this build does not support it; install the Debian package libopenexr-dev and build again",           \
+           "EXR: this page cannot read it; use the program lambent")
 
 static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)
 {

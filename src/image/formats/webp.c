@@ -27,13 +27,13 @@ static bool webp_probe(const uint8_t *bytes, size_t size)
 
 #ifdef HAVE_WEBP
 
-#define NEEDED "the Debian package libwebp7 provides it"
+#define NEEDED "install the Debian package libwebp7"
 
 bool webp_open(struct webp_library *webp, const char *file, lam_error *error)
 {
     const char *name = file ? file : "", *colon = file ? ": " : "";
     const char *fault = library_open_functions(&webp->handle, WEBP_LIBRARY, false, LIBRARY_NAMES(WEBP_FUNCTIONS),
-                                               "lacks functions that libwebp 1.0 provides");
+                                               "lacks functions of libwebp 1.0");
     return !fault ||
            fail(error, LAM_UNSUPPORTED, "%s%sWebP needs " WEBP_LIBRARY ", which %s; " NEEDED, name, colon, fault);
 }
@@ -263,17 +263,19 @@ static bool webp_write(const lam_image *image, const lam_save_params *params, st
                        lam_error *error)
 {
     (void)image, (void)params, (void)pool, (void)out;
-    return fail(error, LAM_UNSUPPORTED,
-                "this build does not include WebP" REMEDY("; the Debian package libwebp-dev was missing", ""));
+    return fail(
+        error, LAM_UNSUPPORTED,
+        "this build does not support WebP" REMEDY("; install the Debian package libwebp-dev and build again", ""));
 }
 
 static bool webp_read(const struct picture_file *file, lam_image *image, lam_error *error)
 {
     (void)image;
-    return fail(error, LAM_UNSUPPORTED,
-                "%s: " REMEDY("this build does not include WebP; the Debian package libwebp-dev was missing",
-                              "is a WebP picture, which this page cannot read; use the lambent program"),
-                file->name);
+    return fail(
+        error, LAM_UNSUPPORTED,
+        "%s: " REMEDY("this build does not support WebP; install the Debian package libwebp-dev and build again",
+                      "is a WebP picture, which this page cannot read; use the program lambent"),
+        file->name);
 }
 
 #endif

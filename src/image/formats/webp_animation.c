@@ -13,7 +13,7 @@
 #include <webp/mux.h>
 
 #define LIBRARY "libwebpmux.so.3"
-#define NEEDED  "the Debian package libwebpmux3 provides it"
+#define NEEDED  "install the Debian package libwebpmux3"
 
 #define FUNCTIONS(each)                                                                                                \
     each(WebPAnimEncoderOptionsInitInternal) each(WebPAnimEncoderNewInternal) each(WebPAnimEncoderAdd)                 \
@@ -41,7 +41,7 @@ static void animation_free(void *state)
 static bool open_mux(struct webp_animation *animation, lam_error *error)
 {
     const char *fault = library_open_functions(&animation->handle, LIBRARY, false, LIBRARY_NAMES(FUNCTIONS),
-                                               "lacks functions that libwebp 1.0 provides");
+                                               "lacks functions of libwebp 1.0");
     return !fault || fail(error, LAM_UNSUPPORTED, "animated WebP needs " LIBRARY ", which %s; " NEEDED, fault);
 }
 
@@ -131,7 +131,8 @@ static uint64_t animation_held(const void *state)
 static void *animation_start(const struct animation_settings *settings, lam_error *error)
 {
     (void)settings;
-    fail(error, LAM_UNSUPPORTED, "this build does not include WebP; the Debian package libwebp-dev was missing");
+    fail(error, LAM_UNSUPPORTED,
+         "this build does not support WebP; install the Debian package libwebp-dev and build again");
     return NULL;
 }
 

@@ -17,7 +17,7 @@
 #include <zlib.h>
 
 #define LIBRARY "libdeflate.so.0"
-#define NEEDED  "the Debian package libdeflate0 provides it"
+#define NEEDED  "install the Debian package libdeflate0"
 
 enum {
     FILTERS = PNG_FILTER_PAETH + 1,
@@ -54,7 +54,7 @@ struct best_state {
 static bool open_libdeflate(struct libdeflate *d, lam_error *error)
 {
     const char *fault = library_open_functions(&d->library, LIBRARY, false, LIBRARY_NAMES(FUNCTIONS),
-                                               "lacks functions that its version 1.0 provides");
+                                               "lacks functions of libdeflate 1.0");
     return !fault ||
            fail(error, LAM_UNSUPPORTED, "PNG: the best compression needs " LIBRARY ", which %s; " NEEDED, fault);
 }
@@ -199,7 +199,7 @@ static bool best_start(struct png_encoding *encoding, struct pool *pool, struct 
 {
     (void)encoding, (void)pool, (void)arena;
     return fail(error, LAM_UNSUPPORTED,
-                "PNG: this build does not include the best compression; libdeflate was missing");
+                "PNG: this build does not support the best compression, because libdeflate was missing");
 }
 #define best_strip NULL
 #define best_end   NULL

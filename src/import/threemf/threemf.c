@@ -135,7 +135,7 @@ static bool threemf_load(const struct import_source *source, struct lam_scene *s
     return fail(error, LAM_UNSUPPORTED,
                 REMEDY("%s: this build does not support 3MF, because the Debian packages libzip-dev and libexpat1-dev "
                        "were missing",
-                       "%s: is a 3MF file, which this page cannot read; use the lambent program"),
+                       "%s: is a 3MF file, which this page cannot read; use the program lambent"),
                 source->name);
 }
 

@@ -35,7 +35,7 @@ struct compressed {
     size_t offset, length, stride, count;
 };
 
-// Returns whether a buffer is only a placeholder, because all its views are compressed in other buffers.
+// Returns whether a buffer is only a placeholder, because other buffers contain all of its views in compressed form.
 static bool gltf_meshopt_is_fallback(const json_t *buffer)
 {
     return json_is_true(json_object_get(gltf_extension(buffer, "EXT_meshopt_compression"), "fallback"));
@@ -138,7 +138,7 @@ bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const jso
         return has_plain || fail(gltf->json.error, LAM_UNSUPPORTED,
                                  "%s: is compressed by EXT_meshopt_compression" REMEDY(
                                      ", and libmeshoptimizer is not installed (Debian's package libmeshoptimizer2d)",
-                                     ", which this page cannot read; use the lambent program"),
+                                     ", which this page cannot read; use the program lambent"),
                                  gltf->source->name);
     }
     *done = decode(gltf, here, &c, decode_bytes, filter, out);

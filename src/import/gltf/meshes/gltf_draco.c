@@ -245,7 +245,7 @@ bool gltf_draco_decode(struct gltf *gltf, const struct place *place, const json_
                fail(gltf->json.error, LAM_UNSUPPORTED,
                     "%s: is compressed by " NAME REMEDY(", and its decoder is not installed (the module "
                                                         "lambent-draco.so, and Debian's package libdraco7)",
-                                                        ", which this page cannot read; use the lambent program"),
+                                                        ", which this page cannot read; use the program lambent"),
                     gltf->source->name);
     bool strip = *mode == GLTF_TRIANGLE_STRIP;
     *mode = GLTF_TRIANGLES;

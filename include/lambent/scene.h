@@ -142,7 +142,7 @@ LAM_API void lam_scene_free(lam_scene *scene); // NULL is allowed
 
 // These functions add an item to a scene. Arrays and strings are copied. Each call returns the index of the added
 // element, or −1 on failure: LAM_BAD_ARGUMENT (an index out of range, a number out of range or not finite), LAM_LIMIT.
-// A mesh without normals gets smooth normals, with creases at 40°.
+// Smooth normals, with creases at 40°, are computed for a mesh without normals.
 LAM_API int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 LAM_API int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error);
@@ -377,7 +377,7 @@ LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool groun
 // baked normal maps (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). At each corner, ∂p/∂s is
 // averaged over the adjacent triangles that are connected by edges and share the orientation of the mapping and the
 // position, normal and texture coordinates of the corner, weighted by their angles. The result is unit and
-// perpendicular to the normal. If the texture coordinates give no direction, the corner gets the tangent of meshes
+// perpendicular to the normal. If the texture coordinates give no direction, the corner has the tangent of meshes
 // without texture coordinates (docs/lighting/threads.md). The call uses the texture coordinates of the normal map of
 // the first part that has one, or else the first set. The bitangent points up in the normal map's picture, or else in
 // the direction of increasing t. Loading a model does this for meshes with normal maps; drawing does not. `control` may

@@ -1,5 +1,5 @@
-// origin.h: decides, by the same rule for every format, whether a mesh gets an origin other than zero, and computes the
-// origin.
+// origin.h: decides, by the same rule for every format, whether a mesh needs an origin other than zero, and computes
+// the origin.
 //
 // Positions are floats, with a relative precision of 2⁻²⁴. A model far from zero (survey coordinates, a car in its
 // factory) would lose detail. Therefore a mesh has an `origin` in double, which is subtracted before positions are
@@ -13,7 +13,7 @@
 #include <stdint.h>
 #include <string.h>
 
-// An axis gets an origin if its largest coordinate exceeds this many times the model's size (the longest side of its
+// An axis needs an origin if its largest coordinate exceeds this many times the model's size (the longest side of its
 // box). Below this ratio, rounding moves a point by less than a millionth of the size, and the coordinates of the file
 // are kept.
 #define ORIGIN_RATIO 16.0

@@ -1,5 +1,5 @@
 // batch_isolate.c: draws each model of a pass in a separate process. The process sends its results back. If the process
-// ends before it has sent them, its pictures get the class `crashed`.
+// ends before it has sent them, its pictures have the class `crashed`.
 #include "batch_isolate.h"
 
 #include <errno.h>

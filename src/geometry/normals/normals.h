@@ -15,7 +15,7 @@
 // normals of its joined fan, in triangle order. Each face normal is weighted by the triangle's area × the angle at the
 // corner. (If the weight were the angle alone, the slivers of CAD files would have as much weight as the faces beside
 // them. The normals of slivers are mostly rounding errors, so surfaces would show streaks.) A triangle without area
-// adds nothing. Its corners get their neighbours' normal, or zero if there is no such normal. Two neighbours are never
+// adds nothing. Its corners have their neighbours' normal, or zero if there is no such normal. Two neighbours are never
 // joined if their common edge has the same direction in both (inconsistent winding).
 //
 // A vertex is closed if three to eight corners use its index, and if each edge at the vertex belongs to exactly two of
@@ -33,8 +33,8 @@ bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena
 
 #define FACET_CREASE_RAD 1e-6
 
-// Computes facet normals: the three corners of a triangle get the triangle's own normal, or zero if the triangle has no
-// area.
+// Computes facet normals: the three corners of a triangle have the triangle's own normal, or zero if the triangle has
+// no area.
 bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct call_control *call, lam_error *error);
 
 #endif

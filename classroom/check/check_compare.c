@@ -292,7 +292,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         usable += !r->scenes[i].spoilt;
     }
     s.before /= usable;
-    for (int i = 0; i < r->scene_count; i++) // because some scenes show the tested feature together with other features
+    for (int i = 0; i < r->scene_count; i++) // some scenes show the tested feature together with other features
         s.needs |=
             (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
             (r->interface.contract->has_attenuation && (r->interface.supports & NEED_POINT) ? NEED_ATTENUATION : 0);

@@ -70,7 +70,7 @@ static bool draw_reference(struct run *r, lam_device *device, struct scene_compa
     if (!is_of_device(r) || bump.x != 0 || bump.y != 0 || bump.z != 0) // only the fault shader draws such scenes
         return draw_by_shader(r, scene, error);
     lam_camera camera;
-    struct reference_scene opaque = scene->reference_scene; // because the shader under test is drawn without blending
+    struct reference_scene opaque = scene->reference_scene; // the shader under test is drawn without blending
     opaque.alpha = 1;
     lam_scene *world = surfaces_of(r, &opaque, &camera, error);
     lam_image image = {0};
@@ -186,7 +186,7 @@ static int find_open(struct shader_interface *interface, struct open_number open
         open[i].semantic = semantics[i];
         open[i].count = shader_constants_values(interface, semantics[i], open[i].values);
         open[i].own = 0;
-        tries *= open[i].count + 1; // plus one, because the search also tries the contract's own value
+        tries *= open[i].count + 1; // one more, because the search also tries the contract's own value
         for (int k = 0; k < open[i].count; k++) {
             shader_constants_set(interface, semantics[i], open[i].values[k]);
             if (shader_constants_hash(interface) == hash)
@@ -274,7 +274,7 @@ bool check_draw_references(struct run *r, lam_error *error)
         ok = fit_numbers(r, device, choices, count, &best, error);
         numbers = best.mean < before;
     }
-    if (ok && !best.fits) // because the last combination may not be the best combination
+    if (ok && !best.fits) // the last combination is not always the best combination
         ok = try_candidate(r, device, r->scene_count, &best, error);
     lam_device_free(device);
     render_cache_keep_shader(r->params->cache, r->shader);

@@ -247,7 +247,7 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
                           const struct frame_draw_range *const *ranges, int count, lam_error *error)
 {
     struct glsl_choices lit = *choices;
-    lit.stage = LAM_STAGE_VERTEX; // because the facts of the vertex stage include all facts about the lighting
+    lit.stage = LAM_STAGE_VERTEX; // the facts of the vertex stage include all facts about the lighting
     const struct glsl_facts f = glsl_facts_of(&lit);
     if (!lecture_check(&lit, &f, error))
         return NULL;

@@ -318,7 +318,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     if (frame->cavity_radius > 0 && settings->occlusion == LAM_OCCLUSION_OFF)
         settings->occlusion = LAM_OCCLUSION_SCREEN;
     if (!(half > 0))
-        settings->occlusion = LAM_OCCLUSION_OFF; // because the scene has no extent
+        settings->occlusion = LAM_OCCLUSION_OFF; // the scene has no extent
 }
 
 static void resolve_settings(struct frame *frame, const lam_draw_params *params, int width, int height)

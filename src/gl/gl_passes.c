@@ -104,7 +104,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
     if (call->program->choices.occlusion) {
         enum texture_unit unit = gl_occlusion_unit(call->program);
         gl_use_texture(f->device, unit, GL_TEXTURE_2D, f->device->occlusion_texture);
-        if (f->device->hardware_filter) // because a map may have set a sampler for this unit
+        if (f->device->hardware_filter) // a map may have set a sampler for this unit
             gl_use_sampler(f->device, unit, 0);
     }
     program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (GLint)draw->first_id);

@@ -148,7 +148,7 @@ bool glsl_is_physical(const struct glsl_facts *facts);
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
 // A member of struct layer_values that is a field of the material times its map's value (layer_inputs.h).
 struct glsl_layer_input {
-    char member[28], field[28]; // arrays, because pointers would need relocation at program start
+    char member[28], field[28]; // these are arrays, because pointers would need relocation at program start
     lam_map map;                // LAM_MAP_COUNT: none
     bool color;
 };

@@ -19,7 +19,7 @@ const char *lam_glsl_name(lam_glsl version)
 
 // The public shader and its memory.
 struct shader {
-    lam_shader result; // the first member, because lam_shader_free casts to the struct
+    lam_shader result; // must be the first member, because lam_shader_free casts to the struct
     struct arena arena;
     struct glsl_text text;
     char *application;

@@ -239,7 +239,7 @@ static void set(struct fault_shader *m, const char *name, int count, int each, c
     int input = place_input(m->program, name, false);
     if (input < 0)
         return;
-    if (count > m->program->inputs[input].elements) // because a compiler may shorten an array
+    if (count > m->program->inputs[input].elements) // a compiler may shorten an array
         count = m->program->inputs[input].elements;
     m->full = m->full || m->value_count == MAX_VALUES || m->number_count + count * each > MAX_NUMBERS;
     if (m->full)

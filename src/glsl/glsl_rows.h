@@ -1,5 +1,5 @@
-// glsl_rows.h: the table of a shader's attributes, uniforms, blocks and structs, from which its declarations and the
-// values of its contract (lam_shader) are made.
+// glsl_rows.h: the table of a shader's attributes, uniforms, blocks and structs. The declarations and the values in
+// lam_shader come from this table.
 #ifndef GLSL_ROWS_H
 #define GLSL_ROWS_H
 
@@ -49,7 +49,7 @@ struct glsl_row {
     // Offset in floats of a member or of a GLSL_HEAD: in struct glsl_light, in the material, or in a hemisphere (up,
     // sky, ground).
     int at;
-    lam_map map; // the map of GLSL_MAP…
+    lam_map map; // the map, for values of the kinds GLSL_MAP…
 };
 enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
@@ -130,7 +130,7 @@ struct glsl_facts {
 struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
 // Returns the facts of one stage.
 struct glsl_facts glsl_stage_facts(const struct glsl_facts *facts, bool fragment);
-// Appends a stage after its version.
+// Appends the code of a stage, without its version.
 void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
 
 // Returns whether the reflection model uses a parameter of the material, by its name in LOBE_PARAMETERS
@@ -148,7 +148,7 @@ bool glsl_is_physical(const struct glsl_facts *facts);
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
 // A member of struct layer_values that is a field of the material times its map's value (layer_inputs.h).
 struct glsl_layer_input {
-    char member[28], field[28]; // these are arrays, because pointers would need relocation at program start
+    char member[28], field[28]; // stored as arrays, because pointers would need relocation at program start
     lam_map map;                // LAM_MAP_COUNT: none
     bool color;
 };

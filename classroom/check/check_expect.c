@@ -186,7 +186,7 @@ static int find_open(struct shader_interface *interface, struct open_number open
         open[i].semantic = semantics[i];
         open[i].count = shader_constants_values(interface, semantics[i], open[i].values);
         open[i].own = 0;
-        tries *= open[i].count + 1; // one more, because the search also tries the contract's own value
+        tries *= open[i].count + 1; // the search also tries the contract's own value
         for (int k = 0; k < open[i].count; k++) {
             shader_constants_set(interface, semantics[i], open[i].values[k]);
             if (shader_constants_hash(interface) == hash)
@@ -274,7 +274,7 @@ bool check_draw_references(struct run *r, lam_error *error)
         ok = fit_numbers(r, device, choices, count, &best, error);
         numbers = best.mean < before;
     }
-    if (ok && !best.fits) // the last combination is not always the best combination
+    if (ok && !best.fits) // the last combination may not be the best
         ok = try_candidate(r, device, r->scene_count, &best, error);
     lam_device_free(device);
     render_cache_keep_shader(r->params->cache, r->shader);

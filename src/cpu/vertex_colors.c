@@ -9,7 +9,7 @@
 
 // The arrays, stored consecutively in one block.
 struct arrays {
-    struct shading_batch batch; // must be the first member, because it is aligned to cache lines
+    struct shading_batch batch; // comes first, because it is aligned to cache lines
     struct shadow_rows shadows;
     uint32_t key[VERTEX_RUN_MAX][4];
     float color[VERTEX_RUN_MAX][4], rest[VERTEX_RUN_MAX][3];

@@ -234,7 +234,7 @@ static void complete(struct recorder *recorder, const lam_scene *scene, const la
 
 // An explanation and the arena that owns its memory.
 struct explanation {
-    lam_explanation values; // must be the first member, because its pointer is cast to the struct
+    lam_explanation values; // must come first, because its pointer is cast to the struct
     struct arena arena;
 };
 

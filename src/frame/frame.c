@@ -19,8 +19,8 @@
 
 static float rounded(double x) { return (float)x; }
 
-// Samples per pixel of pictures up to TINY_SIDE² pixels, up to SMALL_SIDE², and larger. With fewer samples, thin wires
-// break into dashes.
+// Samples per pixel for pictures of at most TINY_SIDE² pixels, of at most SMALL_SIDE² pixels, and for larger pictures.
+// With fewer samples, thin wires break into dashes.
 enum { TINY_SIDE = 256, TINY_SAMPLES = 16, SMALL_SIDE = 512, SMALL_SAMPLES = 8, LARGE_SAMPLES = 4 };
 
 int lam_default_samples(int width, int height)
@@ -99,7 +99,7 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
             largest = c > largest ? c : largest;
             largest_eye = e > largest_eye ? e : largest_eye;
         }
-    // The cofactor matrix is the inverse transpose times the determinant, of which only the sign must be removed.
+    // The cofactor matrix is the inverse transpose times the determinant. Only the determinant's sign must be removed.
     double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -112,7 +112,7 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
 }
 
 // Adds the ground as the frame's last triangles. The ground is lit like the scene. If an environment lights physical
-// materials, the ground is a physical material, otherwise a matt classic one.
+// materials, the ground's material is physical; otherwise it is classic and matt.
 static bool add_ground(struct frame *frame, uint64_t next, bool physical, const lam_mat4 *view, const lam_mat4 *pixel,
                        struct call_control *call, lam_error *error)
 {
@@ -195,7 +195,7 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     return true;
 }
 
-// Returns whether an output contains the light of the environment on physical materials.
+// Returns whether an output includes the light that physical materials reflect from the environment.
 static bool shows_environment(lam_output output)
 {
     return output_is_picture(output) || output == LAM_OUTPUT_DIFFUSE || output == LAM_OUTPUT_SPECULAR ||
@@ -263,8 +263,8 @@ static void leave_facets(struct frame *frame)
 #define CONTRAST_CAVITY_RADIUS 0.02
 enum { FINE = 16384 };
 
-// Returns whether cavity shading lightens ridges: unless a texture colours the drawn surfaces, or a classic material is
-// white, on which lighter ridges would be broad white stripes.
+// Returns whether cavity shading lightens ridges. It does not if a texture colours the drawn surfaces, or if a classic
+// material is white, because lighter ridges would be broad white stripes on it.
 static bool lightens_ridges(const struct frame *frame)
 {
     for (int i = 0; i < frame->range_count; i++) {
@@ -318,7 +318,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     if (frame->cavity_radius > 0 && settings->occlusion == LAM_OCCLUSION_OFF)
         settings->occlusion = LAM_OCCLUSION_SCREEN;
     if (!(half > 0))
-        settings->occlusion = LAM_OCCLUSION_OFF; // the scene has no extent
+        settings->occlusion = LAM_OCCLUSION_OFF; // the scene has no extent, so the occlusion radius would be 0
 }
 
 static void resolve_settings(struct frame *frame, const lam_draw_params *params, int width, int height)

@@ -142,7 +142,7 @@ bool environment_send(struct gl_frame *f, lam_error *error)
         return false;
     lam_environment_free(device->environment);
     device->environment = NULL;
-    device->environment_light = NULL; // another environment light may have the same address
+    device->environment_light = NULL; // another environment light may get the same address
     gl_edit_plain_texture(device, UNIT_ENVIRONMENT, GL_TEXTURE_2D_ARRAY, &device->environment_texture);
     gl->TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGB32F, side, side, 6, 0, GL_RGB, GL_FLOAT, cube->texels);
     device->environment = cube_share(cube);

@@ -272,7 +272,7 @@ static enum MHD_Result answer_request(struct view_connection *c, const char *url
         return view_answer_text(view, c->connection, 403, "not from here");
     if (strlen(url) < VIEW_TOKEN_SIZE + 1 || url[VIEW_TOKEN_SIZE] != '/' || !same_token(url + 1, view->token))
         return view_answer_text(view, c->connection, 403, "open the address that lambent view has printed");
-    if (!is_own_user(c)) // checked last, because this check reads a table of the whole machine
+    if (!is_own_user(c)) // this check comes last, because it reads a table of the whole machine
         return view_answer_text(view, c->connection, 403, "this viewer answers only the user who has started it");
     if (c->socket->names_zero)
         return view_answer_text(view, c->connection, 404, "no name contains a zero byte");

@@ -19,7 +19,7 @@ const char *lam_glsl_name(lam_glsl version)
 
 // The public shader and its memory.
 struct shader {
-    lam_shader result; // must be the first member, because lam_shader_free casts to the struct
+    lam_shader result; // must come first, because lam_shader_free casts its pointer to the struct
     struct arena arena;
     struct glsl_text text;
     char *application;
@@ -109,7 +109,7 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, bool har
         if (hardware_filter)
             glsl_use_hardware_filter(&own);
         for (int side = 0; side < 2 && mapped && !range->translucent; side++)
-            if (own.alpha[side] == LAM_ALPHA_BLEND) // treated as opaque, because all opacities of this range are 1
+            if (own.alpha[side] == LAM_ALPHA_BLEND) // all opacities of this range are 1, so it is opaque
                 own.alpha[side] = LAM_ALPHA_OPAQUE;
         if (first < 0) {
             m->choices = own;

@@ -13,9 +13,9 @@
 #include <stdint.h>
 #include <string.h>
 
-// An axis needs an origin if its largest coordinate exceeds this many times the model's size (the longest side of its
-// box). Below this ratio, rounding moves a point by less than a millionth of the size, and the coordinates of the file
-// are kept.
+// An axis gets an origin if its largest coordinate exceeds the model's size (the longest side of its box) times this
+// number. Below this ratio, rounding moves a point by less than a millionth of the size, and the coordinates of the
+// file are kept.
 #define ORIGIN_RATIO 16.0
 
 // Computes the origin from the box of all coordinates, which must be finite. On an axis that needs no origin, it is 0.

@@ -1,5 +1,5 @@
 // batch_isolate.c: draws each model of a pass in a separate process. The process sends its results back. If the process
-// ends before it has sent them, its pictures have the class `crashed`.
+// ends before it has sent them, its pictures are recorded with the class `crashed`.
 #include "batch_isolate.h"
 
 #include <errno.h>
@@ -32,7 +32,8 @@ static double grace_ms(double limit_s) { return limit_s > 5 ? 5000 : limit_s > 0
 
 // --- the process
 
-// A process sends this struct, then for each picture a `sent_picture`, its journal line and its file, then both texts.
+// A process sends this struct, then for each picture a `sent_picture`, its journal line and its file, then its two
+// output texts.
 struct sent {
     int code, warnings;
     bool interrupted;
@@ -117,7 +118,7 @@ static bool read_bytes(struct rest *rest, void *to, size_t size)
 {
     if (rest->size < size)
         return false;
-    if (size) // memcpy must not get NULL even for 0 bytes
+    if (size) // memcpy must not receive NULL, even for 0 bytes
         memcpy(to, rest->at, size);
     rest->at += size;
     rest->size -= size;

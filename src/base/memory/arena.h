@@ -1,8 +1,9 @@
 // arena.h: memory that is freed all at once.
 //
 // Small requests are allocated from shared blocks, whose size grows up to the size of a huge page. Requests of 1 MiB
-// and more use separate pages. The arena asks the system for huge pages, because the first access is then three times
-// as fast. Memory is not zeroed unless the function's comment states it. Only one thread at a time may use an arena.
+// and more get pages of their own. The arena asks the system for huge pages, because the first access is then three
+// times as fast. Memory is zeroed only if the function's comment states this. Only one thread at a time may use an
+// arena.
 #ifndef ARENA_H
 #define ARENA_H
 

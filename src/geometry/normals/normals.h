@@ -15,8 +15,8 @@
 // normals of its joined fan, in triangle order. Each face normal is weighted by the triangle's area × the angle at the
 // corner. (If the weight were the angle alone, the slivers of CAD files would have as much weight as the faces beside
 // them. The normals of slivers are mostly rounding errors, so surfaces would show streaks.) A triangle without area
-// adds nothing. Its corners have their neighbours' normal, or zero if there is no such normal. Two neighbours are never
-// joined if their common edge has the same direction in both (inconsistent winding).
+// adds nothing. The corners of such a triangle get the normal of their neighbours, or zero if there is no such normal.
+// Two neighbours are never joined if their common edge has the same direction in both (inconsistent winding).
 //
 // A vertex is closed if three to eight corners use its index, and if each edge at the vertex belongs to exactly two of
 // these corners' triangles, in opposite directions. The ends of edges are compared by position. The corners of a closed

@@ -172,7 +172,7 @@ static bool weigh_darkness(struct run *r, lam_error *error)
     return lit || r->report->verdict == LAM_CHECK_NOT_NUMBER || r->interface.printed_model == LAM_REFLECTION_NONE ||
            fail(error, LAM_BAD_ARGUMENT,
                 "no verdict: the shader declares no colour, strength or light of the contract %s, so nothing can be "
-                "lit; `undeclared` in a contract states the numbers (docs/check/contract-file.md)",
+                "lit; `undeclared` in a contract sets their values (docs/check/contract-file.md)",
                 r->interface.contract->name);
 }
 
@@ -292,7 +292,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         usable += !r->scenes[i].spoilt;
     }
     s.before /= usable;
-    for (int i = 0; i < r->scene_count; i++) // because some scenes show other features besides the tested one
+    for (int i = 0; i < r->scene_count; i++) // some scenes show the tested feature together with other features
         s.needs |=
             (r->scenes[i].reference_scene.ka > 0 ? NEED_AMBIENT : 0) |
             (r->interface.contract->has_attenuation && (r->interface.supports & NEED_POINT) ? NEED_ATTENUATION : 0);

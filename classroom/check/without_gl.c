@@ -10,8 +10,8 @@ static void *open(void *user, lam_check_language language, int size, char render
 {
     (void)user, (void)language, (void)size, (void)renderer;
     fail(error, LAM_UNSUPPORTED,
-         "check: this build has no OpenGL; building it in needs the headers (on Debian: apt install libegl-dev "
-         "libgl-dev)");
+         "check: this build does not include OpenGL; to include it, install the headers (on Debian: apt install "
+         "libegl-dev libgl-dev) and build again");
     return NULL;
 }
 

@@ -1,6 +1,6 @@
 // explain_figure.c: draws the figure of `explain -o`. The figure shows the vectors n, l, v, r and h as arrows on the
-// surface (t instead of r and h for threads), and the same vectors from the side. Tables list the point's coordinates,
-// the vectors, the angles and the terms.
+// surface, and the same vectors from the side. For threads, the figure shows t instead of r and h. Tables list the
+// point's coordinates, the vectors, the angles and the terms.
 #include "explain_figure.h"
 
 #include <stdio.h>
@@ -102,8 +102,8 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
 }
 
 // Finds a position for an arrow's letter around the arrow's tip, so that the letter does not overlap the arrows and
-// earlier letters. If every tried position overlaps, returns the last tried position, at the largest distance from the
-// tip.
+// earlier letters. If every tried position overlaps, the result is the last tried position, at the largest distance
+// from the tip.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
     struct point way = difference(g->tips[arrow], g->from), at = g->tips[arrow];

@@ -253,9 +253,9 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
         return NULL;
     if (f.has_environment) {
         fail(error, LAM_UNSUPPORTED,
-             "'lam_shader_params.style lecture' does not have 'lam_scene_set_environment' with 'lam_draw_params.stage "
-             "application'; expected 'lam_draw_params.stage vertex', "
-             "'lam_draw_params.stage fragment' or 'lam_shader_params.style full'");
+             "'lam_shader_params.style lecture' does not support 'lam_scene_set_environment' with "
+             "'lam_draw_params.stage application'; expected 'lam_draw_params.stage vertex', 'lam_draw_params.stage "
+             "fragment' or 'lam_shader_params.style full'");
         return NULL;
     }
     bool origin = false;

@@ -39,7 +39,7 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
                         missing[i].what, missing[i].instead);
         else if (missing[i].asked)
             return fail(error, LAM_UNSUPPORTED,
-                        "'lam_shader_params.style lecture' does not have 'lam_draw_params.reflection %s'; expected "
+                        "'lam_shader_params.style lecture' does not support 'lam_draw_params.reflection %s'; expected "
                         "%s'lam_shader_params.style full'",
                         lobe ? lobe->word : "none", missing[i].instead);
     return true;

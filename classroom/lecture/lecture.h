@@ -1,6 +1,6 @@
 // lecture.h: makes shaders in the lecture style. The code of these shaders is simple, with at most about forty lines
 // per stage, and uses the names of lectures (N, L, V, R, H, T, ka, kd, ks). Uniforms and pictures are the same as in
-// the full style. The application stage is a C function. Known mistakes are edits of these shaders.
+// the full style. The application stage is a C function. Known mistakes change these shaders.
 #ifndef LECTURE_H
 #define LECTURE_H
 

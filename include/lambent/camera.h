@@ -82,8 +82,8 @@ LAM_API lam_view lam_view_of_side(lam_side side);
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height
 // pixels and are centred in it. A camera fitted for one aspect ratio crops or shrinks the model at another aspect
 // ratio. The view is relative to the scene's up axis. A width or height below 1 counts as 1. If `view` is NULL, the
-// three-quarter view is used. A scene without triangles gets the default camera. If a view sets a field that this
-// version does not know, the result is a camera that every call rejects (base.h, "Growth").
+// three-quarter view is used. For a scene without triangles, the result is the default camera. If a view sets a field
+// that this version does not know, the result is a camera that every call rejects (base.h, "Growth").
 LAM_API lam_camera lam_camera_fit(const lam_scene *scene, int width, int height, const lam_view *view);
 
 // Fits one camera for all angles of a scene that rotates about an axis through `centre` (lam_scene_rotate), so that the

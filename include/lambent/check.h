@@ -93,8 +93,8 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 
 // A check draws the shaders under test, and its own shaders with known mistakes. The check draws with OpenGL, which is
 // loaded at run time, or with a painter that the caller provides: a web page draws with WebGL 2 (web/check/painter.js).
-// The check alone chooses the meshes and their inputs and compares the pictures, so that every painter gets the same
-// verdict.
+// The check alone chooses the meshes and their inputs and compares the pictures, so that the verdict is the same with
+// every painter.
 
 // The compiler of a pair of shaders.
 typedef enum lam_check_language {
@@ -189,7 +189,7 @@ typedef struct lam_check_drawing {
     int value_count;               // of `values`
     lam_check_cull cull;           // triangles that are culled
     // For LAM_CHECK_LANGUAGE_COMPATIBILITY: gl_ModelViewMatrix and gl_ProjectionMatrix, in column-major order. If
-    // `position` or `normal` is -1, gl_Vertex or gl_Normal gets the values of the mesh.
+    // `position` or `normal` is -1, gl_Vertex or gl_Normal receives the values of the mesh.
     float model_view[16], projection[16];
     const lam_check_stream *streams; // values of further attributes
     uint64_t stream_count;           // of `streams`

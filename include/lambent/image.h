@@ -64,7 +64,8 @@ typedef struct lam_save_params {
     lam_rgb background;
     // Number of threads that encode; 0: one for each processor. The bytes do not depend on this number.
     int threads;
-    // The numbers are not sRGB-encoded: PNG gets no sRGB chunk, and PPM and JPEG are composited without conversion.
+    // The numbers are not sRGB-encoded: PNG files contain no sRGB chunk, and PPM and JPEG are composited without
+    // conversion.
     bool raw;
     lam_compress compress; // of PNG; ignored for other formats
     // The quality of lossy formats, 1 to 100; other formats ignore it. JPEG: 0 means 90; below 90, colours are stored

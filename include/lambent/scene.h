@@ -142,7 +142,7 @@ LAM_API void lam_scene_free(lam_scene *scene); // NULL is allowed
 
 // These functions add an item to a scene. Arrays and strings are copied. Each call returns the index of the added
 // element, or −1 on failure: LAM_BAD_ARGUMENT (an index out of range, a number out of range or not finite), LAM_LIMIT.
-// A mesh without normals gets smooth normals, with creases at 40°.
+// Smooth normals, with creases at 40°, are computed for a mesh without normals.
 LAM_API int lam_scene_add_mesh(lam_scene *scene, const lam_mesh *mesh, lam_error *error);
 LAM_API int lam_scene_add_material(lam_scene *scene, const lam_material *material, lam_error *error);
 LAM_API int lam_scene_add_light(lam_scene *scene, const lam_light *light, lam_error *error);
@@ -344,8 +344,8 @@ LAM_API bool lam_scene_bounds(const lam_scene *scene, lam_vec3 *minimum, lam_vec
 LAM_API int lam_scene_camera_count(const lam_scene *scene);
 LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
 
-// Returns the index of the camera with this name. If there is none, and the name is a number in digits, returns the
-// camera with this index. Returns −1 if there is no such camera.
+// Returns the index of the camera with this name. If no camera has this name, a name in digits selects the camera with
+// this index. Returns −1 if there is no such camera.
 LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
 // These functions get and set the up axis (LAM_UP_AUTO means y; a value out of range is ignored). The up axis rotates
@@ -377,7 +377,7 @@ LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool groun
 // baked normal maps (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). At each corner, ∂p/∂s is
 // averaged over the adjacent triangles that are connected by edges and share the orientation of the mapping and the
 // position, normal and texture coordinates of the corner, weighted by their angles. The result is unit and
-// perpendicular to the normal. If the texture coordinates give no direction, the corner gets the tangent of meshes
+// perpendicular to the normal. If the texture coordinates give no direction, the corner has the tangent of meshes
 // without texture coordinates (docs/lighting/threads.md). The call uses the texture coordinates of the normal map of
 // the first part that has one, or else the first set. The bitangent points up in the normal map's picture, or else in
 // the direction of increasing t. Loading a model does this for meshes with normal maps; drawing does not. `control` may

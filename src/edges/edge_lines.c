@@ -97,7 +97,7 @@ static int style_of(const struct edge_task *task, const struct mesh_edge *edge, 
     return *kinds_of ? EDGE_STYLE_FEATURE : plain;
 }
 
-// Returns the style of an edge whose weight is known. A speck gets the style of an edge that is not a feature edge.
+// Returns the style of an edge whose weight is known. Specks have the style of edges that are not feature edges.
 static int drawn_style(const struct edge_task *task, uint32_t e)
 {
     unsigned kinds;

@@ -24,7 +24,7 @@ struct edge_line {
     double x[2], y[2], length; // in the window, pixels
     double half;               // half of the line's width, pixels
     double start;              // length of the chain before the line, pixels
-    bool reversed;             // the chain runs from its second end to its first
+    bool reversed;             // the chain runs from the line's second end to its first end
     int style;
     bool whole[2];         // whether the end is an end of the edge itself
     uint32_t first, count; // the range of the line's points

@@ -2,9 +2,9 @@
 //
 // The coverage of a pixel is the area of its square that a strip of the stroke's width covers. Projected across the
 // strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
-// strip's angle. Therefore, for any position of a line, its coverage along any row or column that crosses the line adds
-// up to the width of the line in that direction. At a crossing the largest coverage is used, so that edges shared by
-// two triangles, and corners, are not darker than other edges.
+// strip's angle. Therefore, in any row or column that crosses a line, the line's coverage adds up to the width of the
+// line in that direction. The sum does not depend on the line's position. If several strokes cover a pixel, the largest
+// coverage is used, so that corners and edges shared by two triangles are not darker than other edges.
 #define LANES 1
 #include "edge_lines.h"
 
@@ -50,7 +50,7 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
     if (!s->round[1])
         whole *= share_below(length - along, ux, uy);
     int end = along > length ? 1 : 0;
-    if ((along < 0 || end) && s->round[end]) { // measured across the ray from the end
+    if ((along < 0 || end) && s->round[end]) { // at a round cap, the distance from the end
         double ex = x - s->x[end], ey = y - s->y[end];
         across = math_sqrt(ex * ex + ey * ey);
         ux = ex / across;
@@ -61,7 +61,7 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
 
 static int clamped(double x, int limit) { return x <= 0 ? 0 : x >= limit ? limit : (int)x; }
 
-// Finds the columns of a row that a stroke may touch: those within `reach` of the stroke's line, and inside its box.
+// Finds the columns of a row that a stroke may touch. They are within `reach` of the stroke's line, and inside its box.
 static void columns(const struct edge_stroke *s, double y, double ux, double uy, double reach, int width, int *first,
                     int *last)
 {

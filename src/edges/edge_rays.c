@@ -2,8 +2,8 @@
 // several instruction sets.
 //
 // An edge lies in the planes of its own triangles and of touching faces, so these faces must not hide the edge.
-// Therefore a triangle hides a point only if its plane is farther from the point than the rounding of positions in
-// files. Lines along a surface then have no gaps, and no line is visible through a surface.
+// Therefore a triangle hides a point only if its plane is farther from the point than the rounding error of positions
+// in files. Lines along a surface then have no gaps, and no line is visible through a surface.
 #include "edge_lines.h"
 
 #include "layer_kinds.h"

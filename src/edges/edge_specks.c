@@ -21,7 +21,7 @@ struct vertex {
 
 struct groups {
     struct vertex *vertices;
-    uint8_t *used; // whether a slot has a vertex
+    uint8_t *used; // whether a slot contains a vertex
     uint32_t mask; // slots − 1
 };
 

@@ -8,7 +8,7 @@
 struct edge_measure {
     double x[2], y[2], length; // in the window, clipped to the picture; pixels
     int style;                 // −1 if the edge is not drawn
-    bool whole[2];             // whether the end is not clipped
+    bool whole[2];             // false if the end is clipped
     // For each end of this edge, the edge end to which it is linked: twice the index of the other edge, plus 0 or 1.
     // NO_LINK if none.
     uint32_t link[2];

@@ -88,7 +88,7 @@ static void set_view(struct edge_view *view, const struct frame *frame, const st
                                .window = {frame->width, frame->height},
                                .loop = loop};
     double eye[3];
-    for (int i = 0; i < 3; i++) // eye space looks along −z
+    for (int i = 0; i < 3; i++) // in eye space, the camera looks along −z
         eye[i] = frame->eye_to_world[i][frame->orthographic ? 2 : 3];
     if (frame->orthographic)
         memcpy(view->eye, eye, sizeof eye);

@@ -18,7 +18,7 @@ struct edge_strokes {
 
 // The memory kept from frame to frame.
 struct edge_memory {
-    // The edges of the draws' meshes, in the order of the draws, and their meshes.
+    // The edges of the meshes of all draws, in the order of the draws, and the meshes to which the edges belong.
     struct buffer edges, sources;
     int source_count;
     struct scene_token *token; // the scene of the list; NULL if nothing is listed

@@ -13,8 +13,7 @@ enum {
     EDGE_ALIKE = 8,  // both faces traverse the edge in the same direction, so their windings are inconsistent
 };
 
-// An edge, which runs from a corner of a triangle to the triangle's next corner, and a corner with the same edge in
-// another triangle.
+// An edge from a corner of a triangle to the triangle's next corner.
 struct mesh_edge {
     uint32_t corner;
     uint32_t other; // a corner with the same edge in another triangle; for EDGE_OPEN, equal to `corner`

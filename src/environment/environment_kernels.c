@@ -110,8 +110,8 @@ LANE_FN struct frames frames_of(int size, int face, int s, int t)
     return f;
 }
 
-// Computes one row. Each texel is the sum of the cells from `first` to `end`, plus the same texel of `others`, which
-// contains the sums of the other cells (may be NULL).
+// Computes one row. Each texel is the sum of the cells from `first` to `end`, plus the same texel of `others` (may be
+// NULL), which contains the sums of the other cells.
 static void prefilter_row(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t)
 {

@@ -29,7 +29,7 @@ struct cube_sums {
 
 struct environment_kernels {
     // Computes row t of a face of `out`. Each texel is the sum of the cells from `first` to `end`, plus the same texel
-    // of `others`, which contains the sums of the other cells (may be NULL).
+    // of `others` (may be NULL), which contains the sums of the other cells.
     void (*prefilter_row)(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t);
     // Computes row t of a face of `out` from all texels of a small copy. If `alpha` is below 0, the row contains the

@@ -20,7 +20,7 @@
 
 // --- the cells of a lobe
 
-// Returns the roughness of a level. The steps of its fourth root are equal.
+// Returns the roughness of a level. The fourth roots of the roughnesses are equally spaced.
 static double prefiltered_roughness(int level)
 {
     double start = math_sqrt(math_sqrt(0.045)), root = start + (1 - start) * level / (ENVIRONMENT_LEVELS - 1);
@@ -55,7 +55,7 @@ static double ggx_share(double tangent, double alpha)
 static void add_ring(struct lobe_cells *cells, double alpha, double inner, double outer, int number,
                      const struct cube_chain *chain, double *total)
 {
-    // The angle between l and the axis is twice that of h: cos = (1 − t²) / (1 + t²), sin = 2 t / (1 + t²).
+    // The angle of l from the axis is twice the angle of h: cos = (1 − t²) / (1 + t²), sin = 2 t / (1 + t²).
     double share = ggx_share(outer, alpha) - ggx_share(inner, alpha);
     double middle = ggx_share(inner, alpha) + share / 2, t = alpha * math_sqrt(middle / (1 - middle));
     double z = (1 - t * t) / (1 + t * t), r = 2 * t / (1 + t * t);

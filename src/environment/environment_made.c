@@ -66,7 +66,7 @@ static void sky_row(int face, int t, float *texels)
 }
 
 // The studio for physical materials is a cubic room around the origin. The lamps are small and bright, so that a clear
-// coat mirrors a few clear highlights, and its colour stays saturated between them. The brightest lamp, at the ceiling,
+// coat mirrors a few clear highlights, and its colour stays saturated between them. The brightest lamp, on the ceiling,
 // lights the tops of objects, which cast short soft shadows on a ground. A tall lamp in front lights the sides that
 // face the viewer. A tall lamp at the right lights the third side less, so that the three visible faces of a cube
 // differ. The lamp behind the object is high: it lights rounded tops and the rims of black objects. Metals mirror a

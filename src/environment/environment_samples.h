@@ -1,6 +1,6 @@
 // environment_samples.h: fixed directions for summing an environment's light over a lobe. Three methods of importance
-// sampling are combined. Half of the directions are sampled by the brightness of the environment, a quarter by the GGX
-// microfacets that the eye sees, and a quarter by the cosine. The sum weights each direction by all three densities
+// sampling are combined. Half of the directions follow the brightness of the environment, a quarter follow the GGX
+// microfacets that the eye sees, and a quarter follow the cosine. The sum weights each direction by all three densities
 // (multiple importance sampling). A single sampling method therefore need not match the whole lobe. These weights are
 // the balance heuristic (Veach and Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
 //
@@ -31,7 +31,7 @@ struct environment_samples {
     const float *density; // 6 faces, row by row: the density of `light` per area, for faces from −1 to 1
 };
 
-// Selects `count` directions. `to_environment` rotates the caller's axes to the environment's. `storage` owns the
+// Selects `count` directions. `to_environment` rotates the caller's axes to the environment's axes. `storage` owns the
 // samples. `call` may be NULL.
 bool environment_samples_make(struct environment_samples *samples, const struct lam_environment *cube,
                               const float to_environment[3][3], int count, struct buffer *storage,

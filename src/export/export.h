@@ -95,7 +95,7 @@ void export_word(struct text *text, uint32_t value); // little-endian
 void export_float(struct text *text, double x);      // little-endian
 void export_floats(struct text *text, lam_vec3 p);
 void export_list(struct text *text, const char *word, const double *numbers, int count);
-void export_line(struct text *text, const char *word, const double *numbers, int count); // the list and a line end
+void export_line(struct text *text, const char *word, const double *numbers, int count); // writes a list and a line end
 lam_vec3 export_turned(const struct exporting *e, lam_vec3 p);
 lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32_t vertex);
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index);
@@ -108,8 +108,8 @@ struct export_vertices {
 };
 bool export_share_vertices(struct exporting *e, const lam_mesh *mesh, struct export_vertices *out);
 
-// These functions return the element of a corner's colour, an element's linear colour, and an element's sRGB-encoded
-// colour in 8 bits. The mesh must have colours.
+// export_color_element returns the index of a corner's colour in the mesh. The other functions return the colour with
+// this index: linear, or encoded as sRGB in 8 bits. The mesh must have colours.
 uint32_t export_color_element(const lam_mesh *mesh, size_t corner);
 void export_color(const lam_mesh *mesh, size_t element, float color[4]);
 void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4]);

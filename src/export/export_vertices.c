@@ -86,7 +86,7 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
 
 // Returns the number that OBJ and MTL use for a channel of light: sRGB-encoded below 1. The reader rounds the number to
 // a float and decodes it. If a byte divided by 255 decodes to exactly `light`, that quotient is the result. Otherwise,
-// the result is the smallest float between 0 and 1 that does not decode to less than `light`. A colour read from OBJ or
+// the result is the smallest float between 0 and 1 whose decoded value is at least `light`. A colour read from OBJ or
 // MTL is therefore written with its original number.
 double export_encoded(float light)
 {

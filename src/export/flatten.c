@@ -149,7 +149,7 @@ static void put_object(struct flat *f, const lam_mesh *m, const lam_object *obje
     f->corners += mesh_corners(m);
 }
 
-// If some meshes lack an attribute, appends one default element to the attribute's array. The corners of these meshes
+// Appends one default element to the attribute's array if some meshes lack the attribute. The corners of these meshes
 // use the default element.
 static void put_missing(struct flat *f, size_t corners)
 {

@@ -18,7 +18,7 @@ static void put_vector(struct text *text, const char *word, lam_vec3 p)
 }
 
 // Collects the colour of each vertex; *out is NULL if the mesh has no colours. OBJ stores one colour per position, so a
-// vertex whose corners have different colours gets no colour.
+// vertex whose corners have different colours is written without a colour.
 static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
 {
     *out = NULL;

@@ -1,5 +1,5 @@
-// origin.h: decides, by the same rule for every format, whether a mesh gets an origin other than zero, and computes the
-// origin.
+// origin.h: decides, by the same rule for every format, whether a mesh needs an origin other than zero, and computes
+// the origin.
 //
 // Positions are floats, with a relative precision of 2⁻²⁴. A model far from zero (survey coordinates, a car in its
 // factory) would lose detail. Therefore a mesh has an `origin` in double, which is subtracted before positions are

@@ -236,7 +236,7 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     return true;
 }
 
-// Returns whether a pixel gets the value of the covered sample nearest to its centre, instead of an average.
+// Returns whether the value of a pixel is the value of its covered sample nearest to the centre, instead of an average.
 static bool is_value(lam_output output)
 {
     return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED && output != LAM_OUTPUT_COVERAGE &&

@@ -102,7 +102,7 @@ static bool check_frame(const lam_animation *animation, const lam_image *frame, 
 }
 
 // Returns whether the memory limit allows another frame. In addition to the frames so far, the next frame needs memory
-// for the previous picture, for the changed rectangle, and for the encoded rectangle, each of the size of a picture. If
+// for three buffers of the size of a picture: the previous picture, the changed rectangle and the encoded rectangle. If
 // the limit does not allow another frame, the animation can no longer be used.
 static bool check_memory(lam_animation *animation, const lam_control *control, lam_error *error)
 {

@@ -137,7 +137,7 @@ void lam_font_free(lam_font *font)
     free(font);
 }
 
-// Returns the code point at *text and advances *text. For an invalid byte or sequence, returns U+FFFD.
+// Returns the code point at *text (U+FFFD for an invalid byte or sequence) and advances *text.
 static FT_ULong next_letter(const char **text)
 {
     const unsigned char *s = (const unsigned char *)*text;
@@ -206,8 +206,8 @@ static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, 
         }
 }
 
-// Lays out a line of text and returns its width in pixels. Unless `image` is NULL, draws the text. Letters that the
-// font cannot load are skipped.
+// Lays out a line of text and returns its width in pixels. Draws the text unless `image` is NULL. Letters that the font
+// cannot load are skipped.
 static double walk(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                    const char *text)
 {
@@ -259,7 +259,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
 lam_font *lam_font_open(const char *path, lam_error *error)
 {
     (void)path;
-    fail(error, LAM_UNSUPPORTED, "text: this build has no FreeType (libfreetype-dev was missing)");
+    fail(error, LAM_UNSUPPORTED, "text: this build does not include FreeType (libfreetype-dev was missing)");
     return NULL;
 }
 
@@ -275,7 +275,7 @@ bool lam_text_draw(lam_image *image, lam_font *font, double x, double y, double 
                    const char *text, lam_error *error)
 {
     (void)image, (void)font, (void)x, (void)y, (void)size_px, (void)color, (void)text;
-    return fail(error, LAM_UNSUPPORTED, "text: this build has no FreeType (libfreetype-dev was missing)");
+    return fail(error, LAM_UNSUPPORTED, "text: this build does not include FreeType (libfreetype-dev was missing)");
 }
 
 #endif

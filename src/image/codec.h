@@ -44,15 +44,15 @@ struct codec {
     // the file has 8 bits and no alpha, `image` becomes LAM_RGB8. If this function is NULL, `read` is used.
     bool (*read_wide)(const struct picture_file *file, lam_image *image, bool *wide, lam_error *error);
 
-    // Returns whether the first bytes of a file of this format (CODEC_HEAD bytes or the whole file) state that Lambent
+    // Returns whether the first bytes of a file of this format (CODEC_HEAD bytes or the whole file) show that Lambent
     // wrote the file. NULL means that the format cannot store this information.
     bool (*ours)(const uint8_t *bytes, size_t size);
 };
 
 enum { CODEC_HEAD = 512 };
 
-// The formats, in the order in which files are probed and in which lists show the formats. Formats without a signature
-// are last. tests/fuzz/meson.build also reads these names.
+// The formats, in the order in which Lambent probes files and lists formats. Formats without a signature are last.
+// tests/fuzz/meson.build also reads these names.
 #define CODECS(X) X(png) X(ppm) X(pfm) X(exr) X(jpeg) X(webp) X(hdr) X(bmp) X(tga)
 
 #define CODEC(name) extern const struct codec codec_##name;
@@ -79,15 +79,15 @@ bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                   lam_image *image, lam_error *error);
 
-// Does the same as picture_make, with `more` bytes after the pixels. There are fewer of these bytes than bytes of
-// pixels, and they are not charged.
+// Does the same as picture_make, with `more` bytes after the pixels. `more` must be smaller than the number of bytes of
+// pixels. The additional bytes are not charged to the call.
 bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                          size_t more, lam_image *image, lam_error *error);
 
 // Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is allowed.
 void picture_free(struct call_control *call, lam_image *image);
 
-// Returns whether decoding may continue with row `y`. If not, fills the error.
+// Returns whether decoding may continue with row `y`. Fills the error if it may not continue.
 static inline bool picture_continues(const struct picture_file *file, int64_t y, lam_error *error)
 {
     return y % 16 != 0 || call_should_continue(file->call) || call_error(file->call, error);

@@ -65,7 +65,7 @@ static const char *instead_of(const char *word)
         const char *words[12], *instead;
     } rows[] = {
         {{"mp4", "mov", "avi", "mkv", "webm", "m4v", "mpg", "mpeg", "ogv", "gif", "apng"},
-         "webp, which contains animations"},
+         "webp, which supports animations"},
         {{"bmp", "tga", "tif", "tiff", "heic", "avif", "jp2", "svg", "pdf", "eps", "ico"}, "png"},
         {{"hdr", "rgbe"}, "exr"},
         {{"obj", "stl", "ply", "gltf", "glb", "3mf", "json", "step", "fbx"}, "png"}, // models
@@ -106,7 +106,7 @@ static const struct codec *codec_for(const char *path, lam_error *error)
 
 struct pool *encoding_pool(const lam_image *image, int threads)
 {
-    // Starting a thread takes as long as encoding some thousand pixels, so each thread gets at least 65536 pixels.
+    // Starting a thread takes as long as encoding a few thousand pixels, so each thread encodes at least 65536 pixels.
     const int64_t max_threads = (int64_t)image->width * image->height >> 16;
     if (threads == 0)
         threads = processor_count();
@@ -171,7 +171,7 @@ bool lam_image_save(const lam_image *image, const char *path, const lam_save_par
     lam_bytes bytes = {0};
     if (!codec || !encode(codec, image, params, &bytes, error))
         return false;
-    // Check whether the call must stop before the file is created.
+    // Before the file is created, check whether the call must stop.
     struct call_control call;
     call_start(&call, params ? params->control : NULL);
     bool ok = call_should_continue(&call)

@@ -10,7 +10,7 @@
 
 enum { MAX_SIDE = 65535 };
 
-// Large pictures get huge pages if the system provides them, because the first access is then three times as fast.
+// Large pictures use huge pages if the system provides them, because the first access is then three times as fast.
 static void *get_pixels(size_t bytes)
 {
     const size_t huge = (size_t)2 << 20;

@@ -84,7 +84,7 @@ static void skip_space(struct parser *p)
         p->at++;
 }
 
-// Skips spaces. If the next character is `c`, skips it too and returns true.
+// Skips spaces, and also the next character if it is `c`. Returns whether it was `c`.
 static bool accept(struct parser *p, char c)
 {
     skip_space(p);
@@ -145,7 +145,8 @@ static char *read_escape(struct parser *p, char *to)
         length = 12;
     }
     if (unit < 1 || (unit >= 0xd800 && unit < 0xe000))
-        return fail_at(p, p->at, unit == 0 ? "a string has a zero character" : "an escape is not one of JSON"), NULL;
+        return fail_at(p, p->at, unit == 0 ? "a string contains a zero character" : "an escape is not one of JSON"),
+               NULL;
     p->at += length;
     return put_utf8(to, unit);
 }
@@ -165,7 +166,8 @@ static char *decode_text(struct parser *p, const char *close, char *to)
         if (step == 0 && *p->at == '\\') {
             to = read_escape(p, to);
         } else if (step == 0 || (unsigned char)*p->at < 0x20) {
-            fail_at(p, p->at, step ? "a string has a control character, expected an escape" : "a string is not UTF-8");
+            fail_at(p, p->at,
+                    step ? "a string contains a control character, expected an escape" : "a string is not UTF-8");
             to = NULL;
         } else {
             memcpy(to, p->at, (size_t)step);

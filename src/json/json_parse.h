@@ -7,7 +7,7 @@
 #include <jansson.h>
 
 // Parses JSON (RFC 8259) whose top-level value is an object or a list. A byte order mark may precede the text. Whole
-// numbers are integers if 64 bits can store them; all other numbers are the nearest double. Duplicate keys, zero
+// numbers become integers if 64 bits can store them; all other numbers become the nearest double. Duplicate keys, zero
 // characters in strings, and numbers outside the range of a double are errors. Messages use `file` as the file's name;
 // `call` may be NULL. Returns NULL on failure: LAM_CANNOT_READ with "FILE:LINE: column C: sentence", LAM_LIMIT (nested
 // deeper than lam_control.json_depth_limit), LAM_CANCELLED.

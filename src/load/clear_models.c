@@ -23,7 +23,7 @@ static bool colors_are_clear(const lam_mesh *mesh)
 // after the last part.
 struct shown {
     uint32_t part;
-    lam_material *front, *back; // a NULL back uses the front's material
+    lam_material *front, *back; // NULL if back faces use the front's material
 };
 
 static bool next_shown(struct lam_scene *scene, const lam_object *object, struct shown *shown)

@@ -68,7 +68,7 @@ static const struct text_kind {
     {{"an AMF file", ".stl"}, '<', "<amf"},
     {{"an XML file", NULL}, '<', "<?xml"},
     {{"a DXF file", ".stl"}, '0', "SECTION"},
-    {{"a MTL file (materials only; give the .obj that names it)", NULL}, 'n', "newmtl "},
+    {{"an MTL file (materials only; give the .obj that names it)", NULL}, 'n', "newmtl "},
 };
 
 // Formats by their file extensions, which are separated by spaces.

@@ -2,8 +2,8 @@
 //
 // The visible surfaces are treated as a height field. Around a pixel, a plane through the view vector cuts the height
 // field. In this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
-// (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). Sixteen neighbours rotate
-// their planes by different angles, and an edge-aware filter of that size averages the results.
+// (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). The planes of 4 × 4
+// neighbouring pixels are rotated by different angles, and an edge-aware filter averages the results.
 // docs/lighting/occlusion.md lists the formulas.
 #ifndef SCREEN_OCCLUSION_H
 #define SCREEN_OCCLUSION_H
@@ -15,9 +15,9 @@
 
 struct pool;
 
-// The grid of cells for which occlusion is computed: the picture's pixels or, in pictures of more than SCREEN_FINE
-// pixels, cells of two by two pixels, which take a quarter of the time. Each pixel then gets the mean of the
-// surrounding cells on its surface.
+// The grid of cells for which occlusion is computed. Usually, each pixel is a cell. In pictures of more than
+// SCREEN_FINE pixels, a cell is two by two pixels, which takes a quarter of the time. The value of a pixel is then the
+// mean of the surrounding cells on its surface.
 struct screen_occlusion {
     int width, height;           // the size of the picture
     int step;                    // pixels along the side of a cell: 1 or 2
@@ -29,7 +29,7 @@ struct screen_occlusion {
     float radius;        // radius of occlusion in eye units; 0 disables occlusion at this radius
     float cavity_radius; // radius of cavity shading (lam_cavity)
     bool ridges;         // whether cavity shading lightens ridges
-    bool deepens;        // whether cavity shading darkens valleys by the sixth power instead of the third
+    bool deepens;        // whether cavity shading darkens valleys with the sixth power instead of the third
     // The distance of the visible surface in front of the eye at each pixel, or SCREEN_EMPTY: one plane for each pixel
     // of a cell (screen_pixel). The caller fills `depth`; screen_occlusion_start writes SCREEN_EMPTY around the
     // picture.

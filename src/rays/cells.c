@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
-// The centres of a large range's triangles are sorted into the cells of a grid, and the range is divided by the boxes
-// of its cells, which are far fewer than its triangles. A range of few triangles, or a range within one cell, is
-// removed from its cells. One thread then divides the range (splits.c). A large range within one cell instead gets its
-// own grid. Tasks depend only on the number of triangles, and the position of a range's nodes depends only on its
-// triangles, so the result does not depend on the number of threads.
+// The centres of a large range's triangles are sorted into the cells of a grid, and the boxes of the cells determine
+// how the range is divided. There are far fewer cells than triangles. A range of few triangles, or a range within one
+// cell, is removed from its cells. One thread then divides the range (splits.c). For a large range within one cell, a
+// separate grid is built instead. Tasks depend only on the number of triangles, and the position of a range's nodes
+// depends only on its triangles. The result is therefore the same for any number of threads.
 #include "ranges.h"
 
 #include "fail.h"
@@ -39,11 +39,11 @@ struct large {
     struct grid grid;
     uint32_t chunk, chunks;  // triangles sorted together
     uint16_t *keys;          // the cell of each triangle
-    uint32_t *offsets;       // for each task and cell, the number of triangles, then the position of the next one
+    uint32_t *offsets;       // for each task and cell, the number of triangles, then the position of the next triangle
     struct primitive *cells; // cells that contain triangles
     uint32_t used_cells;
     struct box *boxes;          // for each task, the box of its triangles and the box of twice their centres
-    struct list small, waiting; // ranges that one thread divides, and ranges that get their own grids
+    struct list small, waiting; // ranges that one thread divides, and ranges that need their own grids
     struct buffer keys_memory, offsets_memory, cells_memory;
 };
 

@@ -96,7 +96,7 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
                             .node_count = (uint32_t)nodes,
                             .triangle_count = (uint32_t)count};
     bool ok = ray_triangles_prepare(&builder, error) && ray_nodes_build(&builder, error);
-    // The scratch memory is half as large as the hierarchy, and is only needed again after an object moves.
+    // The scratch memory is half as large as the hierarchy, and is needed again only after an object moves.
     buffer_release(&memory->scratch, call);
     if (!ok)
         return NULL;

@@ -23,9 +23,9 @@ struct light_rays {
     uint64_t sent; // number of traced rays
 };
 
-// A ray through an edge intersects both triangles that share this edge. This does not matter for opaque surfaces, but
-// only one of two translucent triangles may count: the one on a fixed side of the edge, seen along the ray, as in
-// rasterization.
+// A ray through an edge intersects both triangles that share this edge. This does not matter for opaque surfaces. If
+// both triangles are translucent, only one of them may count: the triangle on a fixed side of the edge, seen along the
+// ray, as in rasterization.
 static bool owns_edges(const struct ray_triangle *triangle, const double origin[3], const double d[3],
                        const double weights[3])
 {

@@ -5,8 +5,7 @@
 #include "frame.h"
 
 // Returns the opacity, 0…1, of a triangle of the frame at the point with the weights 1 − b1 − b2, b1 and b2; textures
-// are read at level 0. The opacity of a masked surface is 0 or 1. With `back`, returns the opacity of the triangle's
-// back side.
+// are read at level 0. The opacity of a masked surface is 0 or 1. `back` selects the triangle's back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
 // Gets the light (red, green, blue) that passes through such a point: 1 − opacity, plus the light that continues behind

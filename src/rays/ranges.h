@@ -73,7 +73,7 @@ static inline void halves_of(struct range *r, uint32_t left, const struct box bo
     r->area = half_area(boxes[0]);
 }
 
-// Returns the part with the largest box among the parts `open` to division, or −1 if there is none.
+// Returns the part with the largest box among the parts that `open` marks as divisible, or −1 if there is none.
 static inline int widest_part(const struct range *parts, const bool *open, int count)
 {
     int widest = -1;

@@ -13,7 +13,7 @@
 //
 // Rays with nearly the same direction form a bundle and traverse the hierarchy together. At a node, the intervals of
 // their origins and directions are tested against the boxes of all children of the node at once (Boulos, Wald and
-// Shirley, "Geometric and arithmetic culling methods for entire ray packets", 2006); only leaves test individual rays.
+// Shirley, "Geometric and arithmetic culling methods for entire ray packets", 2006). Only leaves test individual rays.
 // A ray with a different direction is a bundle of one.
 #ifndef RAY_LANES_H
 #define RAY_LANES_H
@@ -23,7 +23,7 @@
 #include "hierarchy.h"
 
 // The rays of a bundle differ from the first of them by at most this distance, summed over coordinates. This limit
-// applies at the starts of the rays, and at their ends at full length (at most 1).
+// applies to the starts of the rays, and to their ends at full length (at most 1).
 #define BUNDLE_SPREAD 0.2f
 
 struct ray_lanes {
@@ -37,11 +37,11 @@ struct ray_lanes {
 
 // Rays seen along their directions d, with k the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
 // and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one is 0, both exact. Rays with
-// different k can therefore use the same operations, and rays with a common k fewer operations, with the same results.
+// different k can therefore use the same operations. Rays with a common k need fewer operations, with the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k
-    int k, i, j;      // equal for all requested rays, which then use only row k; k is −1 if they differ
+    int k, i, j;      // the common k of the requested rays, which then use only row k; k is −1 if they have no common k
 };
 
 LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
@@ -172,8 +172,9 @@ LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_tria
 
 // The floats of a ray for box tests.
 //
-// Coordinates of triangles are within −1…1. Rounding origin, direction, its inverse and the box moves the intersection
-// with a plane of a box by less than 2⁻²¹ (1 + |origin|) in total; each plane is moved outwards by that much.
+// Coordinates of triangles are within −1…1. If the origin, the direction, its inverse and the box are rounded, the
+// intersection with a plane of the box moves by less than 2⁻²¹ (1 + |origin|) in total. Each plane is therefore moved
+// outwards by this distance.
 struct box_rays {
     _Alignas(64) float low[3][LANES], high[3][LANES]; // the origin, to be subtracted from a box's low and high planes
     float direction[3][LANES], inverse[3][LANES], end[LANES];
@@ -220,7 +221,7 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
 // --- bundles
 
 // Rays that are traced together, and the intervals that contain them: the bundle meets every box that one of them
-// meets. Rounding is monotonic, so this also holds for the computed numbers.
+// meets. Rounding is monotonic, so the same is true of the computed numbers.
 struct ray_bundle {
     unsigned lanes;
     int first[3], last[3];           // the planes that the rays meet first and last, as indices into a node's floats

@@ -73,7 +73,7 @@ static void choose_space(struct hierarchy *h, const struct bounds *bounds)
         h->centre[i] = any ? 0.5 * bounds->low[i] + 0.5 * bounds->high[i] : 0;
         half = own > half ? own : half;
     }
-    double size = 1; // the smallest power of two that is not below `half`
+    double size = 1; // the smallest power of two that is at least `half`
     for (; size < half && size < 0x1p1000; size *= 2)
         ;
     for (; size * 0.5 >= half && size > 0x1p-1000; size *= 0.5)

@@ -23,7 +23,7 @@ static lam_scene *make_shape(const char *name, const lam_control *control, lam_e
 
 static bool reads_tangents(const lam_draw_params *draw)
 {
-    // if it is NULL, drawing reports the error
+    // if `info` is NULL, drawing reports the error
     const lam_reflection_info *info = lam_reflection_describe(draw->reflection);
     return info && info->tangents;
 }

@@ -9,7 +9,7 @@
 // Poles: if all points of a row, or of the first or last column, coincide, the row or the column is one vertex.
 // Degenerate triangles at a pole are skipped. Each remaining triangle has its own corner at the pole, with the texture
 // coordinate, tangent and normal of the centre of its cell. If these normals agree, the pole is smooth and all corners
-// get the mean normal. Otherwise the pole is a tip, like the tip of a cone, and each corner keeps its normal.
+// have the mean normal. Otherwise the pole is a tip, like the tip of a cone, and each corner keeps its normal.
 //
 // A zero derivative does not determine the tangent plane. The code then uses the derivative at a nearby point, which is
 // further inside by INSET of the domain. This derivative approximates the one-sided limit.

@@ -70,8 +70,8 @@ class Mistakes(Case):
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="see 'lambent compare -h'")
         many = [word for i in range(46) for word in ("--caption", f"Picture {i}")]  # the sphere shows fewer than all 47 mistakes
         self.bad(1, "compare", "sphere", "--across", "mistake", "-q", "-s", "32", *many, says="option '--caption': found 46, but the sheet has ")
-        self.bad(3, "compare", "sphere", "--across", "mistake=no-gate", "--reflection", "ggx", says="'--style lecture' does not have '--reflection ggx'")
-        self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="mistakes are edits of shaders, which OpenGL draws")
+        self.bad(3, "compare", "sphere", "--across", "mistake=no-gate", "--reflection", "ggx", says="'--style lecture' does not support '--reflection ggx'")
+        self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--device", "cpu", says="mistakes change shaders, and only OpenGL uses shaders")
         self.bad(1, "compare", "sphere", "--across", "mistake=no-gate", "--across", "shading", says="mistakes cannot be combined")
 
 

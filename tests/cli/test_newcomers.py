@@ -3,7 +3,7 @@ import os
 
 from harness import Case, covered, read_png
 
-ANIMATION = "use .webp, which contains animations"
+ANIMATION = "use .webp, which supports animations"
 SIZE = "-s 640x480"
 
 

@@ -116,7 +116,7 @@ class Shader(Case):
         for words, option in ((("--reflection", "ggx"), "reflection"), (("--gl1", "--shading", "gouraud"), "gl1"), (("--shadows",), "shadows"), (("--exposure", "1"), "exposure"),
                               (("--tone", "aces"), "tone"), (("--back-material", "gold"), "back-material"), (("--show", "diffuse"), "show"), (("--lights-in", "texture"), "lights-in")):
             with self.subTest(words):
-                self.bad(3, "shader", "sphere", "--style", "lecture", *words, says=("'--style lecture' does not have '--" + option, "'--style full'"))
+                self.bad(3, "shader", "sphere", "--style", "lecture", *words, says=("'--style lecture' does not support '--" + option, "'--style full'"))
         (self.folder / "red.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")
         (self.folder / "a.mtl").write_text("newmtl a\nmap_Kd red.ppm\n")
         (self.folder / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n")
@@ -268,7 +268,7 @@ class Shader(Case):
         self.assertEqual(refused, {"normal-not-unit", "normal-clip-space", "clip-space-vertex", "alpha-one"})
 
     def test_application_stage_says_what_it_does_not_have(self):
-        self.bad(3, "shader", "sphere", "--style", "lecture", "--stage", "application", "--reflection", "ggx", says="'--style lecture' does not have '--reflection ggx'")
+        self.bad(3, "shader", "sphere", "--style", "lecture", "--stage", "application", "--reflection", "ggx", says="'--style lecture' does not support '--reflection ggx'")
         self.assertIsNone(self.contract("sphere", "--stage", "application")["application"])
         self.assertIsNone(self.contract("sphere", "--style", "lecture")["application"])
         self.good("shader", "sphere", "--style", "lecture", "--stage", "application", "--host", "c", "-o", "s", "-q")

@@ -154,7 +154,7 @@ static void test_foreign(void **unused)
             LAM_UNSUPPORTED),
         ROW("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a.obj", "a.obj: this is a PNG picture" NOT, LAM_CANNOT_READ),
         ROW("# x\nnewmtl a\nKd 1 1 1\n", "a.mtl",
-            "a.mtl: this is a MTL file (materials only; give the .obj that names it)" NOT, LAM_CANNOT_READ),
+            "a.mtl: this is an MTL file (materials only; give the .obj that names it)" NOT, LAM_CANNOT_READ),
         ROW("hello there\n", "a.txt", "a.txt: unknown model format" READS, LAM_CANNOT_READ),
         ROW("hello there\n", "a.STP", "a.STP: this is a STEP file" EXPORT(".stl"), LAM_UNSUPPORTED),
         ROW("hello there\n", "a.usdz", "a.usdz: this is a USD file" EXPORT(".glb"), LAM_UNSUPPORTED),

@@ -21,8 +21,9 @@ void console_capture(FILE *stream);
 // Prints text. Control characters other than line ends and tabs become "?", because file names may contain them.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// Returns the number of bytes of the character at `text` if the character is invisible: a control character except line
-// ends and tabs, or a character that changes the direction of the text after it. Returns 0 for any other character.
+// Returns the number of bytes of the character at `text` if the character is invisible, otherwise 0. Invisible
+// characters are control characters except line ends and tabs, and characters that change the direction of the text
+// after them.
 size_t text_hidden(const char *text);
 
 // Prints a file's name on one line: "\\" for a backslash, "\n" for a line end, "\r" for a carriage return, and "?" for

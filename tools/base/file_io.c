@@ -48,7 +48,7 @@ int open_regular(const char *path, uint64_t *size)
     if (stat(path, &about) != 0)
         return -1;
     int file = S_ISREG(about.st_mode) ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY) : -1;
-    if (file >= 0 && fstat(file, &about) == 0 && !S_ISREG(about.st_mode)) { // the path was replaced meanwhile
+    if (file >= 0 && fstat(file, &about) == 0 && !S_ISREG(about.st_mode)) { // the path now leads to another file
         close(file);
         file = -1;
     }

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { HOST_SIZE = 65 }; // HOST_NAME_MAX of Linux, and the closing zero
+enum { HOST_SIZE = 65 }; // Linux's HOST_NAME_MAX plus the closing zero
 
 // Returns the host name, or "" if the name is unknown.
 static inline const char *host_name(char name[HOST_SIZE])

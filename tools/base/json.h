@@ -1,7 +1,7 @@
 // json.h: writes JSON values one after the other, on one line.
 //
-// Numbers are written with the fewest digits that parse to the same double, in any locale, so that a camera copied from
-// a report reproduces the picture. (Jansson prints a fixed number of digits: 17 digits print 0.1 as
+// Writes numbers with the fewest digits that parse to the same double, in any locale. A camera copied from a report
+// therefore reproduces the picture. (Jansson prints a fixed number of digits: 17 digits print 0.1 as
 // 0.10000000000000001, and fewer digits can change the number.)
 #ifndef JSON_H
 #define JSON_H

@@ -22,7 +22,7 @@ bool output_make_folder(const char *path, lam_error *error)
     if (!folder)
         return complain(error, LAM_LIMIT, "out of memory");
     bool ok = true;
-    for (char *end = folder; ok && *end;) { // from the topmost folder
+    for (char *end = folder; ok && *end;) { // starts with the topmost folder
         end += 1 + strcspn(end + 1, "/");
         char kept = *end;
         struct stat found;

@@ -15,7 +15,7 @@ struct progress {
 
 void progress_start(struct progress *progress, const char *model, bool allowed);
 
-// Sets the section of the bar that the next call fills. If `progress` is NULL, does nothing.
+// Sets the section of the bar that the next call fills. Does nothing if `progress` is NULL.
 void progress_phase(struct progress *progress, double from, double span);
 
 // Implements the callback of lam_control; `user` is a struct progress.

@@ -17,7 +17,7 @@ struct suggestion suggest_start(const char *typed)
 void suggest_try(struct suggestion *suggestion, const char *word)
 {
     int distance = lam_word_distance(suggestion->typed, word);
-    // If an equally similar word is a prefix of the best word so far, prefers the prefix.
+    // If an equally similar word is a prefix of the best word so far, the prefix is preferred.
     const char *best = suggestion->best;
     bool shorter = best && distance == suggestion->distance && strncmp(best, word, strlen(word)) == 0;
     if (distance < suggestion->distance || shorter) {

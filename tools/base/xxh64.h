@@ -14,7 +14,7 @@ struct xxh64 {
 
 void xxh64_start(struct xxh64 *hash);
 void xxh64_add(struct xxh64 *hash, const void *bytes, size_t size);
-void xxh64_add_text(struct xxh64 *hash, const char *text); // adds the terminating zero too; NULL adds one byte 1
+void xxh64_add_text(struct xxh64 *hash, const char *text); // also hashes the terminating zero; NULL: hashes a byte 1
 uint64_t xxh64_end(const struct xxh64 *hash);
 
 // Hashes a block of bytes.

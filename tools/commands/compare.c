@@ -184,7 +184,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     if (!cell_options(c, cell, NULL, NULL, &options, error))
         return false;
     options.shader.style = LAM_SHADER_STYLE_LECTURE;
-    options.shader.products = true; // as when OpenGL draws the picture
+    options.shader.products = true; // OpenGL also draws with this form of the shaders
     options.picture.width = CELL_WIDTH;
     options.picture.height = CELL_HEIGHT;
     struct job job = {.options = &options, .model = c->model};
@@ -206,10 +206,9 @@ static bool choose_mistakes(struct compare *c, lam_error *error)
 {
     struct sheet *sheet = &c->sheet;
     if (option_given(c->options, "device") && c->options->work.device == DEVICE_CPU)
-        return complain(
-            error, LAM_BAD_ARGUMENT,
-            "options '--device cpu' and '--across mistake': mistakes are edits of shaders, which OpenGL draws; see "
-            "'lambent compare -h'");
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "options '--device cpu' and '--across mistake': mistakes change shaders, and only OpenGL uses "
+                        "shaders; see 'lambent compare -h'");
     char left_out[1024] = "";
     int kept = 0;
     for (int i = 0; i < sheet->count; i++) {
@@ -270,8 +269,8 @@ static bool draw_inset(struct compare *c, const struct cell *cell, struct highli
 
 // --- the page
 
-// Draws text that fits the width. Reduces the size step by step, because the widths of hinted letters are not
-// proportional to the size.
+// Draws text. If the text is too wide, the size is reduced step by step until the text fits, because the widths of
+// hinted letters are not proportional to the size.
 static void draw_fitting(struct drawing *d, struct point baseline, double size, double width, uint32_t color,
                          const char *text)
 {
@@ -314,7 +313,8 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
 {
     double u = c->page.unit, middle = left + c->page.cell_width / 2.0, width = c->page.cell_width;
     draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, width, INK, caption_of(c, cell));
-    // The second line shows the picture's options as typed or, for a mistake, the difference from the first picture.
+    // The second line shows the picture's options as typed. If the picture shows a mistake, the second line shows the
+    // difference from the first picture instead.
     char line[512];
     const char *words[CELL_WORDS + 2];
     const lam_difference *d = &c->differences[cell - c->sheet.cells];

@@ -90,7 +90,7 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
-// Returns whether the library writes the letter `given` of a file name as `written`. The library writes _ for letters
+// Returns whether the library writes `written` for the letter `given` of a file name. The library writes _ for letters
 // that names in OBJ and MTL files cannot contain.
 static bool is_letter(char given, char written)
 {

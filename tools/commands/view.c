@@ -17,7 +17,7 @@ int run_view(int operand_count, char **operands, const struct options *options)
 #else
     (void)operands;
     bool ok = complain(&error, LAM_UNSUPPORTED,
-                       "this build has no viewer: the Debian package libmicrohttpd-dev was missing when it was made");
+                       "this build does not include the viewer; the Debian package libmicrohttpd-dev was missing");
 #endif
     return ok ? 0 : report_failure(&error, options);
 }

@@ -8,6 +8,6 @@ int run_view(int operand_count, char **operands, const struct options *options)
 {
     lam_error error = {0};
     (void)operand_count, (void)operands;
-    complain(&error, LAM_UNSUPPORTED, "view: lambent for Windows has no viewer");
+    complain(&error, LAM_UNSUPPORTED, "view: lambent for Windows does not include the viewer");
     return report_failure(&error, options);
 }

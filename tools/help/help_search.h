@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-// Prints the heading, and a row for each entry whose name or summary contains all of the words. If no entry matches,
-// searches the details of the entries too. If this search also finds nothing, prints nothing and returns false.
+// Prints the heading, and a row for each entry whose name or summary contains all of the words. Searches the details of
+// the entries if no entry matches. Prints nothing and returns false if this search also finds nothing.
 bool help_search(int count, char **words, const char *heading);
 
 #endif

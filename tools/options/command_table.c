@@ -114,8 +114,8 @@ const struct command command_table[] = {
              1ull << GROUP_WORK | 1ull << GROUP_LIMITS,
          .min_operands = 1, .max_operands = 1, .one_more = "the command prints the lights of one model"},
     [COMMAND_shape] = {"shape", "[NAME]",
-                       "Draw a built-in shape or a surface given by formulas (--parametric, --implicit), or save the "
-                       "shape as OBJ, STL or PLY.",
+                       "Draw a built-in shape or a surface that formulas define (--parametric, --implicit), or save it "
+                       "as OBJ, STL or PLY.",
                        ALL | 1ull << GROUP_SHAPE | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 0,
                        .max_operands = 1, .defaults = shape_defaults},
     [COMMAND_view] =

@@ -74,8 +74,8 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
     return material;
 }
 
-// Returns whether a field is a colour that states the reflected fraction of light. Such colours have a symbol; emission
-// has none.
+// Returns whether a field is a colour that is a fraction of reflected light. These fields have a symbol, unlike
+// `emission`.
 static bool is_fraction(const lam_field *field)
 {
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;

@@ -19,8 +19,8 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
 // materials.
 const char *material_option_metal(const char *name);
 
-// Replaces the classic material with the physical metal of the same name, which reflects the studio, if the option
-// consists only of a metal's name.
+// Replaces a classic metal with the physical metal of the same name, which reflects the studio. Does nothing unless the
+// option consists only of a metal's name.
 void material_option_mirror(struct material_option *option);
 
 // Returns `material` as changed by the option.

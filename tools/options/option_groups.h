@@ -103,7 +103,7 @@ struct material_options {
 // How surfaces are drawn.
 struct shading_options {
     bool has_shading;
-    const char *ground_color;                 // LAM_GROUND_COLOR as typed; NULL means draw.ground_color
+    const char *ground_color;                 // the ground's colour as typed; NULL means draw.ground_color
     const char *edge_color, *wireframe_color; // as typed; NULL means the colour in `draw`
     bool two_sided, one_sided, show_lights;
     int cull; // lam_cull
@@ -114,7 +114,7 @@ struct shading_options {
     int slices, stacks; // for built-in shapes and formulas; 0 means the shape's default
     bool flip;
     int normals;             // lam_normals
-    double crease_angle_deg; // the library's default if negative
+    double crease_angle_deg; // a negative value means the library's default
     const char *environment; // as typed; NULL if there is none
     double environment_rotation_deg;
 };
@@ -242,7 +242,7 @@ struct check_options {
 struct shader_options {
     int glsl;      // lam_glsl
     int lights_in; // lam_shader_lights
-    int host;      // 1 also writes C code
+    int host;      // 1 means that C code is also written
     bool products;
     int style;           // lam_shader_style
     const char *mistake; // an id, or "list"; NULL if there is none

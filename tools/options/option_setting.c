@@ -127,7 +127,7 @@ void option_settings_fill(struct option table[OPTIONS_MAX])
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
         struct option *o = row_of(setting, open, count);
         if (!o && !kinds[setting->type].store)
-            continue; // another option sets colours, since they depend on --color-mode
+            continue; // colours depend on --color-mode, so another option sets them
         if (!o) {
             snprintf(names[i], NAME_SIZE, "%s", setting->key);
             for (char *c = names[i]; *c; c++)

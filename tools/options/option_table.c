@@ -225,8 +225,8 @@ static const struct choice cull_words[] = {{"none", LAM_CULL_NONE, "draw both si
                                            {"front", LAM_CULL_FRONT, NULL},
                                            {NULL, 0, NULL}};
 
-static const struct choice back_face_words[] = {{"two-sided", 0, "with the reversed normal"},
-                                                {"one-sided", 1, "like front faces, with the unchanged normal"},
+static const struct choice back_face_words[] = {{"two-sided", 0, "lit with the reversed normal"},
+                                                {"one-sided", 1, "lit like front faces, with the unchanged normal"},
                                                 {NULL, 0, NULL}};
 
 static const struct choice normals_words[] = {
@@ -360,8 +360,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto",
      "The tone curve: none, reinhard, aces, agx, khronos-neutral or contrast.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
-     "with physical materials, and `contrast` for grey scans, figures and terrains that the studio's lights light. For "
-     "all other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. Floating-point "
+     "with physical materials, and `contrast` for grey scans, figures and terrains under the studio's lights. For all "
+     "other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. Floating-point "
      "pictures store the light without the curve. For the formulas, see `docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
@@ -574,7 +574,7 @@ struct option option_table[OPTIONS_MAX] = {
      NULL, .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
      "Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then for surfaces "
-     "with the material of that name. Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent "
+     "whose material has that name. Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent "
      "view` and the web page list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL,
@@ -688,10 +688,10 @@ struct option option_table[OPTIONS_MAX] = {
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
-     "built in. `none` removes the environment of a scene file. For models, `none` selects lights instead of the "
-     "built-in studio environment. To use a file named `sky`, write `./sky`. Classic materials reflect the environment "
-     "only if they have a reflectivity (`--material reflectivity=0.5`). `docs/lighting/reflection.md` describes how "
-     "Lambent maps each kind around the model.",
+     "built in. `none` removes the environment of a scene file. For models, `none` disables the built-in studio "
+     "environment, so that light sources illuminate the model. To use a file named `sky`, write `./sky`. Classic "
+     "materials reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
+     "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",

@@ -40,7 +40,7 @@ char *output_path(const char *output, const char *model, const char *ending)
     return path;
 }
 
-// Checks that files can be created in the folder of `path`. If the folder is missing and `makes` is set, checks the
+// Checks that files can be created in the folder of `path` or, if this folder is missing and `makes` is set, in the
 // nearest existing folder above it.
 static bool check_folder(const char *path, bool makes, lam_error *error)
 {

@@ -59,8 +59,8 @@ struct writer_file {
     enum writer_right right;
 };
 
-// Writes all of the files or none. When all files are complete, they get their names, in the given order. The folders
-// of the files must exist. After a signal, or if the disk is full, the older files are unchanged. Fails with
+// Writes all of the files or none. When all files are complete, they receive their names, in the given order. The
+// folders of the files must exist. After a signal, or if the disk is full, the older files are unchanged. Fails with
 // LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
 

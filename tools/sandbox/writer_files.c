@@ -83,7 +83,7 @@ static bool fail_writing(const char *path, lam_error *error)
     return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: %s", path, strerror(errno));
 }
 
-// Writes the contents to a new hidden file beside the target. The new file gets the target's permissions to read and
+// Writes the contents to a new hidden file beside the target. The new file has the target's permissions to read and
 // write, as in lam_bytes_save.
 static bool fill_hidden(struct staged *staged, const lam_bytes *bytes)
 {

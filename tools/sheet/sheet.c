@@ -13,7 +13,7 @@
 #include "sheet_defaults.h"
 #include "suggest.h"
 
-// Most cells do not set `look`.
+// Suppresses a warning, because most cells do not set `look`.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 // A light from the front left, slightly above. Its highlight is visible on any rounded model, left of the centre.
@@ -147,8 +147,8 @@ static bool add_words(struct sheet *sheet, const char *dashed, const struct opti
     return true;
 }
 
-// Returns true if commas separate lights, which need semicolons. In "point,spot:cutoff=9", the type of a light follows
-// a comma.
+// Returns true if commas separate the lights. The correct separator is a semicolon. In "point,spot:cutoff=9", the type
+// of a light follows a comma.
 static bool lacks_semicolons(const struct option *option, const char *values)
 {
     if (strcmp(option->name, "light") != 0 || strchr(values, ';'))

@@ -17,7 +17,7 @@ struct cell {
 // An option that applies to all pictures unless the command line contains it (sheet_defaults.h).
 struct sheet_default {
     const char *option; // "--light"
-    const char *value;  // NULL for --segments selects a few segments for the shape
+    const char *value;  // NULL for --segments means a small number that suits the shape
 };
 
 struct sheet {

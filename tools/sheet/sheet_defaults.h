@@ -15,7 +15,7 @@ struct sheet_model {
 // Returns true if the model must be read to decide which defaults apply.
 bool sheet_defaults_need_model(const struct sheet *sheet, const struct options *options);
 
-// Writes the words of the defaults that apply to `words` and returns their number. Skips options that the command line
+// Writes to `words` the words of the defaults that apply, and returns their number. Skips options that the command line
 // contains.
 int sheet_defaults(const struct sheet *sheet, const struct options *options, const struct sheet_model *model,
                    const char *words[2 * SHEET_DEFAULTS_MAX]);

@@ -16,13 +16,13 @@ void view_answer_headers(const struct view *view, struct MHD_Response *response,
         {"Referrer-Policy", "no-referrer"}, // the address contains the token
         {"Cross-Origin-Resource-Policy", "same-origin"},
         {"Cross-Origin-Opener-Policy", "same-origin"},
-        {"Cross-Origin-Embedder-Policy", "require-corp"}, // with the opener policy, enables threads in the page
+        {"Cross-Origin-Embedder-Policy", "require-corp"}, // both policies together enable threads in the page
         {"X-Frame-Options", "DENY"},
     };
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++)
         view->http.MHD_add_response_header(response, headers[i][0], headers[i][1]);
     view->http.MHD_add_response_header(response, "Content-Type", type);
-    // The page contains its own policy; other contents get a strict policy.
+    // The page contains its own policy; other contents have a strict policy.
     view->http.MHD_add_response_header(response, "Content-Security-Policy",
                                        strncmp(type, "text/html", 9) == 0 ? "frame-ancestors 'none'"
                                                                           : "default-src 'none'; sandbox");

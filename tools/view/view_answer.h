@@ -9,7 +9,7 @@ enum view_bytes {
     VIEW_OWNED,    // bytes allocated with malloc, which the answer frees
 };
 
-// Queues an answer. `type` NULL means plain text.
+// Queues an answer. If `type` is NULL, the answer is plain text.
 enum MHD_Result view_answer(const struct view *view, struct MHD_Connection *connection, int status, const char *type,
                             const void *bytes, size_t size, enum view_bytes whose);
 

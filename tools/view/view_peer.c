@@ -31,7 +31,7 @@ static bool is_other_end(const char *line, int other_port, int port, unsigned *s
     if (sscanf(line, " %*[^:]: %32[^:]:%x %32[^:]:%x %x %*[^ ] %*[^ ] %*x %u", local, &local_port, remote, &remote_port,
                state, user) != 6)
         return false;
-    // Each 32 bits of an address are a number in the machine's byte order; 127.0.0.1 is the last number in IPv4 and
+    // Every 32 bits of an address form a number in the machine's byte order; 127.0.0.1 is the last number in IPv4 and
     // IPv6.
     static const unsigned char bytes[4] = {127, 0, 0, 1};
     unsigned loopback;

@@ -14,7 +14,7 @@ void view_peers_open(struct view_peers *peers); // must be called before the san
 void view_peers_close(struct view_peers *peers);
 
 // Returns whether the other end of a connection from 127.0.0.1:`other_port` to 127.0.0.1:`port` belongs to this
-// process's user or to root, who relays connections into virtual machines and containers. Also returns true if the
+// process's user or to root. (Root relays connections into virtual machines and containers.) Also returns true if the
 // kernel does not list the connection.
 bool view_peers_are_own(const struct view_peers *peers, int other_port, int port);
 

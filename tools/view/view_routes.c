@@ -113,7 +113,7 @@ static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, con
     request.in_flight = client ? 1 : view->tasks.count - 1;
     c->kind = kind;
     if (kind == VIEW_MODEL)
-        view_watch_add(&view->watch, &view->files, words); // also for an invalid file, which may be corrected
+        view_watch_add(&view->watch, &view->files, words); // also an invalid file, which the user may correct
     c->task = view_tasks_add(&view->tasks, &request, words, client, c);
     if (!c->task)
         return view_answer_text(view, c->connection, 503, "out of memory");

@@ -12,8 +12,8 @@
 
 enum { WATCHED_MAX = 1000 };
 
-// A file is complete once its writer closes it. A link to an unnamed file, which Lambent creates, is only reported as
-// created.
+// A file is complete once its writer closes it. If Lambent links an unnamed file to a name, the kernel reports only
+// that the name was created.
 static const uint32_t events =
     IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_CREATE | IN_DELETE_SELF | IN_MOVE_SELF;
 

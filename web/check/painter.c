@@ -9,7 +9,7 @@
 
 #define IMPORT(name) __attribute__((import_module("painter"), import_name(#name)))
 
-// Returns the number of a render target. If WebGL is not available, returns 0 and writes the reason to `renderer`.
+// Returns the number of a render target, or 0 if WebGL is not available; `renderer` then contains the reason.
 int32_t painter_open(int32_t size, char *renderer, int32_t capacity) IMPORT(open);
 void painter_close(int32_t place) IMPORT(close);
 // Returns the number of a program, or 0 if it does not compile or link. Bits of `refused` name the shader with errors:

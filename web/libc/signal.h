@@ -1,4 +1,4 @@
-// signal.h: wasi-libc's emulation, and signal masks without effect, because a module gets no signals.
+// signal.h: wasi-libc's emulation, and signal masks without effect, because a module receives no signals.
 #ifndef WEB_SIGNAL_H
 #define WEB_SIGNAL_H
 

@@ -153,7 +153,7 @@ enum { MAX_CONTRACTS = 16 };
 bool contracts_read(lam_check_contract *out[MAX_CONTRACTS], int *count, lam_error *error);
 
 // Returns the row of a name, or NULL if the name is unknown. "lights[0].lightColor" is looked up as
-// "lights[].lightColor". `index` (may be NULL) gets the array index, or 0 for other names.
+// "lights[].lightColor". `index` (may be NULL) receives the array index, or 0 for other names.
 const struct contract_name *contract_find(const struct contract *contract, const char *name, bool attribute,
                                           int *index);
 

@@ -13,8 +13,8 @@ double name_similarity(const char *a, const char *b);
 // Returns whether two names are equal except for case and underscores.
 bool name_is_same(const char *a, const char *b);
 
-// Returns the candidate most similar to `name`. If several are equally similar, returns the first of them. Returns NULL
-// if no candidate is similar enough to be suggested. Skips NULL candidates.
+// Returns the candidate most similar to `name`, or the first of several equally similar candidates. Returns NULL if no
+// candidate is similar enough to be suggested. Skips NULL candidates.
 const char *name_nearest(const char *name, const char *const *candidates, int count);
 
 #endif

@@ -106,8 +106,8 @@ static void report_unknown(struct diagnostics *diagnostics, const struct shader_
                         near);
     else
         diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_UNKNOWN, file, line,
-                        "%s '%.60s' is not in the contract %s and gets no value; `lambent check --list` prints its "
-                        "names",
+                        "%s '%.60s' is not in the contract %s, so the check does not set it; `lambent check --list` "
+                        "prints the contract's names",
                         kind, name, r->contract->name);
 }
 
@@ -173,5 +173,6 @@ void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_re
             report_unknown(diagnostics, r, drawn->unknown[i], "uniform", NULL, 0);
     }
     for (int i = 0; i < drawn->types_count; i++)
-        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s; it gets no value", drawn->types[i]);
+        diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s; the check does not set it",
+                        drawn->types[i]);
 }

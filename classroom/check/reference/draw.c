@@ -183,10 +183,10 @@ static bool draw_scene(struct shader_run *run, const struct reference_scene *sce
 
 // --- shaders that loop forever
 
-// Software drivers leave an endless loop after some ten thousand iterations and continue with the current values. The
-// check recognises such a shader by the processor time that all threads use; a correct shader uses a hundredth of the
-// limit. The limit depends on the machine's speed: it is a multiple of the time that a sum of dependent terms takes.
-// This time is measured in intervals so short that at least one of them is not interrupted.
+// Software drivers leave an endless loop after tens of thousands of iterations and continue with the current values.
+// The check recognises such a shader by the processor time that all threads use; a correct shader uses a hundredth of
+// the limit. The limit depends on the machine's speed: it is a multiple of the time that a sum of dependent terms
+// takes. This time is measured in intervals so short that at least one of them is not interrupted.
 static double seconds(clockid_t clock)
 {
     struct timespec t;
@@ -194,7 +194,7 @@ static double seconds(clockid_t clock)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-#ifdef __wasi__ // WASI has no processor time, so the caller stops endless loops
+#ifdef __wasi__ // WASI does not report processor time, so the caller stops endless loops
 static double time_limit_s(int size) { return size > 0 ? DBL_MAX : 0; }
 #else
 enum { RUNS = 16, TERMS = 1 << 16, TERMS_PER_PIXEL = 2000, MIN_PIXELS = 128 * 128 };
@@ -284,8 +284,7 @@ static bool draw_scenes(struct shader_run *run, float *pixels, lam_error *error)
             struct reference_scene scene = shader_interface_scene(&run->interface, &reference_scenes[i]);
             double taken = 0;
             for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
-                 turn++) { // a second turn if the first is too slow, because the driver may compile during the first
-                           // turn
+                 turn++) { // draws again if the first turn is too slow, because the driver may compile during it
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
                 if (!draw_scene(run, &scene, pixels + at, error))
                     return false;

@@ -37,7 +37,7 @@ bool draw_request_write(const struct draw_request *request, lam_bytes *out, lam_
 // Reads a request, whose strings point into `bytes`.
 bool draw_request_read(const void *bytes, size_t size, struct draw_request *request, lam_error *error);
 
-// Writes a result. `pictures` has size² × 4 floats for each scene of the request and may be NULL.
+// Writes a result. `pictures` contains size² × 4 floats for each scene of the request and may be NULL.
 bool draw_result_write(const struct draw_result *result, const float *pictures, size_t count, lam_bytes *out,
                        lam_error *error);
 bool draw_result_read(const lam_bytes *bytes, int size, struct draw_result *result, lam_error *error);

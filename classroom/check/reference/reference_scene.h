@@ -1,4 +1,4 @@
-// reference_scene.h: the reference scenes, each of which tests one feature. Other code gets the reference scenes as
+// reference_scene.h: the reference scenes, each of which tests one feature. Other code uses the reference scenes as
 // scenes for the CPU device and as values for a shader's uniforms.
 #ifndef REFERENCE_SCENE_H
 #define REFERENCE_SCENE_H
@@ -39,8 +39,8 @@ enum reference_need {
     NEED_EMISSION_MAP = 8192,
 };
 
-// Restrictions that follow from the shader's source, stored in the same integer as reference_need: the kind of each
-// light and whether the light is attenuated, a missing specular term, and flat shading.
+// Restrictions that follow from the shader's source: the kind of each light, whether the light is attenuated, a missing
+// specular term, and flat shading. They are stored in the same integer as reference_need.
 enum reference_rule {
     RULE_POINT = 1,
     RULE_DIRECTIONAL = 2,

@@ -137,7 +137,7 @@ static bool read_names(struct declaration_parser *r, struct declaration item, bo
     return true;
 }
 
-// Parses a struct after the keyword `struct`, and stores the struct's name. An unnamed struct gets a unique name.
+// Parses a struct after the keyword `struct`, and stores the struct's name. For an unnamed struct, makes a unique name.
 static void read_struct(struct declaration_parser *r, char name[32])
 {
     struct struct_type shape = {.first = r->member_count};

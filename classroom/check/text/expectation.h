@@ -30,8 +30,8 @@ enum { MAX_EXPECTATIONS = 16 };
 // suggest. Returns the number of expectations, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
-// Returns whether a fault of the table is not a mistake because the declarations leave the choice open: some of the
-// possible expectations include the change, and others do not.
+// Returns whether a fault of the table is not a mistake, because the declarations leave the choice open. This is so if
+// some of the possible expectations include the change, and others do not.
 bool expectation_permits(const struct shader_interface *interface, unsigned terms, const char *fault);
 
 // Changes a scene from shader_interface_scene to the expected scene.

@@ -48,8 +48,8 @@ static bool has_word(const char *text, const char *word)
     return false;
 }
 
-// Declares a state with the members that at least one of the two sources uses. Both sources get the same declaration.
-// Members that neither source uses remain undeclared, so that their terms are not expected.
+// Declares a state with the members that at least one of the two sources uses. The declaration is the same in both
+// sources. Members that neither source uses remain undeclared, so that their terms are not expected.
 static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
 {
     size_t at = strlen(out);

@@ -22,7 +22,7 @@ struct inference {
     const char *space, *light_space; // eye, world, object
     bool guessed;                    // a role was guessed by elimination
     bool engine;                     // whether an engine sets the values of its own names
-    bool all;                        // inputs with unknown roles get the role `zero`
+    bool all;                        // inputs with unknown roles have the role `zero`
     char *reason;
     size_t capacity;
 };

@@ -1,4 +1,4 @@
-// interface_scene.c: converts a reference scene to one that a pair of shaders can express. Undeclared inputs get the
+// interface_scene.c: converts a reference scene to one that a pair of shaders can express. Undeclared inputs have the
 // contract's values, and terms that are not in the contract are switched off.
 #include "maps.h"
 #include "shader_interface.h"
@@ -45,8 +45,9 @@ static lam_rgb *light_color(struct reference_light *light, enum light_term term)
 }
 
 // Sets the strength of a term to the fixed value if the shader declares no name for the strength. A scene switches a
-// term off by setting its strength to 0. In that case the term's colour becomes black instead or, if the shader does
-// not have this colour, the colours of the lights. Without this colour, `color` is NULL or `lit` is false.
+// term off by setting its strength to 0. If the shader does not declare the strength, the term's colour becomes black
+// instead. If the shader does not declare this colour either, the colours of the lights become black. Without this
+// colour, `color` is NULL or `lit` is false.
 static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
                          bool lit, enum light_term term)
 {
@@ -140,8 +141,8 @@ static void keep_brightness(const struct reference_scene *s, const float before[
     light->specular = (lam_rgb){light->specular.r * k, light->specular.g * k, light->specular.b * k};
 }
 
-// A point light also gets an axis, because the shaders of spotlights normalize the axis. The axis points towards
-// the model, so that every lit point is in front of the light.
+// A point light also has an axis, because the shaders of spotlights normalize the axis. The axis points towards the
+// model, so that every lit point is in front of the light.
 static void set_axis(struct reference_light *light, lam_vec3 target)
 {
     lam_vec3 to_light = light->to_light;
@@ -294,8 +295,8 @@ static void adapt_maps(const struct shader_interface *r, struct reference_scene 
         s->mesh += MESH_PATCH_DOWN - MESH_PATCH;
 }
 
-// If the shader has its own strengths and colours, each term gets a channel: the ambient term is red, the diffuse term
-// is green, and the specular term is blue. The fit finds the factors of the terms.
+// If the shader has its own strengths and colours, each term uses one channel: the ambient term is red, the diffuse
+// term is green, and the specular term is blue. The fit finds the factors of the terms.
 static void separate_terms(struct reference_scene *s)
 {
     const lam_rgb white = {1, 1, 1}, black = {0, 0, 0};

@@ -16,7 +16,7 @@ static bool shares_a_name(const struct declarations *a, const struct declaration
     return false;
 }
 
-// Gets whether the contract's engine completes this source.
+// Determines whether the contract's engine completes this source.
 static bool lacks_prefix(const char *prefix, const struct declarations *own, bool vertex, bool *lacks, lam_error *error)
 {
     struct declarations before = {0};
@@ -58,7 +58,7 @@ static char *join(const char *prefix, const char *text)
 {
     size_t size = strlen(prefix) + strlen(text) + 20;
     char *out = malloc(size);
-    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark is only allowed at the beginning
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark is allowed only at the beginning
         text += 3;
     // The #line directive contains the number of the next line or, in older versions of GLSL, of the line after that.
     bool modern = strncmp(prefix, "#version 3", 10) == 0;

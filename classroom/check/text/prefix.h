@@ -11,9 +11,9 @@ struct complete_texts {
     int lines[2];                  // the number of lines in the prefixes
 };
 
-// Gets whether a contract's engine completes sources with these declarations. The engine completes sources without a
-// version line that declare none of the names in the engine's prefix. `vertex` may be NULL. Returns false if memory
-// runs out.
+// Determines whether a contract's engine completes sources with these declarations. The engine completes sources
+// without a version line that declare none of the names in the engine's prefix. `vertex` may be NULL. Returns false if
+// memory runs out.
 bool prefix_applies(const struct contract *contract, const struct declarations *vertex,
                     const struct declarations *fragment, bool *applies, lam_error *error);
 
@@ -29,7 +29,7 @@ bool prefix_complete(const struct contract *contract, const char *vertex, const 
 void prefix_free(struct complete_texts *texts);
 
 // Parses the declarations of a completed source. Lines are counted without the prefix, and declarations in the prefix
-// get line 0.
+// have line 0.
 bool prefix_read(const struct complete_texts *texts, bool vertex, struct declarations *out, lam_error *error);
 
 #endif

@@ -219,8 +219,8 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, is kept, because the name is more meaningful than the number. The size of
-// an array is replaced by its number.
+// The name of a number, such as LIGHT_SPOT, is kept, because the name is more meaningful than the number. A name that
+// is the size of an array is replaced by its number.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;
@@ -228,7 +228,7 @@ static bool is_named_number(const struct preprocessor *p, const struct macro *m)
            !(d->word_count && strcmp(d->words[d->word_count - 1].text, "[") == 0);
 }
 
-// Adds tokens to `out` (see emit), with macros expanded. Every word gets the line number `line`; if `line` is 0, words
+// Adds tokens to `out` (see emit), with macros expanded. Every word has the line number `line`; if `line` is 0, words
 // keep the lines of their tokens.
 static void expand(struct preprocessor *p, const struct token *t, int count, int line, int level, struct tokens *out)
 {

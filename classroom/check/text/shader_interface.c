@@ -162,7 +162,8 @@ static bool can_be_checked(const struct shader_interface *r, lam_error *error)
          "lights in a texture, which the check does not provide; print it with --lights-in array or block"},
         {DECLARED_INPUT, "provoking_position",
          "the vertices of flat shading in GLSL 120, which the check does not provide; print it with --glsl 330"},
-        {DECLARED_INPUT, "front_color", "colours that the application computes: there is no lighting in it to check"}};
+        {DECLARED_INPUT, "front_color",
+         "colours that the application computes, so the shader contains no lighting to check"}};
     for (int i = 0; r->contract->printed && i < 3; i++)
         if (declarations_find(&r->vertex, unsupported[i].kind, unsupported[i].name) ||
             declarations_find(&r->fragment, unsupported[i].kind, unsupported[i].name))
@@ -274,7 +275,7 @@ static unsigned kind_of(enum uniform_semantic semantic, const char *type)
     case SEMANTIC_CONE:
     case SEMANTIC_CUTOFF:
         return NEED_SPOT;
-    case SEMANTIC_LIGHT_KIND: // the number states the kind
+    case SEMANTIC_LIGHT_KIND: // the number identifies the kind
         return NEED_DIRECTIONAL;
     default:
         return 0;

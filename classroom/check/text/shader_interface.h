@@ -54,7 +54,7 @@ void shader_interface_set_counts(struct shader_interface *interface, const int c
 // Returns the number of lights that the shaders support, at least 1.
 int shader_interface_light_count(const struct shader_interface *interface);
 
-// Returns the version of the reference scene that the shaders can express: undeclared inputs get the contract's fixed
+// Returns the version of the reference scene that the shaders can express: undeclared inputs have the contract's fixed
 // values, and lights of missing kinds are omitted.
 struct reference_scene shader_interface_scene(const struct shader_interface *interface,
                                               const struct reference_scene *reference_scene);

@@ -2,9 +2,9 @@
 //
 // A folder with one fragment shader is one submission, named after the folder. If the folder has a single vertex
 // shader, the submission uses it. In other folders, and in the class's folder, each fragment shader is a submission
-// named after the file. This submission uses the vertex shader with the same name in the same folder, or the folder's
-// only vertex shader without a matching fragment shader. Hidden files and links are ignored. Folders nested more than
-// MAX_DEPTH deep are reported as a problem.
+// named after the file. This submission uses the vertex shader with the same name in the same folder. If there is no
+// such shader, and exactly one vertex shader of the folder matches no fragment shader, the submission uses this vertex
+// shader. Hidden files and links are ignored. Folders nested more than MAX_DEPTH deep are reported as a problem.
 #include "check.h"
 
 #include <dirent.h>

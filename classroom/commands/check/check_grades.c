@@ -113,7 +113,7 @@ int check_submitty(FILE *file, const struct check_result *result)
     bool passes = !result->error.code && r->verdict == LAM_CHECK_PASSES;
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
-    json_text(&json, "status", "success"); // states whether the check ran, not whether the shader passes
+    json_text(&json, "status", "success"); // whether the check ran, not whether the shader passes
     json_open(&json, "data", '{');
     json_number(&json, "score", share);
     json_text(&json, "message",

@@ -11,7 +11,7 @@ const char *check_verdict_text(lam_check_verdict verdict)
     case LAM_CHECK_REFUSED:
         return "does not compile or link";
     case LAM_CHECK_ENDLESS:
-        return "does not end: it exceeded its time";
+        return "does not end: it exceeded its time limit";
     case LAM_CHECK_CRASHES:
         return "crashes the graphics driver";
     case LAM_CHECK_NOT_NUMBER:

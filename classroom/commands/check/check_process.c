@@ -2,7 +2,7 @@
 // stopped when it exceeds its time or memory limit. A crash is reported as a verdict.
 //
 // The time limit applies to the processor time of all threads, so that other load on the machine does not make a shader
-// appear endless. The processor may be idle while a graphics card works, so the elapsed time is limited too, to
+// appear endless. The processor may be idle while a graphics card works, so the elapsed time is also limited, to
 // WALL_TIMES times the limit of processor time.
 #include "check.h"
 
@@ -240,7 +240,7 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
         return LAM_CHECK_DRAW_MEMORY;
     if (WEXITSTATUS(status) == 127) {
         complain(error, LAM_LIMIT,
-                 "cannot start the drawing process: neither /proc/self/exe nor the program's own path");
+                 "cannot start the drawing process: neither /proc/self/exe nor the program's own path can be executed");
         return LAM_CHECK_DRAW_FAILED;
     }
     if (WEXITSTATUS(status) > LAM_CANCELLED) // the driver called exit()

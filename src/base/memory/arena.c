@@ -10,7 +10,7 @@
 enum {
     BLOCK_FIRST = 16 << 10,  // size of the first block; each further block is twice as large
     BLOCK_LARGEST = 2 << 20, // size of the largest block: a huge page
-    OWN_PAGES = 1 << 20,     // larger requests get pages of their own
+    OWN_PAGES = 1 << 20,     // larger requests use separate pages
 };
 
 // A block's header. The memory of small blocks follows the header; large blocks point to pages.

@@ -1,7 +1,7 @@
 // clip.c: clips triangles that cross the near or far plane or leave the guard band, in homogeneous coordinates.
 //
 // Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner end towards its
-// outer end. Two triangles that share the edge therefore get the same point, bit for bit, and there is no gap between
+// outer end. Two triangles that share the edge therefore have the same point, bit for bit, and there is no gap between
 // them.
 #include "clip.h"
 

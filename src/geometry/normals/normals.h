@@ -33,8 +33,8 @@ bool normals_smooth(lam_mesh *mesh, double crease_angle_rad, struct arena *arena
 
 #define FACET_CREASE_RAD 1e-6
 
-// Computes facet normals: the three corners of a triangle get the triangle's own normal, or zero if the triangle has no
-// area.
+// Computes facet normals: the three corners of a triangle have the triangle's own normal, or zero if the triangle has
+// no area.
 bool normals_facet(lam_mesh *mesh, struct arena *arena, struct pool *pool, struct call_control *call, lam_error *error);
 
 #endif

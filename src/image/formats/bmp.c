@@ -4,7 +4,7 @@
 // https://www.fileformat.info/format/os2bmp/egff.htm
 //
 // In pixels of 32 bits without masks, the fourth byte is ignored, as the format specifies. Pixels that the run lengths
-// skip get the first colour of the palette. Colour profiles are ignored.
+// skip have the first colour of the palette. Colour profiles are ignored.
 #include "codec.h"
 #include "fail.h"
 #include "little_endian.h"
@@ -237,8 +237,8 @@ static bool put_rows(const struct bmp *bmp, const lam_image *image, lam_error *e
 }
 
 // Decodes run lengths, two bytes at a time. Usually the bytes are a count and a colour (with 4 bits, two alternating
-// colours). A count of 0 has special meanings: 0 0 is the end of the row, 0 1 is the end of the picture, 0 2 x y moves
-// right and up, and 0 n means that n colours follow, padded to two bytes.
+// colours). A code follows a count of 0: code 0 ends the row, code 1 ends the picture, and code 2 x y moves right and
+// up. Any other code n means that n colours follow, padded to two bytes.
 static bool put_runs(const struct bmp *bmp, const lam_image *image, lam_error *error)
 {
     const uint8_t *at = bmp->file->bytes + bmp->pixels, *end = bmp->file->bytes + bmp->file->size;

@@ -6,8 +6,8 @@
 //             other: a count above 128 is a run of count − 128 equal bytes; otherwise that many single bytes follow
 //  old runs   pixels; 1, 1, 1, n repeats the previous pixel n times; directly after another run n · 256 times, and so on
 //  plain      pixels
-// A pixel is mantissa · 2^(exponent − 136), and black if the exponent is 0. EXPOSURE lines are not applied (like PFM's
-// scale), because programs do not agree about them.
+// A pixel is mantissa · 2^(exponent − 136), and black if the exponent is 0. EXPOSURE lines are ignored, like PFM's
+// scale, because programs interpret them differently.
 #include "codec.h"
 #include "fail.h"
 

@@ -82,7 +82,7 @@ void huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *le
         of_length[length + 1] += 2;
         of_length[limit]--;
     }
-    // The rarest symbols get the longest codes.
+    // The rarest symbols have the longest codes.
     int next = 0;
     for (int length = limit; length > 0; length--)
         for (uint32_t i = 0; i < of_length[length]; i++)

@@ -5,7 +5,7 @@
 // (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
 // (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_cameras.c). Materials (gltf_materials.c) request
 // textures, whose pictures are decoded together (gltf_textures.c). Before the nodes are placed, an animation sets their
-// transforms (gltf_animation.c). For morph targets and skins (gltf_deform.c, gltf_skins.c), a mesh gets its own copy of
+// transforms (gltf_animation.c). For morph targets and skins (gltf_deform.c, gltf_skins.c), a mesh has its own copy of
 // the positions.
 //
 // Every count and index is checked when it is read. Errors name the position in the file: "ship.gltf:

@@ -149,7 +149,7 @@ const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
 bool obj_parse(struct obj *obj, lam_error *error); // pass two
 // Parses one chunk. chunk->before and chunk->counts determine the index ranges of its elements. `error` may be NULL.
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error);
-// Chooses the origin. If the positions are far from zero, reads them again as doubles.
+// Chooses the origin. Reads the positions again as doubles if they are far from zero.
 bool obj_find_origin(struct obj *obj, lam_error *error);
 bool obj_convert_colors(struct obj *obj, lam_error *error);
 

@@ -15,8 +15,8 @@ static bool check_count(const struct import_source *source, uint64_t triangles, 
     return call_check_triangles(source->call, source->name, triangles, "triangles", error);
 }
 
-// Splits the polygons in place; their rows already reserve space for the triangles. If `face_of` is not NULL, stores
-// the face of each triangle in it.
+// Splits the polygons in place; their rows already reserve space for the triangles. Stores the face of each triangle in
+// `face_of` unless `face_of` is NULL.
 static bool split_polygons(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
                            struct arena *scratch, uint32_t *face_of, lam_mesh *mesh, lam_error *error)
 {

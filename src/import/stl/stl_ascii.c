@@ -1,4 +1,4 @@
-// stl_ascii.c: reads ASCII STL: solids become named parts; each facet gets three separate vertices.
+// stl_ascii.c: reads ASCII STL: solids become named parts; each facet has three separate vertices.
 //
 //  solid NAME
 //    facet normal NX NY NZ

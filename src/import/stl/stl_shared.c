@@ -56,8 +56,8 @@ struct sharing {
 };
 
 // Finds the vertices of some facets. `count` is the number of vertices so far. Returns the new number. The processor
-// cannot predict whether a position occurred before, so there is no branch. No address that is read depends on an
-// earlier comparison, so the processor does not wait for the comparison.
+// cannot predict whether a position has occurred before, so the loop contains no branch. No address that is read
+// depends on an earlier comparison, so the processor does not wait for the comparison.
 static uint32_t share_facets(const struct share_worker *worker, const uint8_t *facet, size_t facets, uint32_t count,
                              uint32_t *restrict indices, struct stl_words *words)
 {

@@ -42,7 +42,7 @@ static uint64_t little(const uint8_t *at, int bytes)
     return value;
 }
 
-// Returns the number of entries that the end record of an archive, at `end`, declares.
+// Returns the number of entries declared by the end record at `end` in an archive.
 static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
 {
     uint64_t count = little(bytes + end + 10, 2);

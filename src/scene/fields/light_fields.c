@@ -26,7 +26,7 @@ static const struct light_field rows[] = {
     {.field = {MEMBER(ambient), .symbol = "La", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.2f),
                .light_types = BIT(AMBIENT), .summary = "light from all directions"}},
     {.field = {MEMBER(ambient), .symbol = "La", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .light_types = REACHING,
-               .summary = "ambient light, which distance and cone do not reduce"}},
+               .summary = "ambient light; distance and the cone do not reduce it"}},
     {.field = {MEMBER(diffuse), .symbol = "Ld", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(1),
                .light_types = REACHING, .summary = "light for the diffuse term; default: color times intensity"}},
     {.field = {MEMBER(specular), .symbol = "Ls", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(1),

@@ -51,7 +51,7 @@ WORDS(occlusion_words,
       {"rays", LAM_OCCLUSION_RAYS,
        "computed with rays from each point; slower, but surfaces that the camera does not see also occlude; only on "
        "the CPU"})
-WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `ao` is `auto` and selects `screen`"},
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `--ao auto` selects `screen`"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the studio's lights or an environment light the model"},
@@ -60,8 +60,7 @@ WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the studio's ligh
 WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "on for model files lit by the built-in studio environment"},
       {"off", LAM_BRIGHTEN_OFF, "all models receive the same light"})
 WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
-      {"shadow", LAM_GROUND_SHADOW,
-       "a transparent plane that shows only shadows and occlusion, as black with an alpha"},
+      {"shadow", LAM_GROUND_SHADOW, "a transparent plane that shows only shadows and occlusion, in translucent black"},
       {"checker", LAM_GROUND_CHECKER,
        "a checkerboard; the side of a square is 1, 2 or 5 times a power of ten in the model's units"},
       {"color", LAM_GROUND_COLOR, NULL})
@@ -124,7 +123,7 @@ static const lam_setting rows[] = {
     {"reference", MEMBER(WHOLE, reference), .min = 16, .max = 1 << 20, .zero = true,
      .expected = "0 or 16 to 1048576 directions",
      .summary = "The number of directions (16 to 1048576) for integrating the environment's light on physical "
-                "materials. 0 uses the split-sum approximation instead."},
+                "materials. With 0, Lambent uses the split-sum approximation instead."},
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",

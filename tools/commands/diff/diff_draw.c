@@ -39,7 +39,7 @@ static bool box_of(const lam_scene *a, const lam_scene *b, struct box *box)
 // define a camera.
 static bool share(struct job *old, struct job *new, struct job_shared *shared, lam_error *error)
 {
-    // No single camera shows both models upright, so each model uses its own camera.
+    // If the up axes differ, no single camera shows both models upright, so each model uses its own camera.
     if (lam_scene_up(old->scene) != lam_scene_up(new->scene)) {
         old->shared = new->shared = NULL;
         return true;

@@ -38,7 +38,7 @@ void explain_layers(const lam_explained_layers *layers)
                    "pixels: height · 1024^(roughness · min(2 ior − 2, 1) − 1), at most height / 8");
     if (layers->sheen_left < 1)
         row_number(4, "left", (double)layers->sheen_left,
-                   "1 − max(sheen_color) E(|n·v|): the light that the sheen leaves to the base");
+                   "1 − max(sheen_color) E(|n·v|): the light that the sheen transmits to the base");
     if (!is_zero(layers->coat_normal))
         row_vector(4, "n_c", layers->coat_normal, "the coat's normal");
     if (layers->coat > 0)

@@ -203,7 +203,7 @@ static void tell_state(const struct hash_run *run, json_t *const *records, enum 
         json_close(json, ']');
 }
 
-// Fills `now` with the hashes of the drawn models. A failed model gets the hash 0, because it is not missing.
+// Fills `now` with the hashes of the drawn models. The hash of a failed model is 0, because the model is not missing.
 static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error *error)
 {
     run->now = (struct hash_file){.entries = calloc(run->plan.count + 1, sizeof *run->now.entries)};
@@ -324,7 +324,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
     if (!ok)
         return report_failure(&error, o);
     say_result(run, &result, &json, writes && !blocked, rows);
-    if (writes && blocked && json.file != stderr) // not if the hashes go to standard output
+    if (writes && blocked && json.file != stderr) // unless the hashes go to standard output
         say_plain("lambent: %s is not written, because %zu of the models failed; --failures-ok omits them\n", run->path,
                   failed);
     bool differs = result.counts[STATE_CHANGED] + result.counts[STATE_MISSING] + result.counts[STATE_NEW] ||
@@ -408,7 +408,7 @@ static int run_with(struct hash_run *run, int operand_count, char **operands)
     drawn.picture.output = NULL;
     run->by_file = !operand_count && !run->options->batch.lists.count;
     drawn.limits.files_inside |=
-        run->by_file; // scenes named by a hash file may read only the folders that the file may read
+        run->by_file; // scenes of a hash file may read only the folders that the file itself may read
     struct batch_use use = {draw, reach, right_of, finish, run};
     bool ok = check(operand_count, run->options, &error) && batch_plan_start(&run->plan, &drawn, &error) &&
               prepare(run, operand_count, operands, &error);

@@ -1,5 +1,5 @@
-// info_text.c: prints a model as text on one screen. If a list has more than ROWS rows, prints ROWS rows and the number
-// of omitted rows.
+// info_text.c: prints a model as text on one screen. Prints only ROWS rows and the number of omitted rows if a list has
+// more than ROWS rows.
 #include "info.h"
 
 #include <inttypes.h>

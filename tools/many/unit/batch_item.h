@@ -24,7 +24,7 @@ struct batch_item {
     bool several;                // the command line has several views or sizes
     bool makes_folders;          // also create the folders of explicitly named pictures
     const lam_cancel *cancel;    // stops the drawing; if NULL, only Ctrl-C does
-    const struct batch_use *use; // receives the picture; NULL if the picture is written to a file
+    const struct batch_use *use; // its functions receive the picture; NULL if the picture is written to a file
     size_t index;                // the index of the model in the plan, for `use`
 };
 

@@ -1,6 +1,6 @@
 // view_files.h: opens the files that the viewer serves: models and files that models read, in one folder and below it.
 //
-// A path of the page begins with "/", which is that folder: "/bunny.obj", "/textures/fur.png".
+// A path of the page begins with "/", which means this folder: "/bunny.obj", "/textures/fur.png".
 #ifndef VIEW_FILES_H
 #define VIEW_FILES_H
 
@@ -19,8 +19,9 @@ struct view_files {
 bool view_files_start(struct view_files *files, const char *operand, bool is_folder, lam_error *error);
 void view_files_free(struct view_files *files);
 
-// Opens a regular file and returns its handle. Returns −1 if the file does not exist or must not be served: other types
-// of files, hidden files and files in hidden folders, and files outside the folder after links and ".." are resolved.
+// Opens a regular file and returns its handle. Returns −1 if the file does not exist or must not be served. The viewer
+// does not serve other types of files, hidden files, files in hidden folders, and files outside the folder (after links
+// and ".." are resolved).
 int view_files_open(const struct view_files *files, const char *path);
 
 // Opens a folder in the same way; "/" is the top folder. The handle allows access only to the attributes (O_PATH).

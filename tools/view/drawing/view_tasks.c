@@ -211,7 +211,7 @@ void view_tasks_step(struct view_tasks *tasks)
         for (int reads = 0; reads < 64 && p->child.pid > 0 && is_readable(p->child.from); reads++)
             receive(tasks, p);
         if (p->child.pid > 0 && p->task && p->cancelled)
-            kill(p->child.pid, SIGUSR1); // repeated, since the process may not have read the request yet
+            kill(p->child.pid, SIGUSR1); // repeated in case the process has not read the request yet
         if (p->child.pid > 0 && p->task && p->stop_ms > 0 && now > p->stop_ms)
             lose(tasks, p, "the time limit was reached (--time-limit)");
     }

@@ -31,7 +31,7 @@ static char *machine_path(const struct view_files *files, const char *path, lam_
     return found;
 }
 
-// Converts the value of --environment, one file or six, from paths in the page.
+// Converts the paths in the value of --environment (one file or six) to paths on this machine.
 static bool take_environment(struct view_words *w, const struct view_files *files, struct options *out,
                              lam_error *error)
 {

@@ -72,7 +72,7 @@ bool find_wanted(struct position_search *s);
 // Numbers the wanted vertices, and stores the numbers in `position_of`. Returns false if memory runs out.
 bool number_wanted(struct position_search *s);
 
-// Initialises the lists, and fills the table. For indexed meshes, also fills `position_of`.
+// Initialises the lists, and fills the table. Also fills `position_of` if the mesh is indexed.
 bool find_positions(struct position_search *s, lam_error *error);
 void position_search_free(struct position_search *s);
 

@@ -420,8 +420,8 @@ class Errors(Animated):
             self.assertEqual(done.stderr.decode().count("\n"), 1)
 
     def test_sweeps(self):
-        for value, says in (("zoom", "expected zoom=FROM..TO"), ("zoom=", "expected numbers with two dots"), ("zoom=1", "expected numbers with two dots"),
-                            ("zoom=1..", "expected numbers"), ("zoom=1..x", "expected numbers"), ("zoom=0..1", "expected a number from 0.001"),
+        for value, says in (("zoom", "expected zoom=FROM..TO"), ("zoom=", "expected two numbers with two dots"), ("zoom=1", "expected two numbers with two dots"),
+                            ("zoom=1..", "expected two numbers"), ("zoom=1..x", "expected two numbers"), ("zoom=0..1", "expected a number from 0.001"),
                             ("zom=1..2", "did you mean 'zoom'?"), ("view=1..2", "'view' has no numbers"), ("threads=1..2", "'threads' has no numbers"),
                             ("quality=1..2", "'quality' has no numbers"), ("roughnes=0..1", "did you mean 'roughness'?"), ("elevation=0..95", "found '95'"),
                             ("light.foo=0..1", "expected light.NUMBER"), ("light.position=0..1", "expected light.NUMBER"), ("light=0..1", "expected light.NUMBER"),

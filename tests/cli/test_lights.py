@@ -322,7 +322,7 @@ class Lights(Pictures):
             "point:position=1/2": "three numbers", "point:position=nan/0/0": "three numbers", "point:position=1r/2/3": "or after none",
             "point:position=1/2/3/-1": "w of at least 0", "point:position=0/0/0/0": "expected a direction",
             "spot:position=1/2/3/0": "needs a position", "point:position=1/2/3,position=1/2/3": "given twice",
-            "directional:position=1/2/3": "directional light takes", "directional:direction=0/0/0": "expected a direction",
+            "directional:position=1/2/3": "directional light needs", "directional:direction=0/0/0": "expected a direction",
             "directional:range=2": "has no 'range'", "point:cutoff=20": "a point light has no 'cutoff'",
             "ambient:position=1/2/3": "an ambient light has no 'position'", "hemisphere:diffuse=1": "has no 'diffuse'",
             "point:color=blurple": "expected a colour", "point:color=-1/0/0": "at least 0", "point:color=nan": "expected a colour",
@@ -332,7 +332,7 @@ class Lights(Pictures):
             "point:range=x": "expected a distance", "spot:cutoff=0": "above 0", "spot:cutoff=120": "or 180", "spot:cutoff=nan": "number",
             "spot:exponent=-1": "at least 0", "spot:inner=30,outer=20": "inner < outer", "spot:inner=20,outer=20": "inner < outer",
             "spot:inner=20": "without 'outer'", "spot:outer=95": "from 0 to 90", "spot:cutoff=20,outer=30": "both kinds of cone",
-            "spot:direction=0/0/-1,target=1/1/1": "one of them", "point:frame=eye": "expected world, camera",
+            "spot:direction=0/0/-1,target=1/1/1": "expected only one", "point:frame=eye": "expected world, camera",
             "point:frame=object:": "an object's name", "point:name=": "empty", "+none": "unknown light",
         }.items():
             with self.subTest(value):

@@ -32,7 +32,7 @@ class Sentences(Case):
             "a.fbx": (2, reads, "export the model as .glb"), "a.blend": (2, reads, ".glb"), "a.amf": (2, reads, "as .stl"),
             "a.step": (2, reads, "as .stl"), "noise.step": (3, "this is a STEP file", reads, "as .stl"),
             "cub.obj": (2, "did you mean 'cube.obj'?"), "cube.OBJ": (2, "did you mean 'cube.obj'?"),
-            r"C:\models\cube.obj": (2, "folders are separated by /"), "640": (2, SIZE), "open": (2, "did you mean 'view'?"),
+            r"C:\models\cube.obj": (2, "separate folders by /"), "640": (2, SIZE), "open": (2, "did you mean 'view'?"),
             "-i cube.obj": (1, "a model needs no option: lambent MODEL"), "--input cube.obj": (1, "a model needs no option"),
             "diff cube.obj cube.png": (2, "diff compares two pictures, or two models"),
         })

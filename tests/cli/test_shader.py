@@ -120,7 +120,7 @@ class Shader(Case):
         (self.folder / "red.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")
         (self.folder / "a.mtl").write_text("newmtl a\nmap_Kd red.ppm\n")
         (self.folder / "a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n")
-        self.bad(3, "shader", "a.obj", "--style", "lecture", says="does not have textures", leaves=("red.ppm", "a.mtl", "a.obj"))
+        self.bad(3, "shader", "a.obj", "--style", "lecture", says="does not support textures", leaves=("red.ppm", "a.mtl", "a.obj"))
 
     # --- the C function of the application stage
 

@@ -49,7 +49,7 @@ class Shape(Case):
         heights = [float(line.split()[2]) for line in (self.folder / "s.obj").read_text().splitlines() if line.startswith("v ")]
         self.assertEqual(min(heights), 0)  # z is up in formulas, y in OBJ
         for words, says in (([sphere + "*w"], "option '--implicit': column 15: found 'w'"), (["(x+y)^2"], "option '--implicit': no surface found in x = -16..16"),
-                            (["x", "--x", "0..q"], "option '--x': column 4: found 'q'"), (["x", "--segments", "9x9"], "option '--implicit': an implicit surface has cells"),
+                            (["x", "--x", "0..q"], "option '--x': column 4: found 'q'"), (["x", "--segments", "9x9"], "option '--implicit': an implicit surface needs"),
                             (["x", "--u", "0..1"], "option '--u' belongs to --parametric"), (["x", "--parametric", RIPPLE], "expected one of them")):
             self.bad(1, "shape", "--implicit", *words, says=says, leaves=self.new_files())
         self.bad(1, "shape", "--parametric", RIPPLE, "--x", "0..1", says="option '--x' belongs to --implicit", leaves=self.new_files())

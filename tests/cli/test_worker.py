@@ -260,7 +260,7 @@ class Refusals(Jobs):
                 ({**model, "options": {"camera": "eye=0/0/0", "view": "front"}}, "together", 1), ({**model, "format": "gif"}, None, 3),
                 ({**model, "format": "../x"}, "key 'format'", 1), ({**model, "output": "out/a.png", "format": "png"}, "key 'format'", 1),
                 ({**model, "output": "out/{frame}.png"}, "{frame}", 1), ({**model, "output": "out/{x}.png"}, "'{x}'", 1),
-                ({**model, "output": "out/a.png", "options": {"views": "front,left"}}, "names one picture", 1), ({**model, "output": "-"}, "part of the answer", 1),
+                ({**model, "output": "out/a.png", "options": {"views": "front,left"}}, "names one picture", 1), ({**model, "output": "-"}, "omit this key", 1),
                 ({**model, "timeout_s": 0}, "timeout_s", 1), ({**model, "timeout_s": "1"}, "timeout_s", 1), ({**model, "timeout_s": 601}, "at most 600", 1)):
             found = self.one(job)
             self.assertEqual((found["id"], found["exit"]), ("x", code), (job, found))

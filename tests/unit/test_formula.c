@@ -449,7 +449,7 @@ static void implicit_surfaces_are_found(void **unused)
                  {"a=1; a=2; x", NULL, "a new name", 0, 0},
                  {"x", "0..y", "range of x, column 4", 0, 0},
                  {"x", NULL, "expected 2 to 1024 cells", 1025, 0},
-                 {"x", NULL, "one number of segments", 8, 8}};
+                 {"x", NULL, "a single number of segments", 8, 8}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         lam_formula formula = {.text = wrong[i].text,
                                .implicit = true,

@@ -114,8 +114,8 @@ static void test_ascii_without_end(void **state)
          "a.stl:9: found 'solid', expected \"endsolid\" for the solid in line 1"},
         {"solid a\n" ONE "solid b\n" ONE, "a.stl:9: found 'solid', expected \"endsolid\" for the solid in line 1, the "
                                           "first of several solids without \"endsolid\""},
-        {"solid a\n" ONE "endsolid a\nsolid b\n", "a.stl:11: found the end of the file, expected \"endsolid\" of the "
-                                                  "solid of line 10; the file may be cut short"},
+        {"solid a\n" ONE "endsolid a\nsolid b\n", "a.stl:11: found the end of the file, expected \"endsolid\" for the "
+                                                  "solid in line 10; the file may be cut short"},
         // far from zero, where the text is read twice
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 1e6 0 0\nvertex 1000001 0 0\nvertex 1e6 1 "
          "0\nendloop\nendfacet\n",

@@ -51,7 +51,7 @@ WORDS(occlusion_words,
       {"rays", LAM_OCCLUSION_RAYS,
        "computed with rays from each point; slower, but surfaces that the camera does not see also occlude; only on "
        "the CPU"})
-WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if `--ao auto` selects `screen`"},
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto` and computed on the screen"},
       {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the studio's lights or an environment light the model"},

@@ -212,7 +212,7 @@ typedef enum lam_occlusion {
 // lighter to the same degree as valleys become darker (docs/lighting/occlusion.md).
 typedef enum lam_cavity {
     LAM_CAVITY_AUTO = 0, // ON if LAM_OCCLUSION_AUTO means SCREEN, else OFF
-    LAM_CAVITY_OFF,      // valleys and ridges unchanged
+    LAM_CAVITY_OFF,      // no cavity shading
     LAM_CAVITY_ON,       // dark valleys and light ridges
     LAM_CAVITY_COUNT
 } lam_cavity;

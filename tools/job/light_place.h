@@ -19,7 +19,7 @@ bool light_sweep(const struct job *job, const struct sweep *sweep, double value,
 // Multiplies all colours of a light.
 void light_brighten(lam_light *light, double factor);
 
-// Gets the scene's up axis and the direction of its front, as unit vectors.
+// Gets unit vectors along the scene's up axis and towards the scene's front.
 void scene_axes(const lam_scene *scene, lam_vec3 *up, lam_vec3 *front);
 
 lam_vec3 matrix_apply(const lam_mat4 *m, lam_vec3 v, double w);

@@ -9,7 +9,7 @@
 #include "batch_unit.h"
 #include "job_roots.h"
 
-// Opens the job stream of the batch's options. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT or LAM_LIMIT.
+// Opens the job stream that the batch's options select. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT or LAM_LIMIT.
 struct batch_jobs *batch_jobs_open(struct batch *batch, lam_error *error);
 void batch_jobs_close(struct batch_jobs *jobs); // NULL is allowed
 

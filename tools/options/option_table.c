@@ -1065,10 +1065,11 @@ struct option option_table[OPTIONS_MAX] = {
      "for a texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
-     "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, `blinn-phong` "
-     "and `kajiya-kay`, with any lights and any shading, the uniforms and the picture are the same as in the full "
-     "style. Lambent rejects textures and other reflection models in this style. With `--stage application`, Lambent "
-     "also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
+     "The lecture style uses the symbols common in graphics lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, "
+     "`phong`, `blinn-phong` and `kajiya-kay`, with any lights and any shading, the uniforms and the picture are the "
+     "same as in the full style. Lambent rejects textures and other reflection models in this style. With `--stage "
+     "application`, Lambent also prints a C function that computes the lighting of the vertices. See "
+     "`docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
      "Introduce a known mistake into shaders of the lecture style; `list` prints the known mistakes.",

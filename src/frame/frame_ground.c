@@ -90,7 +90,7 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane)
 {
-    // The range of the circle's distances from the eye plane: the distance of its centre, plus or minus the radius
+    // Each point of the circle is at the distance of the centre from the eye plane, plus or minus at most the radius
     // times the sine of the angle between the view direction and `up`.
     lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
     double reach = 1.01 * (ground->end + 2 * ground->square) * math_sqrt(up.z * up.z < 1 ? 1 - up.z * up.z : 0);
@@ -109,7 +109,8 @@ static double fade(double x, double first, double last)
     return t * t * (3 - 2 * t);
 }
 
-// Returns the opacity of a catcher at a point, by its distance from the picture's border; 0 behind the eye.
+// Returns the opacity of a catcher at a point. The opacity depends on the point's distance from the picture's border,
+// and is 0 behind the eye.
 static double border_fade(const struct frame *frame, const lam_mat4 *to_pixel, lam_vec3 at)
 {
     double p[4];

@@ -25,7 +25,7 @@ struct screen_occlusion {
     int stride;                  // floats from row to row of a plane
     size_t plane;                // floats from plane to plane
     bool orthographic;
-    float pixel_size;    // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
+    float pixel_size;    // size of a pixel in eye units, at distance 1 (in an orthographic view, everywhere)
     float radius;        // radius of occlusion in eye units; 0 disables occlusion at this radius
     float cavity_radius; // radius of cavity shading (lam_cavity)
     bool ridges;         // whether cavity shading lightens ridges

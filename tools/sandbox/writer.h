@@ -64,8 +64,8 @@ struct writer_file {
 // LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
 
-// Returns whether the path contains no links after its first `named` bytes, which the user gave. Fails with
-// LAM_CANNOT_WRITE.
+// Returns whether the path contains no links after its first `named` bytes. These bytes were given by the user. Fails
+// with LAM_CANNOT_WRITE.
 bool writer_check_links(const char *path, size_t named, lam_error *error);
 
 // Removes a file whose right is WRITER_REMOVES. Failure is not reported.

@@ -143,8 +143,8 @@ static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_c
         around[x].fan = y;
 }
 
-// Neighbours with consistent winding traverse their common edge in opposite directions: the next corner of one is at
-// the previous corner of the other. Tests every pair, so it is used only for few corners.
+// Neighbours with consistent winding traverse their common edge in opposite directions: one triangle's next corner is
+// the other triangle's previous corner. Tests every pair, so it is used only for few corners.
 static void join_few(struct fan_corner *around, uint32_t count, double min_cosine)
 {
     for (uint32_t i = 0; i < count; i++)

@@ -10,7 +10,7 @@ enum { FAN_ROWS = FAN_CORNERS_MAX * (FAN_CORNERS_MAX + 1) / 2 };
 
 struct corner_fan_batch {
     uint32_t waiting[FAN_CORNERS_MAX + 1]; // number of positions for each number of corners
-    fan_row rows[FAN_ROWS];                // the corners of the fans: one row for count 1, two for count 2 …
+    fan_row rows[FAN_ROWS];                // the corners of the fans: a position with n corners needs n rows
     struct corner_fan_block block;
 };
 
@@ -31,7 +31,7 @@ static inline bool corner_fan_batch_add(struct corner_fan_batch *batch, const ui
     return p + 1 == FAN_POSITIONS;
 }
 
-// Moves the positions with that many corners into batch->block. Returns false if there are none.
+// Moves the positions with `count` corners into batch->block. Returns false if there are none.
 bool corner_fan_batch_take(struct corner_fan_batch *batch, uint32_t count);
 
 #endif

@@ -42,7 +42,7 @@ static bool word_check(const lam_setting *s, int value, lam_error *error)
         return true;
     if (strncmp(s->expected, "lam_", 4) == 0)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: %s %d is not one of %s", s->member, value, s->expected);
-    return fail(error, LAM_BAD_ARGUMENT, "draw parameters: %s is out of its range", s->expected);
+    return fail(error, LAM_BAD_ARGUMENT, "draw parameters: %s is out of range", s->expected);
 }
 
 bool channels_check(const char *name, const float *channels, int count, lam_error *error)

@@ -203,8 +203,8 @@ static const char copy_fragment[] =
     "out vec4 pixel;\n"
     "void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * factor; }\n";
 
-// Like blend_tinted_pixel (src/cpu/shade/blend.c): there is one alpha, the mean of the channels, and the background is
-// tinted by the difference.
+// As in blend_tinted_pixel (src/cpu/shade/blend.c), the only alpha is the mean of the channels, and the difference from
+// this mean tints the background.
 static const char tint_fragment[] =
     "uniform sampler2D picture;\n"
     "uniform sampler2D tint;\n"

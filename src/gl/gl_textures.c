@@ -26,7 +26,7 @@ static uint8_t encoded_byte(float linear) { return (uint8_t)byte_of(srgb_encode(
 // Clamps a number to the range of 16-bit floats.
 static float half_limited(float x) { return x > 65504 ? 65504 : x < -65504 ? -65504 : x; }
 
-// Writes the texels of a level in the form for the upload.
+// Writes the texels of a level in the format that is uploaded.
 static void pack_level(const struct lam_texture *texture, int level, const struct format *format, void *out)
 {
     const struct texture_level *l = &texture->levels[level];

@@ -1,5 +1,5 @@
-// scene_rig.c: the lights of a rig in a scene: their positions, the changes for the scene's form and materials, and
-// their tone curve.
+// scene_rig.c: the lights of a rig in a scene: their positions, adaptation to the scene's form and materials, and tone
+// curve.
 #include "scene_internal.h"
 
 #include "linear.h"

@@ -7,8 +7,8 @@
 #include "linear.h"
 #include "scene_internal.h"
 
-// The search in one mesh for the directions [first, end). A component of a vertex in the axes of the view is row ·
-// position + shift.
+// The state of the search in one mesh, for the directions [first, end). A component of a vertex in the axes of the view
+// is row · position + shift.
 struct search {
     const lam_mesh *mesh;
     const struct scene_extent *extent;

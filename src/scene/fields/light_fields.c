@@ -51,7 +51,7 @@ static const struct light_field rows[] = {
                .summary = "half angle beyond which the light is zero, as in glTF; larger than inner"},
      .cone = SOFT_CONE},
     {.field = {MEMBER(occluded), .max = 1, .light_types = REACHING,
-               .summary = "fraction of the light that ambient occlusion dims; a scene file also accepts true (1) and "
+               .summary = "how much of this light ambient occlusion affects; a scene file also accepts true (1) and "
                           "false (0)"},
      .optional = true},
     {.field = {MEMBER(sky), .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.4f),

@@ -395,7 +395,8 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (!check_reserved("lam_check_params", params, error) ||
         (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
-    lam_check_params own = *params; // a copy whose shaders read the fixed state of GLSL 110 and 120 from inputs
+    lam_check_params own =
+        *params; // a copy whose shaders read the fixed-function state of GLSL 110 and 120 from inputs
     struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)

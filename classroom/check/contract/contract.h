@@ -53,7 +53,7 @@ struct contract_defaults {
     struct default_number ambient_strength, diffuse_strength, specular_strength, shininess, spot_exponent;
     bool has_attenuation, has_direction, has_position;
     float attenuation[3];
-    lam_vec3 direction; // the direction towards the light, or its position if has_position is set
+    lam_vec3 direction; // the direction towards the light or, if has_position is set, the light's position
     int light_space;    // the space of these vectors; by default the contract's space
 };
 
@@ -119,7 +119,7 @@ struct contract {
     unsigned supports;     // bits of reference_need
     unsigned terms;        // bits of contract_term
     unsigned demands;      // bits of contract_demand
-    lam_light_frame space; // the space of the lighting: CAMERA (eye space) or WORLD
+    lam_light_frame space; // the space in which shaders compute lighting: CAMERA (eye space) or WORLD
     // The space of the first light: OBJECT (the model-view matrix transforms the light like the vertices), WORLD or
     // CAMERA.
     lam_light_frame light_frame;

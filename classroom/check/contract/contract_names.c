@@ -80,7 +80,7 @@ static bool find_group(struct contract_reader *r, const struct place *place, con
     return c->groups[c->group_count++] || contract_no_memory(r);
 }
 
-// Returns the name that replaces a name of the fixed state in rewritten sources: fixed_LightSource[].position.
+// Returns the name that replaces a name of fixed-function state in rewritten sources: fixed_LightSource[].position.
 static const char *fixed_state_name(struct arena *arena, const char *name)
 {
     char text[80];

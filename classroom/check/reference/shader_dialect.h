@@ -17,7 +17,7 @@ bool shader_dialect_lowers_precision(const char *text);
 // visible in a picture even if the shader is correct. Returns NULL if memory runs out.
 char *shader_dialect_highp(const char *text);
 
-// Returns the source without a leading byte order mark, which some editors write and compilers reject.
+// Returns the source without a leading byte order mark. Some editors write this mark, but compilers reject it.
 const char *shader_dialect_skip_mark(const char *text);
 
 // Converts a source in desktop GLSL to GLSL ES 3.00. Returns the copy, allocated with malloc. Line numbers do not

@@ -1,5 +1,5 @@
-// interface_scene.c: converts a reference scene to one that a pair of shaders can express. Undeclared inputs have the
-// contract's values, and terms that are not in the contract are switched off.
+// interface_scene.c: changes a reference scene so that a pair of shaders can express the scene. Undeclared inputs have
+// the contract's values, and terms that are not in the contract are switched off.
 #include "maps.h"
 #include "shader_interface.h"
 

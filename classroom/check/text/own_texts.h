@@ -1,5 +1,5 @@
-// own_texts.h: makes the sources that a check uses: normalises line ends, and declares the fixed state of GLSL 110 and
-// 120 as inputs.
+// own_texts.h: makes the sources that a check uses: normalises line endings, and declares the fixed-function state of
+// GLSL 110 and 120 as inputs.
 #ifndef OWN_TEXTS_H
 #define OWN_TEXTS_H
 

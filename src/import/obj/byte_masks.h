@@ -1,4 +1,4 @@
-// byte_masks.h: bit masks of the line ends, white space and special characters in 64 bytes of text. The masks are
+// byte_masks.h: bit masks of the line endings, white space and special characters in 64 bytes of text. The masks are
 // computed with SSE2 if the compiler targets it. The scalar version returns the same masks.
 #ifndef BYTE_MASKS_H
 #define BYTE_MASKS_H

@@ -35,8 +35,8 @@ LANE_FN texel_pairs texels_at(const float *texels, const int32_t *first)
 #endif
 }
 
-// Adds the light of LANES directions, bilinearly interpolated, times a weight. The sums of the left and the right
-// texels are kept separate; they are added together at the end.
+// Adds the bilinearly interpolated light of LANES directions, multiplied by a weight. The sums of the left and the
+// right texels are kept separate; they are added together at the end.
 LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environment *cube, num x, num y, num z,
                        float weight)
 {

@@ -19,8 +19,8 @@ static void *get_pixels(size_t bytes)
     size_t rounded = (bytes + huge - 1) & ~(huge - 1);
     void *pixels = aligned_alloc(huge, rounded);
 #ifdef MADV_HUGEPAGE
-    // The last page becomes a huge page only if little of it would be unused. If the system does not follow this
-    // advice, only the speed is affected.
+    // The last page becomes a huge page only if most of the page is needed. If the system does not follow this advice,
+    // only the speed is affected.
     if (pixels)
         madvise(pixels, rounded - bytes <= bytes / 16 ? rounded : rounded - huge, MADV_HUGEPAGE);
 #endif

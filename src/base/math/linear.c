@@ -119,8 +119,8 @@ double math_acos(double x)
     return math_atan2(math_sqrt((1 - x) * (1 + x)), x);
 }
 
-// The whole part of x is applied by doubling or halving. For the rest of x, at most ½, the series of e^(x ln 2) is
-// used.
+// The integer part of x determines how often the result is doubled or halved. For the rest of x, at most ½, the series
+// of e^(x ln 2) is used.
 double math_exp2(double x)
 {
     int whole = (int)(x < 0 ? x - 0.5 : x + 0.5);

@@ -6,7 +6,7 @@
 
 #if defined(__wasm__)
 
-// WebAssembly cannot open libraries; the web page's module contains replacements for some of them
+// WebAssembly cannot open libraries; the web page's module contains replacements for some libraries
 // (src/import/gltf/draco/page_decoders.c).
 __attribute__((weak)) void *page_library(const char *name);
 __attribute__((weak)) bool page_library_find(void *library, const char *name, void *function);

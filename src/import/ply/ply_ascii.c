@@ -2,7 +2,7 @@
 //
 // Numbers are separated by white space, and a row may continue on the next line. A row ends at the end of the line that
 // contains its last number; further numbers on that line are ignored. A first, serial pass finds the start of each
-// chunk of rows and the lengths of its lists; then the chunks are read in parallel.
+// chunk of rows and the lengths of the chunk's lists; then the chunks are read in parallel.
 #include "fail.h"
 #include "number.h"
 #include "ply_rows.h"

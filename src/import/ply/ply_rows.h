@@ -1,5 +1,5 @@
 // ply_rows.h: reads the rows of one element, for ply_ascii.c and ply_binary.c. A serial pass finds the start of each
-// chunk of rows and the lengths of its lists; then the chunks are read in parallel.
+// chunk of rows and the lengths of the chunk's lists; then the chunks are read in parallel.
 #ifndef PLY_ROWS_H
 #define PLY_ROWS_H
 

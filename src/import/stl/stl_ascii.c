@@ -32,8 +32,8 @@ struct stl_ascii_parser {
     uint32_t part_count;
     uint32_t facets;
     const uint8_t *solid; // the statement that began the current solid, or NULL
-    // The number of solids without "endsolid". For the first of them, the position of its statement, and the position
-    // at which "endsolid" was expected.
+    // The number of solids without "endsolid". For the first such solid: the position of the statement "solid", and the
+    // position at which "endsolid" was expected.
     uint32_t unclosed;
     const uint8_t *first_unclosed, *end_expected;
 };

@@ -155,7 +155,7 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
     float q = alpha < 0 ? 0 : (float)((1 - alpha * alpha) / 2), square = (float)(alpha * alpha);
     for (int s = 0; s < cube->size; s += LANES) {
         num x = num_load(n[0] + s), y = num_load(n[1] + s), z = num_load(n[2] + s);
-        num total = num_of(0), r = num_of(0), g = num_of(0), b = num_of(0);
+        num total = num_of(0), sum[3] = {total, total, total}, sum_behind[3] = {total, total, total};
         for (size_t i = 0; i < sums->count; i++) {
             const struct opposite_texels *from = &sums->pair[i];
             num along = x * from->direction[0] + y * from->direction[1] + z * from->direction[2];
@@ -167,14 +167,19 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
                 weight = cosine * (part * part);
             }
             total += weight * from->share;
-            r += weight * pick(behind, num_of(from->light_behind[0]), num_of(from->light[0]));
-            g += weight * pick(behind, num_of(from->light_behind[1]), num_of(from->light[1]));
-            b += weight * pick(behind, num_of(from->light_behind[2]), num_of(from->light[2]));
+            for (int c = 0; c < 3; c++) {
+                num light = num_of(from->light[c]), light_behind = num_of(from->light_behind[c]);
+                sum[c] += weight * pick(behind, light_behind, light);
+                sum_behind[c] += weight * pick(behind, light, light_behind);
+            }
         }
-        const num mean[3] = {r / total, g / total, b / total};
-        for (int k = 0; k < LANES && s + k < cube->size; k++)
-            for (int c = 0; c < 3; c++)
-                cube_texel(cube, face, s + k, t)[c] = lane(mean[c], k);
+        for (int c = 0; c < 3; c++) {
+            num mean = sum[c] / total, mean_behind = sum_behind[c] / total;
+            for (int k = 0; k < LANES && s + k < cube->size; k++) {
+                cube_texel(cube, face, s + k, t)[c] = lane(mean, k);
+                cube_opposite(cube, face, s + k, t)[c] = lane(mean_behind, k);
+            }
+        }
     }
 }
 

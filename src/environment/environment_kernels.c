@@ -49,7 +49,7 @@ LANE_FN void find_positions(struct positions *out, const struct lam_environment 
     }
 }
 
-// Repeats the weight of the left texel, and that of the right texel. Both are loaded in one step.
+// Repeats the weight of the left texel and the weight of the right texel. Both are loaded in one step.
 static inline texel_pair beside(const float weights[2])
 {
     double both_weights;

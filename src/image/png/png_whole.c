@@ -102,19 +102,16 @@ static inline bytes16 max16(bytes16 x, bytes16 y)
     return x;
 }
 
-// Returns x − y, or 0 if y is larger.
-static inline bytes16 above16(bytes16 x, bytes16 y) { return max16(x, y) - y; }
-
 // Returns, per channel, the left, upper or upper left pixel (a, b or c) that is nearest to a + b − c. If distances are
 // equal, the first of them is used. If c is between a and b, the distance is x = high − c for the lower of both,
-// y = c − low for the higher, and |x − y| for c itself. The lower is nearest if x ≤ y − x, and the higher is nearest if
-// y ≤ x − y. If 0 replaces negative differences, these conditions are also correct for all other c.
+// y = c − low for the higher, and |x − y| for c itself. The lower is nearest if 2x ≤ y, and the higher is nearest if
+// 2y ≤ x. If 0 replaces negative differences, these conditions are also correct for all other c. Both are only met if
+// a = b = c. Few steps depend on a, the most recent pixel.
 static inline bytes16 paeth(bytes16 a, bytes16 b, bytes16 c)
 {
-    const bytes16 low = min16(a, b), high = max16(a, b), x = above16(high, c), y = above16(c, low);
-    const bytes16 takes_low = (bytes16)(above16(x, above16(y, x)) == 0);
-    const bytes16 takes_high = (bytes16)(above16(y, above16(x, y)) == 0);
-    return (takes_low & low) | (takes_high & high) | (~(takes_low | takes_high) & c);
+    const bytes16 x = max16(a, max16(b, c)) - c, y = c - min16(a, min16(b, c));
+    const bytes16 takes_low = (bytes16)(max16(x, y >> 1) == y >> 1), takes_high = (bytes16)(max16(y, x >> 1) == x >> 1);
+    return c + ((takes_low & (min16(a, b) - c)) + (takes_high & (max16(a, b) - c)));
 }
 
 // Returns the value that a filter adds to the pixel of the file.

@@ -54,7 +54,8 @@ struct stream {
     int unsupported; // atomic; set if obj.c must read the file instead
     struct chunk_scratch *scratch;
     uint8_t *arrays[ARRAYS];
-    size_t reserved[ARRAYS];
+    size_t reserved[ARRAYS], reserved_marks;
+    uint8_t *marks;    // mesh_mark_vertices
     size_t next_chunk; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
     struct obj_counts total;
     size_t charged;
@@ -248,6 +249,8 @@ static void copy_chunk(const struct stream *stream, struct chunk_scratch *scratc
         memcpy(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row, scratch->arrays[kind],
                (size_t)count_of(counts, kind) * array_kinds[kind].row);
     copy_corners(stream, scratch, CORNERS, before->triangles, counts->triangles);
+    if (scratch->index_max[0] < rows_max(POSITIONS, stream->file->size)) // otherwise the index is wrong
+        mesh_mark_vertices(scratch->arrays[CORNERS], 3 * counts->triangles, stream->marks);
     if (scratch->texcoords)
         copy_corners(stream, scratch, CORNER_TEXCOORDS, before->triangles, counts->triangles);
     if (scratch->normals)
@@ -317,7 +320,8 @@ static bool reserve_arrays(struct stream *stream)
         if (!stream->arrays[kind])
             return false;
     }
-    return true;
+    stream->marks = pages_get_sparse(rows_max(POSITIONS, stream->file->size), &stream->reserved_marks);
+    return stream->marks != NULL;
 }
 
 // Returns whether all indices in the faces refer to existing elements, and whether the counts are in range.
@@ -415,6 +419,8 @@ static bool load(struct stream *stream)
         .texcoord_used = obj->texcoords != NULL,
         .normal_used = obj->normals != NULL,
     };
+    // The memory for the triangles of a polygon contains other numbers than the polygon's corners.
+    obj->scene->first_all_used = !stream->total.polygons && !memchr(stream->marks, 0, stream->total.positions);
     obj->chunks = &whole;
     obj->chunk_count = 1;
     return obj_complete(obj, NULL) && !obj->line_requested;
@@ -431,6 +437,8 @@ bool obj_load_stream(const struct import_source *source, struct lam_scene *scene
         if (stream.reserved[kind])
             pages_free(stream.arrays[kind], stream.reserved[kind]);
     }
+    if (stream.reserved_marks)
+        pages_free(stream.marks, stream.reserved_marks);
     call_refund(source->call, stream.charged);
     arena_free(&obj.memory);
     return done;

@@ -20,6 +20,12 @@ void pages_free(void *pages, size_t held)
     free(pages);
 }
 
+void pages_prepare(void *at, size_t bytes)
+{
+    (void)at;
+    (void)bytes;
+}
+
 void pages_trim(void *pages, size_t *held, size_t bytes)
 {
     (void)pages;
@@ -85,6 +91,18 @@ void pages_free(void *pages, size_t held)
 {
     if (pages)
         munmap(pages, held);
+}
+
+void pages_prepare(void *at, size_t bytes)
+{
+#ifdef MADV_POPULATE_WRITE
+    const size_t before = (uintptr_t)at % PAGE;
+    if (bytes > PAGE)
+        madvise((uint8_t *)at - before, before + bytes, MADV_POPULATE_WRITE);
+#else
+    (void)at;
+    (void)bytes;
+#endif
 }
 
 void pages_trim(void *pages, size_t *held, size_t bytes)

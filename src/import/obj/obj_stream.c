@@ -18,6 +18,7 @@ enum {
     TAIL = 16 << 10,            // bytes read after a chunk, for its last line
     STATEMENTS = 4096,          // the maximum number of statements per chunk
     COUNT_MAX = UINT32_MAX - 1, // the maximum number of elements of a kind
+    SMALL_FILE = 16 << 20,      // the arrays of smaller files fill few huge pages
 };
 
 enum array { POSITIONS, TEXCOORDS, NORMALS, CORNERS, CORNER_TEXCOORDS, CORNER_NORMALS, POLYGONS, ARRAYS };
@@ -69,6 +70,8 @@ static bool stream_continues(struct stream *stream)
 {
     return !__atomic_load_n(&stream->unsupported, __ATOMIC_RELAXED) && should_continue(&stream->loop);
 }
+
+static bool is_small(const struct stream *stream) { return stream->file->size < SMALL_FILE; }
 
 static uint64_t count_of(const struct obj_counts *counts, enum array kind)
 {
@@ -244,6 +247,9 @@ static void copy_corners(const struct stream *stream, struct chunk_scratch *scra
 static void copy_chunk(const struct stream *stream, struct chunk_scratch *scratch, const struct obj_counts *counts,
                        const struct obj_counts *before)
 {
+    for (enum array kind = 0; is_small(stream) && kind < ARRAYS; kind++)
+        pages_prepare(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row,
+                      (size_t)count_of(counts, kind) * array_kinds[kind].row);
     for (enum array kind = POSITIONS; kind <= NORMALS; kind++)
         memcpy(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row, scratch->arrays[kind],
                (size_t)count_of(counts, kind) * array_kinds[kind].row);
@@ -313,7 +319,7 @@ static bool reserve_arrays(struct stream *stream)
 {
     for (enum array kind = 0; kind < ARRAYS; kind++) {
         size_t bytes = rows_max(kind, stream->file->size) * array_kinds[kind].row;
-        stream->arrays[kind] = pages_get(bytes, &stream->reserved[kind]);
+        stream->arrays[kind] = (is_small(stream) ? pages_get_sparse : pages_get)(bytes, &stream->reserved[kind]);
         if (!stream->arrays[kind])
             return false;
     }

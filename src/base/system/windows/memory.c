@@ -29,6 +29,8 @@ void pages_free(void *pages, size_t held)
         VirtualFree(pages, 0, MEM_RELEASE);
 }
 
+void *pages_malloc(size_t bytes) { return malloc(bytes); }
+
 void pages_prepare(void *at, size_t bytes)
 {
     (void)at;

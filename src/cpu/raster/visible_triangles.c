@@ -129,13 +129,14 @@ static bool search_tiles(struct cpu_frame *cpu, struct visible_buffers *buffers,
     return true;
 }
 
-// Frees the bins, which are no longer needed.
+// Frees the bins, which are no longer needed, if they are large.
 static void release_bins(struct cpu_frame *cpu)
 {
     size_t tiles = tile_count(cpu);
     for (int i = 0; i < pool_threads(cpu->pool); i++) {
         memset(cpu->bins[i].heads, 0, tiles * TILE_BINS * sizeof(struct bin_block *));
-        call_refund(cpu->call, slabs_free(&cpu->bins[i].blocks));
+        if (cpu->bins[i].blocks.count > 1)
+            call_refund(cpu->call, slabs_free(&cpu->bins[i].blocks));
     }
 }
 

@@ -365,6 +365,17 @@ LANE_FN num lanes_at(num x, inum at)
 #endif
 }
 
+// Returns table[at] for a table of 16 floats. Each at[i] is below `count`.
+LANE_FN num look_up(const float table[16], int count, inum at)
+{
+    if (count <= LANES)
+        return lanes_at(num_load(table), at & (LANES - 1));
+    float to[LANES];
+    for (int i = 0; i < LANES; i++)
+        to[i] = table[ilane(at, i) & 15];
+    return num_load(to);
+}
+
 // Returns the minimum of all lanes, none of which may be NaN.
 LANE_FN float min_lane(num x)
 {

@@ -21,10 +21,11 @@ static void mark_bins(void *user, size_t index, int number)
         const struct bin_block *block = bins->heads[index * TILE_BINS + (size_t)(i % TILE_BINS)];
         for (; block; block = block->next)
             for (uint32_t k = 0; k < block->count; k++) {
-                uint32_t id = block->ids[k];
+                uint32_t id = block->entries[k].first;
                 if (id & CLIPPED)
                     id = clipped_triangle(bins, id & ~CLIPPED)->id;
-                rank_bitset_add(&cpu->shade.visible.triangles, id);
+                for (unsigned rest = block->entries[k].triangles; rest; rest &= rest - 1)
+                    rank_bitset_add(&cpu->shade.visible.triangles, id + (uint32_t)__builtin_ctz(rest));
             }
     }
 }

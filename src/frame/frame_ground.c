@@ -22,7 +22,7 @@
 // a catcher.
 #define PLAIN_SQUARE   0.0625
 #define CATCHER_SQUARE 0.015625
-// The brightness of a checker's dark squares relative to its bright ones.
+// The brightness of a checker's dark squares relative to the bright squares.
 #define DARK_SQUARE 0.45f
 
 // Returns the largest number that is at most x and equals 1, 2 or 5 times a power of ten.

@@ -27,7 +27,7 @@ struct packed_pixels {
 };
 
 // Everything is packed twice. The first pass only computes the size and the key. Pictures and meshes are identified by
-// their addresses, because a scene never changes arrays and keeps them as long as it exists.
+// their addresses, because a scene never changes its arrays, and keeps the arrays until the scene is freed.
 struct packer {
     float *out; // if NULL, only the size and the key are computed
     size_t first, used;

@@ -82,7 +82,8 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
 }
 
 // Initialises a picture's rows in `storage` without any surface, using the threads of `pool` (may be NULL). `lent`
-// lists blocks of memory that nothing else uses during screen_occlusion_find; they store the rows of cells that fit.
+// lists blocks of memory that nothing else uses during screen_occlusion_find. These blocks store the rows of cells that
+// fit.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory *lent,
                             int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
                             lam_error *error);

@@ -33,7 +33,7 @@ bool batch_jobs_over(struct batch_jobs *jobs);
 // may call it.
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
-// Answers a job with its result, and frees it. Any thread may call it.
+// Answers a job with its result, and frees the job. Any thread may call it.
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit);
 
 #endif

@@ -59,9 +59,9 @@ struct writer_file {
     enum writer_right right;
 };
 
-// Writes all of the files or none. When all files are complete, they receive their names, in the given order. The
-// folders of the files must exist. After a signal, or if the disk is full, the older files are unchanged. Fails with
-// LAM_CANNOT_WRITE or LAM_LIMIT.
+// Writes all of the files or none. When all files are complete, the writer gives the files their names, in the given
+// order. The folders of the files must exist. After a signal, or if the disk is full, the older files are unchanged.
+// Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
 
 // Returns whether the path contains no links after its first `named` bytes. These bytes were given by the user. Fails

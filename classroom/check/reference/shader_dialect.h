@@ -21,8 +21,8 @@ char *shader_dialect_highp(const char *text);
 const char *shader_dialect_skip_mark(const char *text);
 
 // Converts a source in desktop GLSL to GLSL ES 3.00. Returns the copy, allocated with malloc. Line numbers do not
-// change. The copy has another version line, a precision, the keywords of ES 3.00 instead of older keywords, and other
-// names for OpenGL's built-in inputs. The compiler reports remaining differences, such as implicit conversion to
+// change. The copy contains another version line, a precision, the keywords of ES 3.00 instead of older keywords, and
+// other names for OpenGL's built-in inputs. The compiler reports remaining differences, such as implicit conversion to
 // floats. Returns NULL and fills
 // `error` on failure.
 char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error);

@@ -11,7 +11,7 @@ struct own_texts {
 };
 
 // Makes the sources for the check from the given sources, which must outlive the result. Returns false on failure:
-// LAM_LIMIT. The caller frees them in any case.
+// LAM_LIMIT. The caller frees the sources in any case.
 bool own_texts_make(const char *vertex, const char *fragment, struct own_texts *out, lam_error *error);
 void own_texts_free(struct own_texts *texts);
 

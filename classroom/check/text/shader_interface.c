@@ -13,7 +13,7 @@
 #include "shader_constants.h"
 
 // Returns whether the shader reads a declared uniform. A struct member is read only if its name follows a dot; any
-// other name is read if it occurs.
+// other name is read if the name occurs.
 static bool is_used(const struct declarations *d, const char *name)
 {
     const char *dot = strrchr(name, '.');

@@ -335,7 +335,7 @@ LANE_FN unsigned negative_bits(inum x)
 #endif
 }
 
-// Returns, for each lane, how many bits are set in `bits` for this lane and all earlier lanes.
+// Returns, for each lane, the number of bits that are set in `bits` up to and including this lane.
 LANE_FN inum bits_up_to_lane(unsigned bits)
 {
     inum x = inum_of((int32_t)bits) & ((inum_of(2) << lane_numbers()) - 1);

@@ -9,7 +9,7 @@
 //  endsolid NAME
 //
 // Keywords may be in upper or lower case, and line breaks may occur between any words, because programs differ. A name
-// extends to the end of the line. The facets' normals are ignored, because they follow from the corners and some
+// extends to the end of the line. The facets' normals are ignored, because the corners determine the normals and some
 // programs write nan.
 #include "stl.h"
 #include "fail.h"

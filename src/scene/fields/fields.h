@@ -28,7 +28,8 @@ struct material_field {
     enum field_reader reader;
     bool optional; // a scene file omits the field if it is 0, the default
     bool physical; // only physical materials have the field, so writing it makes a material physical
-    // for FIELD_LAYER, the layer (LAYER_…) that reads the field; a scene file omits the field if it has its default
+    // for FIELD_LAYER, the layer (LAYER_…) that reads the field; a scene file omits the field if the field has the
+    // default value
     int layer;
 };
 const struct material_field *material_field(int index); // returns NULL past the end

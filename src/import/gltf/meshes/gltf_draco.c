@@ -153,7 +153,7 @@ static bool is_decoded(struct gltf *gltf, const json_t *primitive, int view)
            gltf->accessors[(size_t)number].draco_view == view + 1;
 }
 
-// Returns whether the primitive's accessors also have uncompressed bytes.
+// Returns whether the primitive's accessors also refer to uncompressed bytes.
 static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
 {
     const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");

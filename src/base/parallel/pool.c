@@ -59,7 +59,7 @@ static void take_work(struct pool *pool, int thread)
     }
 }
 
-// Waits a short time for another thread to change *round, which it does while it holds the lock.
+// Waits a short time for another thread to change *round. The other thread holds the lock when it changes *round.
 static void spin_while(const struct pool *pool, const unsigned *round, unsigned value)
 {
     const uint64_t start = now_ns();

@@ -9,7 +9,7 @@
 // tile's triangles. Back faces are drawn last, because most of them are then occluded. The box and the nearest key of
 // an entry's back faces are tested first (occlusion.inc).
 enum {
-    TILE_BINS = 2, // tile t has bin 2·t, and 2·t + 1 for back faces
+    TILE_BINS = 2, // bin 2·t of tile t, and bin 2·t + 1 of its back faces
     BIN_BLOCK_ENTRIES = 40,
     SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit into 32 bits
 };
@@ -20,8 +20,8 @@ enum {
 struct bin_entry {
     uint32_t first;     // a triangle number
     uint16_t triangles; // bit i: triangle first + i; one bit if the triangle is clipped
-    uint16_t box;       // of back faces: their box in the tile (occlusion.inc)
-    float key;          // of back faces: the nearest key of their corners
+    uint16_t box;       // for back faces: the box of the triangles in the tile (occlusion.inc)
+    float key;          // for back faces: the nearest key of the triangles' corners
 };
 
 struct bin_block {

@@ -20,7 +20,7 @@ struct device_type {
     bool makes_normals;                      // whether the device can draw frames whose makes_normals is set
 };
 
-// The base of every device; a device's own struct begins with it.
+// The base of every device; a device's own struct begins with this struct.
 struct lam_device {
     const struct device_type *type;
     char name[96];

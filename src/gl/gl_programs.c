@@ -129,7 +129,8 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
     for (int i = 0; i < device->program_count; i++)
         if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
             return &device->programs[i];
-    // The programs may move, so gl_device.c compiles all programs of a frame before it stores pointers to any.
+    // The programs may move in memory, so gl_device.c compiles all programs of a frame before it stores pointers to
+    // any.
     struct gl_program *list =
         gl_grown(device->programs, device->program_count, &device->program_capacity, sizeof *list, error);
     if (!list)

@@ -1,6 +1,6 @@
 // gl_surfaces.c: stores the data with which a shader computes the light that passes through a masked, translucent or
-// transmitting triangle (passed_surface in shadows.glsl). These data are the triangle's record, and the records of its
-// materials and their maps at level 0. The data follow the hierarchy in the same texture.
+// transmitting triangle (passed_surface in shadows.glsl). These data are the record of the triangle, the records of the
+// triangle's materials, and the materials' maps at level 0. The data follow the hierarchy in the same texture.
 #include "gl_device.h"
 
 #include "fail.h"

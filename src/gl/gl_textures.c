@@ -1,4 +1,4 @@
-// gl_textures.c: uploads the textures of materials with all their levels, once, and binds the textures of a draw call.
+// gl_textures.c: uploads each texture of a material once, with all levels, and binds the textures of a draw call.
 //
 // Shaders read single texels and filter them (texture.glsl). Numbers in 0…1 are stored in 16 bits, with an error of
 // 2⁻¹⁷; other numbers are stored as floats. If an OpenGL ES driver does not support the 16-bit format, all numbers are

@@ -17,7 +17,7 @@ typedef bool open_companion(const struct import_source *source, const char *name
 
 struct import_source {
     const char *name;     // for messages: the path as the user wrote it
-    const char *path;     // the file's path; NULL if it is in memory or standard input
+    const char *path;     // the file's path; NULL if the file is in memory or is standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last byte
     size_t size;          // the size of the file in bytes
     // Set for a large file that is read in parts (importer.in_parts); `bytes` then contains only its first FILE_HEAD

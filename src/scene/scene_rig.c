@@ -1,5 +1,5 @@
-// scene_rig.c: the lights of a rig in a scene: their positions, adaptation to the scene's form and materials, and tone
-// curve.
+// scene_rig.c: places the lights of a rig in a scene, adapts the lights to the scene's form and materials, and selects
+// the tone curve.
 #include "scene_internal.h"
 
 #include "linear.h"

@@ -77,9 +77,9 @@ struct view_options {
 
 // Lights.
 struct lighting_options {
-    struct texts lights;         // as typed, checked
-    const char *look;            // as typed; NULL if there is none
-    char *look_text;             // the look's text, which contains the strings of its values; allocated with malloc
+    struct texts lights; // as typed, checked
+    const char *look;    // as typed; NULL if there is none
+    char *look_text;     // the look's text, which contains the strings of the look's options; allocated with malloc
     int look_first, look_lights; // the range of `lights` that the look added
     int rig;                     // lam_rig, RIG_DARK or RIG_DEFAULT
     bool has_rig;

@@ -34,8 +34,8 @@ bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, la
 // Returns whether this process or its parent has started the writer.
 bool writer_is_there(void);
 
-// Returns the writer's process ID, which is part of the names of its unfinished files, or this process's ID if there is
-// no writer.
+// Returns the process ID of the writer, or of this process if there is no writer. The ID is part of the names of
+// unfinished files.
 pid_t writer_process(void);
 
 // Detaches this process from a writer that a child process continues to use. Returns the writer's process ID for

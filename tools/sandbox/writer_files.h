@@ -1,5 +1,5 @@
-// writer_files.h: checks paths before files are replaced, and replaces sets of files together. The process that writes
-// calls these functions: the writer, or without a sandbox the program itself.
+// writer_files.h: checks paths before files are replaced, and replaces sets of files together. The writer calls these
+// functions. Without a sandbox, the program itself calls these functions.
 #ifndef WRITER_FILES_H
 #define WRITER_FILES_H
 

@@ -78,8 +78,8 @@ static bool fail_nothing_selected(const struct build *m, int object, lam_error *
     }
     if (object < 0)
         return fail(error, LAM_UNSUPPORTED,
-                    strokes ? "the model has only lines and points, which are drawn as rectangles that depend on the "
-                              "camera, not with a shader; expected a model with triangles"
+                    strokes ? "the model contains only lines and points, which have no shader; expected a model with "
+                              "triangles"
                             : "the model has no triangles that a shader could draw");
     if (strokes)
         return fail(error, LAM_UNSUPPORTED,
@@ -89,9 +89,9 @@ static bool fail_nothing_selected(const struct build *m, int object, lam_error *
                 lam_scene_object_count(m->scene) - 1);
 }
 
-// Merges the choices of all ranges, for one pair of sources. Only some of the ranges may use vertex colours, back
-// materials or the environment. All ranges must have the same number of sides. Either all ranges or none must have
-// tangents.
+// Merges the choices of all ranges, for one pair of sources. A range may use vertex colours, back materials or the
+// environment, even if other ranges do not. All ranges must have the same number of sides. Either all ranges or none
+// must have tangents.
 static bool merge_choices(struct build *m, lam_stage stage, int object, bool hardware_filter, lam_error *error)
 {
     const struct frame *frame = &m->frame;

@@ -151,7 +151,7 @@ static void store_row(const struct header *header, const uint8_t *row, const flo
     }
 }
 
-// Fills the table of 2^(exponent − 136). The entry is 0 for exponent 0, and if the power is below the smallest normal
+// Fills the table of 2^(exponent − 136). The entry is 0 if the exponent is 0 or the power is below the smallest normal
 // float.
 static void fill_scale(float scale[256])
 {

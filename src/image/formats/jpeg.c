@@ -13,7 +13,7 @@
 
 enum { MAX_SCANS = 200 }; // a progressive picture contains about ten scans; each scan covers the whole picture
 
-// The structs of libjpeg that its callbacks receive, followed by our own members.
+// The libjpeg structs that the callbacks receive, followed by our own members.
 struct jpeg_decoder {
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;

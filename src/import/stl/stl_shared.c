@@ -18,7 +18,7 @@
 
 enum {
     // With few windows, more facets share vertices. With many windows, more threads are busy.
-    WINDOWS = 16,     // number of windows if a window then has at most WINDOW_CHUNKS chunks
+    WINDOWS = 16,     // number of windows, if each window contains at most WINDOW_CHUNKS chunks
     WINDOWS_MAX = 32, // the maximum number of windows
     WINDOW_CHUNKS = 16,
     FACETS_MIN = 1 << 16, // smaller files gain little

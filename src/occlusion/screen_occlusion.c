@@ -6,9 +6,9 @@
 
 enum { LANES_MAX = 16 };
 
-// Rows contain LANES_MAX additional floats at either end, and planes of cells precede the planes of pixels. All threads
-// fill the rows in chunks, because the first use of the memory of a large picture takes seconds, and the call may be
-// stopped during that time.
+// Rows contain LANES_MAX additional floats at either end, and planes of cells precede the planes of pixels. The first
+// use of the memory of a large picture takes seconds. Therefore, all threads fill the rows in chunks, and the call may
+// be stopped after each chunk.
 enum { CHUNK = 1 << 17, CELL_PLANES = 5 };
 struct emptying {
     float *at;

@@ -103,7 +103,7 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
 //  ex = (R − L)/2,   ez = (R + L)/(2k)
 //
 // The result is exact, and computing it needs one pass over the points. The axis with the larger ez determines the
-// distance. The other axis is centred with the smaller k at which it would touch the frame at this ez.
+// distance. The other axis is centred with the smaller k at which this axis would touch the frame at this ez.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;

@@ -127,7 +127,7 @@ static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth,
     return times(turned(ahead, cross(ahead, s->up), degrees), length);
 }
 
-// Rotates `v` in the same way as the light moves from one position to another, without roll.
+// Rotates `v` together with the light, which moves from one position to another without roll.
 static lam_vec3 carried(lam_vec3 v, lam_vec3 from, lam_vec3 to, const struct surroundings *s)
 {
     lam_vec3 axes[2][3];

@@ -83,7 +83,7 @@ static bool fail_nothing_selected(const struct build *m, int object, lam_error *
                             : "the model has no triangles that a shader could draw");
     if (strokes)
         return fail(error, LAM_UNSUPPORTED,
-                    "object %d has only lines and points, which have no shader; expected an object with triangles",
+                    "object %d contains only lines and points, which have no shader; expected an object with triangles",
                     object);
     return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected an object with triangles, 0 to %d", object,
                 lam_scene_object_count(m->scene) - 1);

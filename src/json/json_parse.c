@@ -154,7 +154,7 @@ static char *read_escape(struct parser *p, char *to)
     return put_utf8(to, unit);
 }
 
-// A string: bytes of the file, or, if it contains escapes or characters outside ASCII, a decoded copy.
+// A string: bytes of the file, or a decoded copy if the string contains escapes or characters outside ASCII.
 struct text {
     const char *at;
     size_t length;

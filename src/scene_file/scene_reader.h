@@ -61,7 +61,7 @@ void tone_words(struct json_choice words[LAM_TONE_COUNT + 1]);
 enum { WORDS_MAX = 32 };
 void setting_words(const lam_setting *setting, struct json_choice words[WORDS_MAX]);
 
-// Reads the value of a field's key and stores it in a material or light.
+// Reads the value of a field's key and stores the value in a material or light.
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,
                 void *out);
 

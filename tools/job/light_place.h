@@ -13,7 +13,7 @@ lam_mat4 light_to_world(const struct job *job, const lam_light *light);
 bool lights_fix_to_world(struct job *job, lam_error *error);
 
 // Sets a swept value of a light. `centre` is the model's centre. Fails with LAM_BAD_ARGUMENT if there is no such light,
-// or the light has no such value.
+// or if the light does not have this value.
 bool light_sweep(const struct job *job, const struct sweep *sweep, double value, lam_vec3 centre, lam_error *error);
 
 // Multiplies all colours of a light.

@@ -16,8 +16,8 @@ void batch_jobs_close(struct batch_jobs *jobs); // NULL is allowed
 // Returns the folders to which files of jobs are restricted.
 const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
 
-// Reads the next line, waiting up to `wait_ms`, and accepts, rejects or cancels a job. After an interrupt, or if the
-// batch or the answers have failed, cancels all jobs. Only the main thread may call it.
+// Waits up to `wait_ms` for the next line, reads the line, and accepts, rejects or cancels a job. After an interrupt,
+// or if the batch or the answers have failed, cancels all jobs. Only the main thread may call it.
 void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
 
 // Returns the file to poll() for the next line, or −1 if no line is needed now.

@@ -15,7 +15,7 @@ struct fan_edge {
     uint32_t incoming; // 0: the triangle's edge starts at the position; 1: the edge ends at the position
 };
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
-               "the memory of a corner's two edges must also hold a fan's sum of normals");
+               "the memory of a corner's two edges must be large enough for a fan's sum of normals");
 
 // Tolerance for the rounding of float positions: equal angles between faces may differ in the seventh digit.
 #define CREASE_SLACK 1e-6

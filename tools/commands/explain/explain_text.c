@@ -1,4 +1,4 @@
-// explain_text.c: prints an explained pixel as aligned text with units, with the formula of each term (docs/lighting.md
+// explain_text.c: prints an explained pixel as aligned text, with units and the formula of each term (docs/lighting.md
 // lists all formulas).
 #include "explain.h"
 

@@ -117,7 +117,7 @@ static double percentile(const struct luminances *sum, double share)
 
 static bool is_dark(const lam_rgb *c) { return c->r == 0 && c->g == 0 && c->b == 0; }
 
-// Returns whether only the studio lights the model, and the model has colours of its own.
+// Returns whether the studio is the model's only light, and the model has colours of its own.
 static bool applies(const struct frame *frame, const lam_scene *scene)
 {
     const lam_draw_params *settings = &frame->settings;

@@ -1,6 +1,6 @@
 // scene_reader.h: functions that all readers of scene files share: positions in the file, and values that are checked
-// on access. docs/scene-file.md describes the format for users; `lambent generate scene-schema` prints it as a schema
-// for programs.
+// on access. docs/scene-file.md describes the format for users; `lambent generate scene-schema` prints a schema of the
+// format for programs.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 

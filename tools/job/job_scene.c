@@ -15,8 +15,8 @@
 
 // --- materials
 
-// Returns whether metals selected with --material reflect the studio. They do so if the studio lights the picture and
-// no option requires the classic values.
+// Returns whether metals selected with --material reflect the studio. They do so if the studio illuminates the picture
+// and no option requires the classic values.
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {
     const lam_draw_params *draw = &o->draw;

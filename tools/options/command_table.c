@@ -140,8 +140,7 @@ const struct command command_table[] = {
                            .defaults = materials_defaults},
     [COMMAND_config] = {"config", NULL, "Print the current settings, and the name of the settings file.",
                         ABOUT | 1ull << GROUP_SETTINGS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
-                        .one_more =
-                            "the command only prints the settings; to change settings, edit the file that it names"},
+                        .one_more = "the command only prints the settings; to change settings, edit the settings file"},
     [COMMAND_devices] = {"devices", NULL,
                          "List the devices that can draw on this machine, and explain why other devices cannot.",
                          ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},

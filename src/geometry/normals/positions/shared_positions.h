@@ -80,8 +80,8 @@ void position_search_free(struct position_search *s);
 // bounded for every file.
 bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
-// Returns how many of the mesh's triangles before `triangle` are in the set. For the triangle count, the result is the
-// total.
+// Returns how many of the mesh's triangles before `triangle` are in the set. If `triangle` is the mesh's number of
+// triangles, this counts all of them.
 static inline uint32_t triangles_before(const struct position_search *s, size_t triangle)
 {
     size_t number = s->first + triangle;

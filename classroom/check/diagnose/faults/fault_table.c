@@ -710,8 +710,8 @@ const struct fault faults[] = {
     ROW("upside-down", BITS(UPSIDE_DOWN), 0, 0, "the picture is upside down",
         "gl_Position = {clip} * {model_view} * {position};"),
     ROW("clip-space-four", BITS(NORMAL_BY_MODEL, NORMAL_CLIP, LIGHT_CLIP, POINT_CLIP, EYE_CLIP, FOUR), WHERE_FOUR, 0,
-        "the lighting is computed after the projection, with four-component vectors; angles and distances mean nothing "
-        "there",
+        "the lighting is computed with four-component vectors after the projection, which does not preserve angles and "
+        "distances",
         "vec3 P = ({model_view} * {position}).xyz; // light in {space} space, three components; {clip} "
         "only in gl_Position",
         .rare = true),

@@ -25,8 +25,8 @@ struct format {
     int min_exponent_field;    // −bias: the exponent that the field 0 would represent
     int infinite;              // the exponent field of infinity
     int even_first, even_last; // range of powers of ten for which a product can be a midpoint
-    int min_power,
-        max_power; // limits of the power of ten: with a smaller power, any number of 19 digits is 0; with a larger one, infinity
+    // The limits of the power of ten: with a smaller power, any 19 digits give 0; with a larger power, infinity.
+    int min_power, max_power;
 };
 static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
 static const struct format format_float = {23, -127, 0xff, -17, 10, -65, 38};

@@ -28,7 +28,8 @@ struct environment_samples {
     struct disc_point *lobe, *cosine;
     int light_count, lobe_count, cosine_count;
     int size; // texels per side of the density's faces
-    // 6 faces, row by row: the probability density of the directions in `light`, per area of a face with sides of length 2.
+    // 6 faces, row by row: the probability density of the directions in `light`, per area; a side of a face has length
+    // 2.
     const float *density;
 };
 

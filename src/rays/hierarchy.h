@@ -1,4 +1,5 @@
 // hierarchy.h: a bounding volume hierarchy over all triangles of a frame, for rays.
+//
 // One test in double precision decides whether a ray meets a triangle (ray_lanes.h). The boxes of the hierarchy only
 // exclude triangles that the ray cannot meet, so they do not affect results. The hierarchy is built by a fixed set of
 // tasks, so it is identical for any number of threads. The OpenGL device reads the same hierarchy.

@@ -58,7 +58,8 @@ static struct sampled_light light_at(const struct lam_environment *cube, const f
 struct drawing {
     const struct lam_environment *cube, *small;
     const float (*to_environment)[3];
-    double *rows, *weights, total; // the brightness of the small copy: per row, per texel of one row, and in total
+    // The brightness of each row of the small copy, of each texel in one row, and of the whole copy.
+    double *rows, *weights, total;
 };
 
 // Selects directions towards the environment's light. The first coordinate of a point selects the row, and the second

@@ -111,8 +111,8 @@ static void warm(const char *path)
         close(file);
 }
 
-// Reads files ahead of the workers. N workers wake this thread only once for N models, because each wake-up costs
-// processor time and needs the lock.
+// Reads files ahead of the workers. Each wake-up of this thread costs processor time and needs the lock, so N workers
+// wake it only once for N models.
 static void *read_ahead(void *user)
 {
     struct batch *b = user;

@@ -15,7 +15,7 @@
 #include "journal.h"
 #include "option_names.h"
 
-// The number of bytes that a pipe accepts without blocking if poll() reports space (PIPE_BUF).
+// If poll() reports space in a pipe, writing this number of bytes (PIPE_BUF) does not block.
 enum { CHUNK = 4096 };
 
 // The longest wait for a reader after an interrupt.

@@ -339,7 +339,8 @@ struct option option_table[OPTIONS_MAX] = {
      "second. If "
      "the picture is wider than the window, Lambent scales the picture down. With `kitty`, `iterm2`, `sixel` or "
      "`blocks`, Lambent shows the picture even if `-o` names a file, provided that its format has 8 bits per channel. "
-     "Lambent shows pictures only for a single model, on a terminal, and without `--json` and `--quiet`. `sixel` and "
+     "Lambent shows a picture only for a single model, on a terminal, and without `--json`. `auto` shows no picture "
+     "with `--quiet`. `sixel` and "
      "`blocks` "
      "need libchafa (Debian's package `libchafa0`). `docs/terminal.md` lists the terminals.",
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,

@@ -188,8 +188,8 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
 
 // --- method 3: big integers
 
-// Unsigned big integers, lowest limb first. These integers are large enough for 770 digits times 10^308, or 10^(342 +
-// 770) and its multiples by 2^64.
+// Unsigned big integers, lowest limb first. These integers are large enough for 770 digits times 10^308, and for
+// 10^(342 + 770) times up to 2^64.
 enum { LIMBS = 160, DIGITS_MAX = 770 };
 struct big {
     uint32_t limb[LIMBS];
@@ -282,8 +282,8 @@ static int64_t big_digits(const struct decimal *d, struct big *a)
     return power;
 }
 
-// Returns the quotient, by long division. `over` is `bits` (at least 0) bits longer than `under`. Multiplies `under` by
-// 2^bits; `over` receives the remainder times 2^bits.
+// Returns the quotient over / under, by long division. `bits`, at least 0, is the difference of their lengths in bits.
+// Multiplies `under` by 2^bits; `over` receives the remainder times 2^bits.
 static uint64_t divide(struct big *over, struct big *under, int bits)
 {
     uint64_t quotient = 0;

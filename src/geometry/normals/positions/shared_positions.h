@@ -40,7 +40,7 @@ struct position_search {
     // Output. The number of a position is the rank of its representative vertex among `wanted`. In meshes without
     // indices, it is the rank of the representative corner among the corners of the set's triangles.
     struct rank_bitset wanted; // vertices of the set's triangles, for indexed meshes
-    // the position of each vertex, or NONE; a NULL pointer if corners are looked up in the table
+    // For each vertex, the number of its position, or NONE. NULL if corners are looked up in the table instead.
     uint32_t *position_of;
     struct cached_position **caches; // the cache of each thread
     uint32_t caches_mask;

@@ -252,7 +252,7 @@ static const struct choice sheet_words[] = {
 
 static const struct choice isa_words[] = {
     {"auto", LAM_ISA_AUTO, "the widest instruction set that this machine supports"},
-    {"scalar", LAM_ISA_SCALAR, "C without vectors"},
+    {"scalar", LAM_ISA_SCALAR, "plain C, without SIMD instructions"},
     {"plain", LAM_ISA_SCALAR, NULL},
     {"sse4", LAM_ISA_SSE4, "4 lanes"},
     {"avx2", LAM_ISA_AVX2, "8 lanes"},
@@ -679,19 +679,19 @@ struct option option_table[OPTIONS_MAX] = {
      .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "The segments of a built-in shape: N slices around the axis, and M stacks along the axis.",
-     "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. N is 3 "
-     "to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the shape. "
-     "`gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
+     "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. The "
+     "range of N is 3 to 16384. `lambent shapes` describes the segments of each shape. The default of M depends on the "
+     "shape. `gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "the model's",
      "The environment that shiny surfaces reflect: an image, six faces, sky, studio or none.",
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
-     "built in. `none` removes the environment of a scene file. For models, `none` disables the built-in studio "
-     "environment, so that light sources illuminate the model. To use a file named `sky`, write `./sky`. Classic "
-     "materials reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
-     "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
+     "built in. `none` removes the environment of a scene file. For a model without lights, `none` replaces the "
+     "built-in studio environment with the rig's lights. To use a file named `sky`, write `./sky`. Classic materials "
+     "reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
+     "`docs/lighting/reflection.md` describes how Lambent maps each kind of environment around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
@@ -704,11 +704,11 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
      "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
-     "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
-     "exposure. By default, or if the name ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or "
-     "WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame to a "
-     "separate file, in any format. `36,light=model` turns the lights with the model, instead of keeping the lights "
-     "fixed to the camera. Lights that are fixed to an object always turn with the object. For examples, see "
+     "to a picture drawn with `--rotate y:A`, where A is k/N of 360 degrees. All frames use the same camera distance "
+     "and exposure. By default, or if the name ends in `.png` or `.webp`, Lambent writes all frames to one animated "
+     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame "
+     "to a separate file, in any format. `36,light=model` turns the lights with the model, instead of keeping the "
+     "lights fixed to the camera. Lights that are fixed to an object always turn with the object. For examples, see "
      "`docs/animation.md`.",
      .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
      FIELD(animation.turntable), .min = 2, .max = 100000},
@@ -718,14 +718,14 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",
-     "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
-     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. KEY may also be a key of `--material` (`roughness`, `kd`, "
+     "KEY is `rotate.x`, `rotate.y`, `rotate.z`, or an option whose value is a number (`azimuth`, `elevation`, `zoom`, "
+     "`exposure`, `opacity`, `ambient`, `crease-angle`). KEY may also be a key of `--material` (`roughness`, `kd`, "
      "`roughness@NAME`) or a numeric property of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's "
      "name, or its number counted from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the "
-     "first light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; "
-     "angles in degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which "
+     "first light with this key. The keys of a light are `intensity`, `azimuth`, `elevation` and the light's numeric "
+     "fields (`diffuse`, `range`, `position.x`; angles in degrees). Azimuth and elevation set the direction from which "
      "the light comes, in the light's own frame. These angles work like the camera's angles: 0 is the front, 90 is the "
-     "right side. `time` is the time in a glTF file's animation; without numbers, the sweep covers the whole "
+     "right side. `time` is the time in a glTF file's animation. `--sweep time`, without a range, covers the whole "
      "animation.\nYou can give more than two values: `light.elevation=10..80..10`. If a sweep returns to its first "
      "value, for example after a full turn, the last frame is one step before that value. The loop is then seamless. "
      "You can combine several sweeps with each other and with `--turntable`. Lambent fits the camera once, to the "
@@ -746,7 +746,7 @@ struct option option_table[OPTIONS_MAX] = {
      "All instruction sets draw identical pictures. Lambent rejects an instruction set that this machine or this build "
      "does not support (exit 3).",
      isa_words, .store = store_word, .others = "simd instruction-set", FIELD(work.isa)},
-    {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
+    {"device", 0, GROUP_WORK, "NAME", "auto", "The rendering device: cpu, gl, gles or auto.",
      "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If OpenGL is unavailable, the error message "
      "states the reason (exit 3). Lambent does not switch to another device. `lambent devices` lists the devices.",
      device_words, .store = store_word, .others = "d gpu cpu backend renderer engine opengl gl", FIELD(work.device),
@@ -766,12 +766,12 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter of the available memory",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
-     "The limit applies separately to reading a model and to drawing the model, including textures and decoders. "
-     "Lambent checks the limit before it allocates memory. The default is a quarter of the available memory, divided "
-     "by the number of models drawn at the same time. The available memory is the smallest of the machine's memory, "
-     "the limits of control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G "
-     "and T are powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the "
-     "process that draws a shader.",
+     "The limit applies separately to reading and to drawing a model. Textures and decoders count too. Lambent checks "
+     "the limit before it allocates memory. The default is a quarter of the available memory, divided by the number of "
+     "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
+     "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
+     "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the process "
+     "that draws a shader.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
      "The limit applies to the elapsed time for reading, drawing and writing each model. The processor time is limited "
@@ -792,10 +792,10 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "max-objects instance-limit max-instances node-limit", FIELD(limits.object_limit), .max = 2147483647},
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a picture has more layers per pixel than this, on average (exit 4).",
-     "A layer is a translucent or masked surface that covers a pixel. Each light at a point and each opaque "
-     "surface at a pixel counts as 1/32 of a layer. Environment light at a point counts as one layer. The "
-     "default is 40 plus one per 16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as "
-     "65536 pixels. The OpenGL devices ignore this limit.",
+     "A layer is a translucent or masked surface that covers a pixel. Each light evaluated at a point counts as 1/32 "
+     "of a layer, and so does each opaque surface at a pixel. Environment light evaluated at a point counts as one "
+     "layer. The default is 40 plus one per 16384 bytes of the model's files. Pictures with fewer than 65536 pixels "
+     "count as 65536 pixels. The OpenGL devices ignore this limit.",
      .store = store_count, .others = "max-layers overdraw-limit", FIELD(limits.layer_limit), .max = 2147483647},
     {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
      "Stop if a model needs more memory than N times the size of its files plus 500 MB (exit 4).",
@@ -815,30 +815,31 @@ struct option option_table[OPTIONS_MAX] = {
      "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
      .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1, .max = 2000},
     {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Restrict a scene file to files in its own folder.",
-     "Use this option for scene files from untrusted sources. All models and pictures must then be in the scene file's "
-     "folder or below it, after Lambent resolves links and `..`. Files that a model refers to, such as MTL files, must "
+     "Use this option for scene files from untrusted sources. Lambent resolves links and `..` first. All models and "
+     "pictures must be in the scene file's folder or below it. Files that a model refers to, such as MTL files, must "
      "always be in the model's folder. Files given on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES, .also_in = IN_KEY},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
      "Drop all privileges that reading files does not need. Values: auto, require or off.",
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
-     "rendering process can read only the folders of the models and of `--allow-path`, and the system's libraries and "
-     "fonts. The rendering process cannot change any file. A separate small process outside the sandbox writes the "
-     "pictures, and nothing else. The sandbox uses two methods of Linux: Landlock and a seccomp filter. `auto` uses "
-     "each method that the kernel supports. `require` fails if a method is missing (exit 3), and restricts scene files "
-     "to their own folder (`--files-inside`) and `--allow-path`. `-v`, `--json` and `--version` report the methods in "
-     "use. The sandbox applies to commands that read models or pictures. `check` and OpenGL need more privileges for "
-     "the graphics driver. With `auto`, Lambent therefore runs both without a sandbox. With `auto`, a scene file "
-     "(`.json`) may refer to files in any folder, unless you give `--files-inside` or `--allow-path`.",
+     "rendering process can read only the models' folders, the paths given with `--allow-path`, and the system's "
+     "libraries and fonts. The rendering process cannot change any file. A small process outside the sandbox writes "
+     "the pictures and does nothing else. The sandbox uses two methods of Linux: Landlock and a seccomp filter. `auto` "
+     "uses each method that the kernel supports. `require` fails if a method is missing (exit 3). With `require`, a "
+     "scene file may refer only to files in its own folder (as with `--files-inside`) and to files allowed with "
+     "`--allow-path`. `-v`, `--json` and `--version` report the methods in use. The sandbox applies to commands that "
+     "read models or pictures. `check` and OpenGL need more privileges for the graphics driver. With `auto`, Lambent "
+     "therefore runs both without a sandbox. With `auto`, a scene file (`.json`) may refer to files in any folder, "
+     "unless you give `--files-inside` or `--allow-path`.",
      sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(limits.sandbox),
      .single = TAKES_PICTURE_LIMITS},
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL,
      "Allow models to use this file, or the files in this folder; repeatable.",
      "By default, a model may use only the files in its own folder. If the textures are in `../textures`, add "
      "`--allow-path ../textures`. Even with `--files-inside`, scene files may refer to files in the allowed folder. "
-     "Links in the folders of `batch` may also lead to it. In the sandbox, Lambent can also read the allowed folder. "
-     "With `--jobs`, all files named in jobs must be in an allowed folder, but models can still use only the files in "
-     "their own folders. Pages (`-o FILE.html`) and `view` never include files from other folders.",
+     "Links in folders given to `batch` may lead to the allowed folder. In the sandbox, Lambent can also read the "
+     "allowed folder. With `--jobs`, all files named in jobs must be in an allowed folder, but models can still use "
+     "only the files in their own folders. Pages (`-o FILE.html`) and `view` never include files from other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -862,7 +863,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"resume", 0, GROUP_BATCH, NULL, NULL, "Resume: skip pictures that the journal lists as done.",
      "Without a journal, Lambent draws everything, so you can use the same command to start and to resume a run. "
      "Lambent refuses to resume if the picture options differ from those in the journal. If a run was killed, Lambent "
-     "first repeats the models that were in progress, each in a separate process.",
+     "first retries the models that were in progress, each in a separate process.",
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
     {"retry-failed", 0, GROUP_BATCH, "N", "0", "Retry a picture that failed, at most N times.",
      "Lambent retries failed pictures at the end of the run. With `--resume`, Lambent also retries failures of earlier "
@@ -887,11 +888,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
      "Divide the models into N shards and draw only shard K (1 to N); other machines draw the other shards.",
      "A model's shard depends only on the model's path, so adding a model does not move other models. `auto` reads K "
-     "and N from SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and the corresponding counts. `auto/N` reads K from these "
-     "variables or from JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent reports an error. "
-     "Without this option, Lambent ignores the variables. Each shard writes its own journal and page, with names such "
-     "as `lambent-2-of-4.jsonl` "
-     "(`docs/batch.md`). `lambent journal` summarises these journals.",
+     "from SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK, and N from the corresponding count. `auto/N` reads K from "
+     "these variables or from JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent reports an "
+     "error. Without this option, Lambent ignores the variables. Each shard writes its own journal and page, with "
+     "names such as `lambent-2-of-4.jsonl` (`docs/batch.md`). `lambent journal` summarises these journals.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or by list.",
      "With `name`, each shard reads all names, which takes a second or two for a million models. With `list`, a shard "
@@ -922,8 +922,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "Lambent prints the report to standard output, instead of the line with the file's name. If the picture goes to "
      "standard output, Lambent prints the report, and nothing else, to standard error. Lambent also prints a report on "
-     "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption of each picture "
-     "and the options that draw the picture.",
+     "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption and the options "
+     "of each picture.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,

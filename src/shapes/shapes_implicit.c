@@ -186,7 +186,8 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
     return before;
 }
 
-// Returns the unit ∇f or, if it is zero or not finite, central differences of f over a hundredth of a cell.
+// Returns the unit vector along ∇f. If ∇f is zero or not finite, uses central differences of f over a hundredth of a
+// cell.
 static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
 {
     const lam_implicit *s = m->surface;

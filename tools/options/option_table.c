@@ -1098,8 +1098,8 @@ struct option option_table[OPTIONS_MAX] = {
      .loads = true},
     {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface",
      "The range of x in which Lambent draws an implicit surface.",
-     "Give two constant expressions. By default, Lambent searches for the surface in -4..4, and in -16..16 if the "
-     "surface is closed only in the larger range.",
+     "Give two constant expressions. By default, Lambent searches for the surface in -4..4. If the surface is not "
+     "closed in this range but is closed in -16..16, Lambent uses the larger range.",
      .store = store_text, .others = "x-range box bounds", FIELD(shape.x_range), .loads = true},
     {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y, as for `--x`.", NULL, .store = store_text,
      .others = "y-range", FIELD(shape.y_range), .loads = true},

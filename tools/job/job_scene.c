@@ -15,8 +15,8 @@
 
 // --- materials
 
-// Returns whether metals selected with --material reflect the studio. They do so if the studio lights the picture and
-// no option requires the classic values.
+// Returns whether metals selected with --material reflect the studio: the studio lights the picture, and no option
+// requires the classic values.
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {
     const lam_draw_params *draw = &o->draw;
@@ -112,7 +112,7 @@ static bool apply_sides(const struct options *o, lam_scene *scene, lam_error *er
 
 // --- the rig
 
-// Adds the lights of the rig to the scene, and selects their tone curve.
+// Adds the lights of the rig to the scene, and selects the rig's tone curve.
 static bool add_rig(struct job *job, lam_error *error)
 {
     lam_light lights[LAM_RIG_LIGHTS_MAX];
@@ -132,7 +132,8 @@ static bool lit_by_environment(const struct job *job)
            lam_scene_rig_lights(job->scene, LAM_RIG_AUTO, false, lights) == 0;
 }
 
-// Sets the environment that drawing would use for a scene without lights, because options will add lights.
+// Sets the studio environment. Drawing sets this environment only for scenes without lights, and options will add
+// lights.
 static bool set_studio(const struct job *job, lam_error *error)
 {
     return lam_scene_environment(job->scene) ||

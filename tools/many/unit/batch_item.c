@@ -24,8 +24,8 @@
 
 // --- messages
 
-// Prints each warning from index *first on, unless an earlier warning has the same text, and sets *first to the number
-// of warnings. Returns how many warnings have new texts.
+// Prints the warnings from index *first on, except repeated texts. Sets *first to the number of warnings. Returns the
+// number of warnings with new texts.
 static int print_warnings(const struct job *job, int *first, bool print)
 {
     int count = 0;
@@ -251,7 +251,7 @@ struct model_run {
     struct batch_result *result;
     struct timespec start; // by the clock that file systems use
     struct files files;
-    int warnings; // of the scene, counted after the previous picture
+    int warnings; // the number of the scene's warnings after the previous picture
     bool hashed;
     json_t *found; // the data that batch_use.draw adds to the record; NULL if the picture is written to a file
 };

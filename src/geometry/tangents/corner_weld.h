@@ -21,9 +21,9 @@ struct corner_weld {
     const uint32_t *of; // for each corner, the first item that is equal to it
 };
 
-// Values are compared as floats, so −0 equals 0. Missing normals and texture coordinates are treated as equal. The
-// function takes n steps. For files that were made to cause hash collisions, it takes at most n·log n steps. `memory`
-// owns the result and the scratch memory.
+// Values are compared as floats, so −0 equals 0. Missing normals and texture coordinates are treated as equal. The time
+// is proportional to the number n of items, or at most to n·log n for files that were made to cause hash collisions.
+// `memory` owns the result and the scratch memory.
 bool corner_weld(struct corner_weld *weld, const lam_mesh *mesh, struct arena *memory, struct call_control *call,
                  lam_error *error);
 

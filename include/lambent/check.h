@@ -207,8 +207,8 @@ typedef struct lam_check_painter {
     // The caller can cache contexts: a context is put to rest after a check and woken for the next check, perhaps on
     // another thread.
     void (*rest)(void *place);
-    // Returns false and fills `error` on failure; the context stays at rest. The check then forgets its programs and
-    // closes it without waking it again, so these calls must free memory and device objects in this state too.
+    // Returns false and fills `error` on failure; the context then stays released. The check then forgets its programs
+    // and closes it without waking it again, so these calls must free memory and device objects in this state too.
     bool (*wake)(void *place, lam_error *error);
     // Compiles both shaders, so that the messages of both are available at once, and links them. A program that does
     // not compile is not an error. Returns false, fills `error` and keeps nothing on failure.

@@ -34,7 +34,7 @@ static const struct {
 
 static const char *const root_comment[] = {
     "Written by `lambent check --write-contract`; docs/check/contract-file.md explains every key and every role.",
-    "Correct `name` and `title` first, then `space`: eye or world, the space of the lighting.",
+    "Correct `name` and `title` first, then `space`: the space in which the lighting is computed (eye or world).",
     "\"strengths\": \"any\" accepts every colour and strength. With \"given\", each name needs a role, and mistakes in "
     "colours are found.",
     "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": "

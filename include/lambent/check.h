@@ -215,8 +215,8 @@ typedef struct lam_check_painter {
     bool (*compile)(void *place, const char *vertex, const char *fragment, lam_check_program *program,
                     lam_error *error);
     void (*forget)(void *place, lam_check_program *program); // frees the result of compile
-    // Draws to size² RGBA pixels, rows top-down. The pixels are floats as the program wrote them. If the device has no
-    // float targets, they are bytes / 255; colours are then clamped, and NaN is not found.
+    // Draws to size² RGBA pixels, with the top row first. The pixels are floats as the program wrote them. If the
+    // device has no float targets, they are bytes / 255; colours are then clamped, and NaN is not found.
     bool (*draw)(void *place, const lam_check_drawing *drawing, float *pixels, lam_error *error);
     // true: the painter compiles only GLSL ES. The check then translates desktop GLSL to GLSL ES, line by line, as far
     // as the two languages agree (docs/check.md). Pixels are not compared where the surface normal changes by more than

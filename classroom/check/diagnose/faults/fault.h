@@ -74,7 +74,7 @@ enum fault_where {
     WHERE_FRAGMENT = 1,      // lighting in the fragment shader
     WHERE_VERTEX = 2,        // lighting in the vertex shader
     WHERE_OBJECT_LIGHT = 4,  // lights in object space
-    WHERE_EYE_LIGHT = 8,     // lights in the space of the lighting, eye or world space
+    WHERE_EYE_LIGHT = 8,     // lights in the space in which lighting is computed (eye or world space)
     WHERE_PHONG = 16,        // a Phong highlight is expected
     WHERE_BLINN = 32,        // a Blinn–Phong highlight is expected
     WHERE_REFLECT = 64,      // reflect() occurs in the shaders

@@ -36,8 +36,8 @@ struct tile_search {
     struct arena *arenas;
 };
 
-// Number of tiles for each thread. If all of them are covered, they contain about a quarter of a million fragments,
-// which need more than a megabyte.
+// Number of tiles for each thread. If all tiles are covered, they contain about a quarter of a million fragments, which
+// need more than a megabyte.
 enum { LARGE_PICTURE = 64 };
 
 // Finds the lowest and the highest triangle of the fragments.

@@ -395,10 +395,9 @@ bool environment_send(struct gl_frame *f, lam_error *error);
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
-// --- gl_surfaces.c
-// Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
-// has `most` texels. Sets *same to whether the texels and the hierarchy are the same as in the last packing. Fails with
-// LAM_LIMIT.
+// --- gl_surfaces.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
+// has `most` texels. Sets *same to true if the texels and the hierarchy are the same as in the last packing, otherwise
+// to false. Fails with LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
 // Writes the counted texels into zeroed memory.
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);

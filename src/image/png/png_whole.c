@@ -126,8 +126,8 @@ static inline wide8 max8(wide8 x, wide8 y)
 // Returns, per channel, the left, upper or upper left pixel (a, b or c) that is nearest to a + b − c. If distances are
 // equal, the first of them is used. If c is between a and b, the distance is high − c for the lower of both, c − low
 // for the higher, and |low + high − 2c| for c itself. The lower is nearest if 3c − a − b ≥ high, and the higher is
-// nearest if 3c − a − b ≤ low. These conditions are also correct for all other c. Only few steps depend on a, the most
-// recent pixel.
+// nearest if 3c − a − b ≤ low. These conditions are also correct for all other c. Only a few steps depend on a, the
+// most recent pixel.
 static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
 {
     const wide8 low = min8(a, b), high = max8(a, b), middle = (c + c + c - b) - a;

@@ -64,7 +64,8 @@ bool candidate_try_child(struct state *t, const struct candidate *parent, const 
 // Recomputes the set from its members.
 void candidate_rebuild(struct candidate *c);
 
-// Completes a member to be added to a set. Returns false on error. Sets `possible` to whether the member can be added.
+// Completes a member to be added to a set. Returns false on error. Sets `possible` to true if the member can be added,
+// otherwise to false.
 bool candidate_prepare(struct state *t, const fault_set *base, const struct fault *row, struct found_fault *out,
                        bool *possible, lam_error *error);
 

@@ -679,9 +679,9 @@ struct option option_table[OPTIONS_MAX] = {
      .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "The segments of a built-in shape: N slices around the axis, and M stacks along the axis.",
-     "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. The "
-     "range of N is 3 to 16384. `lambent shapes` describes the segments of each shape. The default of M depends on the "
-     "shape. `gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
+     "With `--parametric`, N and M are the numbers of segments along u and v. N alone sets both numbers. The range of "
+     "N is 3 to 16384. `lambent shapes` describes the segments of each shape. The default of M depends on the shape. "
+     "`gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "the model's",
      "The environment that shiny surfaces reflect: an image, six faces, sky, studio or none.",
@@ -739,7 +739,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
      .store = store_number, .others = "frame-rate framerate speed delay", FIELD(animation.fps), .min = 0.1, .max = 240},
 
-    {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads; the picture does not depend on it.",
+    {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads. It does not affect the picture.",
      NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
      .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
@@ -820,17 +820,17 @@ struct option option_table[OPTIONS_MAX] = {
      "always be in the model's folder. Files given on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES, .also_in = IN_KEY},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
-     "Drop all privileges that reading files does not need. Values: auto, require or off.",
+     "Drop all privileges that are not needed to read files. Values: auto, require or off.",
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
      "rendering process can read only the models' folders, the paths given with `--allow-path`, and the system's "
      "libraries and fonts. The rendering process cannot change any file. A small process outside the sandbox writes "
-     "the pictures and does nothing else. The sandbox uses two methods of Linux: Landlock and a seccomp filter. `auto` "
-     "uses each method that the kernel supports. `require` fails if a method is missing (exit 3). With `require`, a "
-     "scene file may refer only to files in its own folder (as with `--files-inside`) and to files allowed with "
-     "`--allow-path`. `-v`, `--json` and `--version` report the methods in use. The sandbox applies to commands that "
-     "read models or pictures. `check` and OpenGL need more privileges for the graphics driver. With `auto`, Lambent "
-     "therefore runs both without a sandbox. With `auto`, a scene file (`.json`) may refer to files in any folder, "
-     "unless you give `--files-inside` or `--allow-path`.",
+     "the pictures and does nothing else. The sandbox uses two methods of the Linux kernel: Landlock and a seccomp "
+     "filter. `auto` uses each method that the kernel supports. `require` fails if a method is missing (exit 3). With "
+     "`require`, a scene file may refer only to files in its own folder (as with `--files-inside`) and to files "
+     "allowed with `--allow-path`. `-v`, `--json` and `--version` report the methods in use. The sandbox applies to "
+     "commands that read models or pictures. `check` and OpenGL need more privileges for the graphics driver. With "
+     "`auto`, Lambent therefore runs both without a sandbox. With `auto`, a scene file (`.json`) may refer to files in "
+     "any folder, unless you give `--files-inside` or `--allow-path`.",
      sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(limits.sandbox),
      .single = TAKES_PICTURE_LIMITS},
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL,
@@ -853,7 +853,7 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(batch.lists),
      .single = TAKES_MANY},
     {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the folder of the pictures",
-     "Write a line of JSON for each picture that succeeds or fails.",
+     "Write a line of JSON for each finished or failed picture.",
      "A line records the model, the picture, the result (`class`, `exit`, `error`), the duration of each step in "
      "milliseconds, the number of triangles and the warnings. The line also records the size of the picture in bytes, "
      "the "
@@ -903,8 +903,8 @@ struct option option_table[OPTIONS_MAX] = {
      "This option is for servers: one process draws all jobs until standard input ends (`docs/worker.md`). A job "
      "contains an `id`, a `model` or its bytes, `options`, and an `output`. Without `output`, the answer contains the "
      "picture. Lambent reads and writes files only inside the folders given with `--allow-path`. The options on the "
-     "command line apply to every job; Lambent adds a job's own options after them. Instead of `-`, you can give a "
-     "file or a pipe.",
+     "command line apply to every job. Lambent adds a job's own options after these options. Instead of `-`, you can "
+     "give a file or a pipe.",
      .kind = VALUE_FILE, .store = store_jobs, .others = "worker server daemon serve", FIELD(batch.jobs)},
     {"ahead", 0, GROUP_BATCH, "N", "twice the number of models drawn at once",
      "The maximum number of waiting jobs. When this many jobs are waiting, Lambent pauses reading.", NULL,
@@ -927,7 +927,7 @@ struct option option_table[OPTIONS_MAX] = {
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
-     "List the pictures that the command would write, but draw and write nothing.",
+     "List the pictures that the command would write, without drawing or writing them.",
      "Lambent reads and checks the models and the options, and checks whether it can write each picture. For each "
      "model, Lambent prints the name and size of the picture, whether the picture would overwrite a file, the camera, "
      "the device and the options on the command line. With `--json`, the report contains `planned` instead of `image`. "

@@ -88,7 +88,7 @@ struct job {
     const struct job_view *views;           // the pictures to draw; NULL means one picture from the options
     int view_count;
     lam_camera *cameras; // one camera per view, allocated by job_arrange with malloc
-    // the scene's lights without the lights of the options, which may depend on the camera; allocated with malloc
+    // the scene's lights without the lights of the options (these may depend on the camera); allocated with malloc
     lam_light *lights;
     int light_count;
     uint64_t bytes; // size of the written file

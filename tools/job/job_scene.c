@@ -278,7 +278,7 @@ static bool is_shown(const lam_draw_params *draw)
     return draw->shading == LAM_SHADING_PHONG && !other;
 }
 
-// Warns that only some drawing methods show glass, and that its tint is only correct over white.
+// Warns that only some drawing methods show glass, or that the tint of glass is only correct over white.
 void job_note_glass(struct job *job, const lam_draw_params *draw)
 {
     for (int i = 0; !is_shown(draw) && i < lam_scene_material_count(job->scene); i++)
@@ -291,8 +291,8 @@ void job_note_glass(struct job *job, const lam_draw_params *draw)
         return;
     for (int i = 0; i < lam_scene_material_count(job->scene); i++)
         if (colors_light(lam_scene_material(job->scene, i))) {
-            lam_scene_add_warning(job->scene, "the transparent picture of coloured glass is correct over white; for "
-                                              "another colour behind it, add --background COLOUR");
+            lam_scene_add_warning(job->scene, "the transparent picture of coloured glass is correct only over white; "
+                                              "for another background, add --background COLOUR");
             return;
         }
 }

@@ -1,8 +1,8 @@
 // journal.h: reads and writes journals: files with one JSON line for each finished or failed picture.
 //
-// After a picture is written, a single write() appends its line, so a run may be killed at any time. At worst, the last
-// line is truncated and lacks its line end. During a run, FILE.running beside the journal lists the models in progress
-// and their processes. A killed run leaves that file behind.
+// After a picture is written, a single write() appends the picture's line, so a run may be killed at any time. At
+// worst, the last line is truncated and lacks its line end. During a run, FILE.running beside the journal lists the
+// models in progress and their processes. A killed run leaves that file behind.
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
@@ -49,7 +49,7 @@ char *journal_line(const json_t *record);
 // Returns the path of FILE.running, which journal_close removes.
 const char *journal_running_path(const struct journal *journal);
 
-// Records in a slot which model a process draws. A NULL model frees the slot.
+// Records the model that a process draws in a slot of FILE.running. A NULL model frees the slot.
 void journal_begin(struct journal *journal, int slot, int process, const char *model);
 
 // Calls `visit` for each model that a killed run was drawing. Passes the process and the machine that were drawing the

@@ -1,4 +1,4 @@
-// journal_sum.h: combines several journals of one batch, to find its finished, failed and missing pictures.
+// journal_sum.h: combines several journals of one batch, to find the batch's finished, failed and missing pictures.
 #ifndef JOURNAL_SUM_H
 #define JOURNAL_SUM_H
 

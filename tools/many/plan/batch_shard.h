@@ -18,7 +18,7 @@ bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *erro
 // runs out.
 char *batch_shard_name(const char *path, const char *root);
 
-// Returns the shard of a name, counted from 1: XXH64 of its bytes, modulo `count`, plus 1.
+// Returns the shard of a name, counted from 1: XXH64 of the name's bytes, modulo `count`, plus 1.
 int batch_shard_of_name(const char *name, int count);
 
 // Returns the path of a shard's own file, allocated with malloc: "lambent-017-of-300.jsonl" for "lambent.jsonl".
@@ -28,8 +28,8 @@ char *batch_shard_path(const char *path, const struct batch_shard *shard);
 // Returns the number of shards in a file name ("lambent-017-of-300.jsonl"), or 0 if there is none.
 int batch_shard_count_of(const char *path);
 
-// `path` does not name a shard. Fails with LAM_BAD_ARGUMENT if its folder contains files for another number of shards.
-// Otherwise, two shards could draw the same models.
+// Fails with LAM_BAD_ARGUMENT if the folder of `path` contains files for another number of shards. Otherwise, two
+// shards could draw the same models. `path` does not name a shard.
 bool batch_shard_check_folder(const char *path, const struct batch_shard *shard, lam_error *error);
 
 #endif

@@ -90,7 +90,7 @@ struct files {
     bool changed;       // a file has changed since it was read, so the hashes are not valid
 };
 
-// Returns whether a file may have changed since `start`, a time of the clock that file systems use.
+// Returns whether a file may have changed since `start`, a time on the clock that file systems use.
 static bool changed_since(const char *path, const struct timespec *start)
 {
     struct stat about;
@@ -382,7 +382,7 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         result->record_count = 0;
         return;
     }
-    // Markers of lights are objects of the scene and depend on the camera, so with markers the model is read again for
+    // Markers of lights are objects of the scene and depend on the camera, so a model with markers is read again for
     // each picture.
     int together = item->options->shading.show_lights ? 1 : item->view_count;
     for (int i = 0; i < item->view_count; i += together) {

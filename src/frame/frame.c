@@ -258,8 +258,8 @@ static void leave_facets(struct frame *frame)
 
 // The radius of cavity shading, relative to half the diagonal of the scene's box.
 #define CAVITY_RADIUS 0.05
-// The radius with the tone curve LAM_TONE_CONTRAST, which shows narrow valleys if the frame has at least FINE triangles.
-// With fewer triangles, dark lines would appear between them.
+// The radius with the tone curve LAM_TONE_CONTRAST, which shows narrow valleys if the frame has at least FINE
+// triangles. With fewer triangles, dark lines would appear between the triangles.
 #define CONTRAST_CAVITY_RADIUS 0.02
 enum { FINE = 16384 };
 

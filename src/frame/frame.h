@@ -33,8 +33,8 @@ struct frame_draw {
     // The mesh consists of rectangles for lines or points (frame_strokes.h), built for this frame in eye space. These
     // rectangles are not surfaces: flat shading uses their vertex normals, and they cast no shadows.
     bool strokes;
-    // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. It casts no
-    // shadows.
+    // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. The ground casts
+    // no shadows.
     bool ground;
     bool clear; // all triangles let light through unchanged (colourless glass, for example), so rays ignore them
     lam_cull cull;
@@ -69,7 +69,7 @@ struct frame_light {
     float cos_outer, inverse_width;
     float ambient[3]; // the light's own ambient term with gl1; otherwise it is part of the frame's sum
     float diffuse[3], specular[3];
-    float occluded; // share of the light that ambient occlusion dims
+    float occluded; // how much of the light ambient occlusion affects, 0 to 1
     int light;      // the index in the scene; −1 for a light of the rig
     const lam_light *source;
     // These members are set only with shadows.
@@ -105,7 +105,7 @@ struct frame_ground {
     float eye_middle[3], eye_up[3], eye_height; // eye space: p·eye_up = eye_height for each point p of the plane
     lam_mesh mesh;
     lam_material material;
-    uint32_t first_id; // the number of its first triangle; its triangles are the last of the frame
+    uint32_t first_id; // the number of the ground's first triangle; the ground's triangles are the last of the frame
     struct buffer memory;
 };
 
@@ -142,9 +142,9 @@ struct frame {
     bool deep_valleys;      // cavity shading makes valleys darker
     bool widens_highlights; // whether highlights of physical materials are widened (lam_specular_aa)
     bool translucent;       // whether any range is translucent
-    bool passes_rays;       // whether any range has passes_rays
+    bool passes_rays;       // whether passes_rays is set in any range
     bool masked;            // whether any range has a material of LAM_ALPHA_MASK
-    // whether the material of any range transmits light and colours it, whatever the output shows
+    // whether the material of any range transmits coloured light, for every output
     bool tints_rays;
     bool transmits; // whether any range transmits, so that layers need a transmittance per channel
     // whether any range is rough or thick glass, which blurs and refracts the picture behind it
@@ -190,7 +190,7 @@ struct frame {
     float to_environment[3][3]; // from eye space to the environment's axes
 
     // The environment's brightest lamp is a separate light that casts shadows: rig[rig_count]. The environment's
-    // diffuse light excludes it.
+    // diffuse light excludes this lamp.
     bool separate_lamp;
 
     lam_light rig[LAM_RIG_LIGHTS_MAX + 1];
@@ -285,7 +285,7 @@ float frame_lobe_max(const lam_material *material);
 // Returns the highlight exponent of a material, after match_highlights and gl1.
 float frame_shininess(const struct frame *frame, const lam_material *material);
 
-// Returns whether the output shows a single light; the frame then has only that light.
+// Returns whether the output shows a single light; the frame then contains only that light.
 static inline bool output_is_one_light(lam_output output)
 {
     return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;

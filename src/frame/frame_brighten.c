@@ -11,8 +11,8 @@
 #include <string.h>
 
 // A model is dark if three quarters of its surface have a base colour with a luminance below BRIGHT. If the 75th
-// percentile of the luminance is m stops below BRIGHT, the exposure increases by root(RATE m) stops. It increases by at
-// most MOST stops, and only as long as at most 5 % of the surface exceeds WHITE.
+// percentile of the luminance is m stops below BRIGHT, the exposure increases by root(RATE m) stops. The exposure
+// increases by at most MOST stops, and only as long as at most 5 % of the surface exceeds WHITE.
 #define BRIGHT 0.35
 #define RATE   0.8
 #define MOST   2.5
@@ -136,7 +136,7 @@ static bool applies(const struct frame *frame, const lam_scene *scene)
     return lam_output_is_light(settings->output) || settings->output == LAM_OUTPUT_CLIPPED;
 }
 
-// Returns whether no surface can be dark, so that none has to be sampled.
+// Returns whether no surface can be dark. In this case, no surface has to be sampled.
 static bool is_bright(const struct frame *frame)
 {
     for (int i = 0; i < frame->range_count; i++) {

@@ -14,11 +14,11 @@ static inline uint32_t mesh_element(const uint32_t *own, const uint32_t *common,
     return own ? own[corner] : common ? common[corner] : (uint32_t)corner;
 }
 
-// The items to weld. If all three attributes use the same index, they are the mesh's vertices; otherwise, they are its
-// corners.
+// The items to weld. If all three attributes use the same index, the items are the mesh's vertices; otherwise, the
+// items are the mesh's corners.
 struct corner_weld {
     uint32_t items;
-    const uint32_t *of; // for each corner, the first item that is equal to it
+    const uint32_t *of; // for each corner, the first equal item
 };
 
 // Values are compared as floats, so −0 equals 0. Missing normals and texture coordinates are treated as equal. The time

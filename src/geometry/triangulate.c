@@ -14,9 +14,8 @@
 
 enum {
     NONE = UINT32_MAX,
-    LEAF = 8, // points per leaf of the tree
-    STEP_RATE =
-        4, // maximum number of visited nodes and points, divided by count·√count; simple polygons need at most a third of it
+    LEAF = 8,      // points per leaf of the tree
+    STEP_RATE = 4, // maximum of visited nodes and points, divided by count·√count; simple polygons need a third
     CHECK_INTERVAL = 65536,
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };

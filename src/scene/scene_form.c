@@ -7,7 +7,7 @@
 #include <lambent/material.h>
 
 // A scene is a terrain if it is open and its area faces up: the vertical component of the sum of all area vectors must
-// be more than FACING times the whole area. A closed surface faces all sides equally, so its sum is 0. A level plane is
+// be more than FACING times the whole area. A closed surface faces all sides equally, so the sum is 0. A level plane is
 // not a terrain, because light from the side would reveal no detail on the plane.
 #define FACING 0.6
 #define LEVEL  0.98

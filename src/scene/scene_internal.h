@@ -109,7 +109,8 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
 // Returns whether a scene contains no lights, at least one lit physical material, and no lit classic material. Such a
-// scene is lit by its environment, or by the built-in studio environment if it has none, instead of a rig.
+// scene is lit by its environment instead of a rig. If the scene has no environment, the built-in studio environment
+// lights the scene.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 
 struct scene_token *scene_token_make(lam_error *error); // NULL if memory runs out

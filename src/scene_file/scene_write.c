@@ -204,7 +204,7 @@ static bool same_material(const lam_material *a, const lam_material *b)
     return true;
 }
 
-// Returns whether the name identifies a material, because no other material has the same name.
+// Returns true if at most one material has this name, so that the name identifies this material.
 static bool is_only_name(const struct scene_origin *origin, const char *name)
 {
     int count = 0;

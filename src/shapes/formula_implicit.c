@@ -78,8 +78,8 @@ static lam_vec3 gradient_at(void *user, lam_vec3 p)
 
 static double step_of(double from, double to, int i) { return from + (to - from) * ((double)i / SEARCH_CELLS); }
 
-// Finds the lattice edges that the surface crosses, on a coarse lattice. Gets the first and the last end of these edges
-// along each axis. Returns false if the surface crosses no edge.
+// Searches a coarse lattice for edges that the surface crosses. Gets the first and the last end of these edges along
+// each axis. Returns false if the surface crosses no edge.
 static bool find_crossings(struct implicit *s, bool *inside, int first[3], int last[3])
 {
     static const int strides[3] = {1, SEARCH_POINTS, SEARCH_POINTS * SEARCH_POINTS};

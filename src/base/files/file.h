@@ -34,7 +34,8 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
 
-// Checks that a path is a regular file, before another library opens it. Fails with LAM_CANNOT_READ if it is not.
+// Checks that a path is a regular file, before another library opens it. Fails with LAM_CANNOT_READ if the path is not
+// a regular file.
 bool file_check_regular(const char *path, lam_error *error);
 
 // Resolves every link and ".." of a path. If the resolved path is the folder or is inside the folder, returns this
@@ -52,21 +53,21 @@ struct file_parts {
 // Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD bytes. Returns false if the file is smaller
 // or cannot be read.
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
-// Reads `bytes` bytes at an offset; all of them must be inside the file. Fails with LAM_CANNOT_READ; the message names
+// Reads `bytes` bytes at an offset; these bytes must be inside the file. Fails with LAM_CANNOT_READ; the message names
 // `path`.
 bool file_read_part(const struct file_parts *parts, const char *path, size_t offset, void *to, size_t bytes,
                     lam_error *error);
 void file_close_parts(struct file_parts *parts);
 
-// These functions allocate padded memory in the form that file_read returns. file_hold fills it with zeros; file_copy
-// fills it with a copy of `bytes`.
+// These functions allocate padded memory in the form that file_read returns. file_hold fills the memory with zeros;
+// file_copy fills the memory with a copy of `bytes`.
 bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
 void file_release(struct file_bytes *bytes);
 
 // Moves the ownership of the bytes to the arena, without copying them. Returns false if memory runs out; `bytes` then
-// still owns them.
+// still owns the memory.
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
 // Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process during the

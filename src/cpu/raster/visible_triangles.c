@@ -1,5 +1,5 @@
-// visible_triangles.c: collects data of the whole picture before lighting. For meshes without normals, it finds the
-// visible triangles and their normals. For ambient occlusion, it finds the distances of surfaces.
+// visible_triangles.c: collects data of the whole picture before lighting. For meshes without normals, finds the
+// visible triangles and their normals. For ambient occlusion, finds the distances of surfaces.
 #include "visible_triangles.h"
 
 #include "cpu_frame.h"

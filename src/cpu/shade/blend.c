@@ -163,7 +163,7 @@ static void rank_layers(const struct fragments *fragments, const struct layer_ro
     sort_by_rank(layers, count);
 }
 
-// Blends the layers of one pixel: adds to its sums, and sets the transmittance of each sample.
+// Blends the layers of one pixel: adds to the pixel's sums, and sets the transmittance of each sample.
 static void blend_pixel(const struct fragments *fragments, const struct layer_rows *rows, struct blend_scratch *scratch,
                         int samples, int pixel, struct pixel_sums *sums, struct recorder *recorder)
 {

@@ -6,7 +6,7 @@
 #include "lighting.h"
 #include "prefiltered_lookup.h"
 
-_Static_assert((int)PREFILTERED_LAST == ENVIRONMENT_LEVELS - 1, "lobes.h and environment_light.h have the same levels");
+_Static_assert((int)PREFILTERED_LAST == ENVIRONMENT_LEVELS - 1, "lobes.h and environment_light.h use the same levels");
 
 LANE_FN vec3 to_environment_axes(const struct frame *frame, vec3 w)
 {

@@ -613,9 +613,9 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "shadow cast-shadows raytrace shadow-map"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "`--ground` without a value means `--ground shadow`. With a ground plane, lights cast shadows on the plane and on "
-     "the model. The kind `shadow` draws only the shadows, over any background, including a transparent one. The other "
-     "kinds are lit surfaces. The ground plane is perpendicular to the up axis (`--up`) and fades out with distance. "
-     "The ground plane is invisible from below. A ground plane requires Phong shading. For pictures, see "
+     "the model. The kind `shadow` draws only the shadows. The background may be transparent. The other kinds are lit "
+     "surfaces. The ground plane is perpendicular to the up axis (`--up`) and fades out with distance. The ground "
+     "plane is invisible from below. A ground plane requires Phong shading. For pictures, see "
      "`docs/lighting/ground.md`.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
@@ -766,12 +766,12 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter of the available memory",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
-     "The limit applies separately to reading and to drawing a model. Textures and decoders count too. Lambent checks "
-     "the limit before it allocates memory. The default is a quarter of the available memory, divided by the number of "
-     "models drawn at the same time. The available memory is the smallest of the machine's memory, the limits of "
-     "control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G and T are "
-     "powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the process "
-     "that draws a shader.",
+     "The limit applies separately to reading and to drawing a model. The memory for textures and decoders counts too. "
+     "Lambent checks the limit before it allocates memory. The default is a quarter of the available memory, divided "
+     "by the number of models drawn at the same time. The available memory is the smallest of the machine's memory, "
+     "the limits of control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G "
+     "and T are powers of 1000; Ki, Mi, Gi and Ti are powers of 1024. In the `check` command, the limit applies to the "
+     "process that draws a shader.",
      .store = store_bytes, .others = "max-memory memory ram", FIELD(limits.memory_limit_bytes), .single = TAKES_MEMORY},
     {"time-limit", 0, GROUP_LIMITS, "SECONDS", "600", "Stop after this many seconds (exit 4); none disables the limit.",
      "The limit applies to the elapsed time for reading, drawing and writing each model. The processor time is limited "
@@ -815,9 +815,9 @@ struct option option_table[OPTIONS_MAX] = {
      "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
      .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1, .max = 2000},
     {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Restrict a scene file to files in its own folder.",
-     "Use this option for scene files from untrusted sources. Lambent resolves links and `..` first. All models and "
-     "pictures must be in the scene file's folder or below it. Files that a model refers to, such as MTL files, must "
-     "always be in the model's folder. Files given on the command line may be anywhere.",
+     "Use this option for scene files from untrusted sources. Lambent resolves links and `..` before it checks the "
+     "folder. All models and pictures must be in the scene file's folder or below it. Files that a model refers to, "
+     "such as MTL files, must always be in the model's folder. Files given on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES, .also_in = IN_KEY},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
      "Drop all privileges that are not needed to read files. Values: auto, require or off.",

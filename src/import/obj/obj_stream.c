@@ -144,7 +144,7 @@ static bool parse(struct chunk_scratch *scratch, struct obj_chunk *chunk)
             return false;
         if (!chunk->texcoord_unknown && !chunk->normal_unknown)
             break;
-        // these are the thread's first faces with texture coordinates or normals, so parses the chunk again and keeps
+        // these are the thread's first faces with texture coordinates or normals, so the chunk is parsed again with
         // these indices
         scratch->texcoords |= chunk->texcoord_unknown;
         scratch->normals |= chunk->normal_unknown;

@@ -10,8 +10,7 @@ enum { MAX_EXPONENTS = 6, MAX_FORMS = 3, MAX_INTERPRETATIONS = 400, MAX_FAULTS =
 
 struct interpretation {
     lam_reflection reflection;
-    bool has_highlight;
-    bool decoded; // the shader's gamma encoding, pow(x, 1/2.2), is removed before the comparison
+    bool has_highlight, decoded; // decoded: pow(x, 1/2.2) at the end of the shader is undone before the comparison
     fault_set set;
     const struct fault *forms[MAX_FORMS];
     int form_count;

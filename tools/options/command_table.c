@@ -48,11 +48,12 @@ const struct command command_table[] = {
                        "Draw many models, from folders, lists or standard input, and keep a journal.",
                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
                        .defaults = batch_defaults},
-    [COMMAND_journal] = {"journal", "JOURNAL|FOLDER...",
-                         "List the written, failed and missing pictures of a batch from its journals; -o FILE merges "
-                         "the journals of the shards.",
-                         ABOUT | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_REPORT, .min_operands = 1,
-                         .max_operands = -1, .defaults = journal_defaults},
+    [COMMAND_journal] =
+        {"journal", "JOURNAL|FOLDER...",
+         "Read the journals of a batch and list the written, failed and missing pictures; -o FILE merges "
+         "the journals of the shards.",
+         ABOUT | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_REPORT, .min_operands = 1, .max_operands = -1,
+         .defaults = journal_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
                          "Draw a sheet of labelled pictures that compare methods, lights or terms side by side.",
                          (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_SHEET | 1ull << GROUP_CAPTIONS | TAKES_QUIET |
@@ -152,7 +153,7 @@ const struct command command_table[] = {
                           .min_operands = 0, .max_operands = -1, .verbatim = true},
     [COMMAND_generate] = {"generate", "man|markdown|bash|zsh|fish|scene-schema|contract-schema|contract-NAME",
                           "Print the man page, the reference in Markdown, shell completions, the JSON Schema of scene "
-                          "files or shader contracts, or the file of a built-in contract.",
+                          "files or of shader contracts, or a built-in contract.",
                           ABOUT, .min_operands = 1, .max_operands = 1},
     [COMMAND_COUNT] = {.name = NULL},
 };

@@ -23,7 +23,7 @@
 
 enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
 
-// The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide, and is proportional to the text size.
+// The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide. The text size is proportional to `unit`.
 struct page {
     double unit;
     int cell_width, cell_height; // the size of a picture

@@ -256,7 +256,7 @@ static bool is_known_option(const char *argument)
 }
 
 // Returns the option that the user probably meant: the plural form if there are several values, or the option that
-// formerly had this name if the value is one of that option's words.
+// formerly had this name if that option accepts the value.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
     if (option->several && strchr(value, ','))

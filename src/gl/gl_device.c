@@ -454,7 +454,7 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     int mistake = mistake_find(params->mistake);
     if (params->mistake && (!params->lecture || !mistake)) {
         fail(error, LAM_BAD_ARGUMENT, "OpenGL: mistake '%.60s': %s", params->mistake,
-             mistake ? "it requires the lecture style" : "no such mistake");
+             mistake ? "mistakes require the lecture style" : "no such mistake");
         return NULL;
     }
     struct gl_device *device = calloc(1, sizeof *device);

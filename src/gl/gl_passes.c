@@ -15,8 +15,8 @@
 
 // --- one draw call
 
-// Computes the matrix to the part's clip space from the frame's rows in pixels, with the sample at the pixel's centre:
-// x = 2 (X − left − sample) / width − 1.
+// Computes the matrix from object space to the clip space of the part. The draw's matrix produces pixels. The current
+// sample must be at the centre of a pixel, so x = 2 (X − left − sample) / width − 1.
 static void to_clip(const struct gl_frame *f, const struct frame_draw *draw, float out[16])
 {
     const float(*m)[4] = draw->pixel;

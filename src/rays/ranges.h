@@ -50,7 +50,8 @@ struct range {
     uint32_t node;         // index of the first of ray_nodes_below(count) nodes reserved for it
     int depth;
     bool sorted;                     // whether all centres are equal, and the primitives are in the order of sort_group
-    uint32_t first_cell, cell_count; // the cells that contain the triangles; 0 if builder.primitives contains them
+    uint32_t first_cell, cell_count; // the cells that contain the triangles; 0 if the triangles are in
+                                     // builder.primitives
     struct box box, middles;         // the box of the primitives or cells, and the box of twice their centres
     float area;                      // half of the box's surface area
     uint32_t *child, *child_count;   // receive the range's node or leaf; NULL for the root

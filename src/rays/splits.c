@@ -186,8 +186,8 @@ static void sort_corners(double p[3][3])
     }
 }
 
-// Sorts the triangles of a range with equal centres and too many triangles for a leaf, and finds twins. The range can
-// then be divided at any position.
+// Sorts the triangles of a range, and finds twins. All triangles have the same centre, and a leaf cannot contain all of
+// them. The range can then be divided at any position.
 static bool sort_group(struct builder *b, const struct range *r)
 {
     struct placement place = {0};

@@ -57,15 +57,15 @@ unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 
 // Checks that a model or a rendered scene may contain this many triangles. Fails with LAM_LIMIT if there are too many.
-// The message calls them `items`, for example "triangles" or "lines".
+// `items` is the name of the primitives in the message, for example "triangles" or "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
 
 // Checks that a model may contain this many objects. Fails with LAM_LIMIT if there are too many.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
-// Checks the size in bytes of a compressed file's data after decompression. Fails with LAM_LIMIT if it exceeds the
-// memory that may be used to read the file.
+// Checks the size in bytes of a compressed file's data after decompression. Fails with LAM_LIMIT if this size exceeds
+// the memory that may be used to read the file.
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
 // Checks that a file of this size may be read. Fails with LAM_LIMIT if the file is too large.

@@ -189,7 +189,7 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
-// For the work limit, a smaller picture is treated like a picture of this size, because a small picture takes little
+// The work limit of a smaller picture is the same as for a picture of this size, because a small picture takes little
 // time with any number of layers.
 enum { WORK_PIXELS = 256 * 256 };
 
@@ -218,7 +218,8 @@ static bool set_up_rays(struct cpu_device *device, struct cpu_frame *cpu, lam_er
     return true;
 }
 
-// Finds the visible triangles before lighting, if normals are made for them or ambient occlusion is computed from them.
+// Finds the visible triangles before lighting, if Lambent computes normals only for visible triangles, or computes
+// ambient occlusion from the visible surfaces.
 static bool search_before_lighting(struct cpu_device *device, struct cpu_frame *cpu, uint64_t *clock, lam_error *error)
 {
     lam_frame_report *report = &device->base.report;

@@ -61,8 +61,8 @@ struct kernels {
                            struct shading *shading, const struct tile *tile);
 
     // Lists the opaque fragments of the tile's pixels inside the picture, and fills in the rows id, pixel, weight and
-    // sample. The fragments of a pixel are consecutive, in the order of the nearest sample that shows them. Returns the
-    // number of pixels with fragments.
+    // sample. The fragments of a pixel are consecutive. They are sorted by the sample that shows the fragment and is
+    // nearest to the pixel's centre. Returns the number of pixels with fragments.
     uint64_t (*visibility_resolve)(const struct sample_pattern *pattern, const struct tile_samples *samples,
                                    struct fragments *fragments, const struct tile *tile);
 
@@ -87,7 +87,8 @@ struct kernels {
     const struct occlusion_kernels *occlusion;
 
     // Sums the fragments' colours in their pixels, weighted by samples, and writes the tile to the picture. If the tile
-    // has translucent layers, they are blended over these sums. Pixels without fragments get target->empty_pixel.
+    // has translucent layers, they are blended over these sums. Pixels without fragments are set to
+    // target->empty_pixel.
     void (*resolve)(const struct resolve_target *target, const struct fragments *fragments,
                     const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
 

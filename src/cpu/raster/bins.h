@@ -9,7 +9,8 @@
 // order of a tile's triangles. Back faces are drawn last, because most of them are then occluded. The depth bound of
 // each back face is tested first (occlusion.inc).
 enum {
-    TILE_BINS = 2,       // tile t has bin 2·t, and 2·t + 1 for back faces
+    TILE_BINS = 2,       // bin 2·t of tile t contains front faces and large back faces, and bin 2·t + 1 contains small
+                         // back faces
     BIN_BLOCK_IDS = 128, // this size and the next size are multiples of LANES_MAX, so that whole packets can be read
     BIN_BLOCK_BACK_FACES = 64,
     SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit into 32 bits
@@ -44,7 +45,7 @@ struct thread_bins {
     struct slab_list clipped;
     uint32_t clipped_count;
     uint64_t triangles_binned;
-    uint64_t work; // units of work that have not been added yet
+    uint64_t work; // units of work that have not been added to the frame's sum yet
 };
 
 // Allocate a block for one more bin, or memory for one more clipped triangle. Both functions return NULL if memory runs

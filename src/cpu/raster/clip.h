@@ -4,7 +4,8 @@
 
 #include "bins.h"
 
-// For a vertex that needs clipping, x is a NaN. Its low bits are flags for the planes that the vertex is outside of.
+// For a vertex that needs clipping, x is a NaN. The low bits of this NaN are flags. A flag is set if the vertex is
+// outside the plane.
 enum outside {
     OUTSIDE_LEFT = 1,
     OUTSIDE_RIGHT = 2,

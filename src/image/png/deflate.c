@@ -62,8 +62,8 @@ static inline uint64_t unused_after(int used)
     return used == 4 ? 0 : all << 16 * used;
 }
 
-// Returns the symbol and the extra bits of a distance (RFC 1951, 3.2.5). From distance 5, there are two symbols for
-// each power of two.
+// Returns the symbol and the extra bits of a distance (RFC 1951, 3.2.5). For distances of 5 or more, there are two
+// symbols for each power of two.
 static inline uint64_t distance_of(uint32_t distance)
 {
     uint32_t before = distance - 1;

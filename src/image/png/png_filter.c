@@ -135,10 +135,8 @@ struct png_span png_span_of(const uint8_t *row, int width)
 
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width)
 {
-    enum {
-        FURTHER = VECTOR / 4
-    };  // after the changed pixels, a filter also changes the next pixel, and it processes
-        // whole vectors
+    // A filter also changes the next pixel after the changed pixels, and it processes whole vectors.
+    enum { FURTHER = VECTOR / 4 };
     struct png_span both = row.first == row.end ? above : row;
     if (above.first < above.end) {
         both.first = above.first < both.first ? above.first : both.first;

@@ -201,7 +201,7 @@ static uint64_t work_limit(const lam_image *image, const struct call_control *ca
     return none ? UINT64_MAX : units;
 }
 
-// Builds the hierarchy if rays need it, and the pattern of shadow rays.
+// Builds the hierarchy if rays need a hierarchy, and fills the pattern of shadow rays.
 static bool set_up_rays(struct cpu_device *device, struct cpu_frame *cpu, lam_error *error)
 {
     struct lam_device *base = &device->base;

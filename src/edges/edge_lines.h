@@ -1,4 +1,4 @@
-// edge_lines.h: the data of the steps from the edges of a mesh to strokes in the picture.
+// edge_lines.h: data for the steps that convert the edges of a mesh to strokes in the picture.
 #ifndef EDGE_LINES_H
 #define EDGE_LINES_H
 

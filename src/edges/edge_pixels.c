@@ -1,7 +1,7 @@
 // edge_pixels.c: converts strokes to coverage, and blends their colour over the picture.
 //
-// The coverage of a pixel is the area of its square that a strip of the stroke's width covers. Projected across the
-// strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
+// The coverage of a pixel is the area of the pixel's square that a strip of the stroke's width covers. Projected across
+// the strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
 // strip's angle. Therefore, in any row or column that crosses a line, the line's coverage adds up to the width of the
 // line in that direction. The sum does not depend on the line's position. If several strokes cover a pixel, the largest
 // coverage is used, so that corners and edges shared by two triangles are not darker than other edges.

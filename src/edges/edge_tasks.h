@@ -1,4 +1,4 @@
-// edge_tasks.h: a task that draws some edges of one draw, from the mesh to strokes.
+// edge_tasks.h: a task that converts some edges of one draw to strokes.
 #ifndef EDGE_TASKS_H
 #define EDGE_TASKS_H
 

@@ -1,4 +1,4 @@
-// gl_device.c: the OpenGL device: creation, the sequence of a frame, memory use, destruction.
+// gl_device.c: creates and frees the OpenGL device, runs the steps of a frame, and reports the memory use.
 #include "gl_device.h"
 
 #include "cube_map.h"

@@ -189,7 +189,8 @@ struct gl_current_state {
     int width, height;         // viewport
 };
 
-// The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
+// The surfaces that transmit light. The texture of the hierarchy also stores these surfaces, after the hierarchy
+// (gl_surfaces.c).
 struct gl_surfaces {
     // hashes of all inputs: `key` for the texels in the texture, `next_key` for the texels of this frame; 0 means no
     // texels
@@ -301,7 +302,8 @@ static inline bool range_blends(const struct frame *frame, const struct frame_dr
 
 // --- gl_state.c
 
-// Charges the growth of a GL object from `*held` to `bytes` to the frame's memory limit, and updates `*held`.
+// Charges the difference between the new size of a GL object, `bytes`, and its previous size, `*held`, to the frame's
+// memory limit. Updates `*held`.
 bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *error);
 
 // Allocates new contents of a vertex buffer and maps them for writing; the caller writes all bytes and unmaps

@@ -213,7 +213,7 @@ bool range_halve(struct builder *builder, struct range *range, struct range *rig
 // nodes.
 void range_enter_node(struct builder *builder, const struct range *range, struct range *parts, int count);
 
-// Makes the nodes of a range, or a leaf if it is not divided. The root is always a node.
+// Makes the nodes of a range, or a leaf if the range is not divided. The root is always a node.
 void range_divide(struct builder *builder, const struct range *range);
 
 #endif

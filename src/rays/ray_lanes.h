@@ -6,10 +6,10 @@
 //
 // The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013). Seen along the ray, with
 // the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
-// passes. Rounding is monotonic, so that such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for
-// both triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles
-// around a point do not block its rays. A triangle whose plane contains the start point of the ray (through_points)
-// does not block the ray either, because t is then 0 except for rounding.
+// passes. Rounding is monotonic, so such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for both
+// triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles around a
+// point do not block its rays. A triangle whose plane contains the start point of the ray (through_points) does not
+// block the ray either, because t is then 0 except for rounding.
 //
 // Rays with nearly the same direction form a bundle and traverse the hierarchy together. At a node, the intervals of
 // their origins and directions are tested against the boxes of all children of the node at once (Boulos, Wald and
@@ -35,9 +35,10 @@ struct ray_lanes {
     double point[3][LANES]; // the start point: the origin, unless the origin was moved off the surface
 };
 
-// Rays seen along their directions d, with k the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
-// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one is 0, both exact. Rays with
-// different k can therefore use the same operations. Rays with a common k need fewer operations, with the same results.
+// Rays seen along their directions d, where k is the index of the largest component of d: x = p_i − (d_i/d_k) p_k, y =
+// p_j − (d_j/d_k) p_k and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one is 0, both
+// exact. Rays with different k can therefore use the same operations. Rays with a common k need fewer operations, with
+// the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k

@@ -45,8 +45,8 @@ static bool same_box(const struct primitive *p, const struct primitive *q)
     return (mask_bits((a.low == b.low) & (a.high == b.high)) & 7) == 7;
 }
 
-// Makes a leaf. Triangles with the same positions have the same box, and are therefore in one leaf, or in one group,
-// whose twins sort_group has already found.
+// Makes a leaf. Triangles with the same positions have the same box, and are therefore in the same leaf or in the same
+// group. sort_group has already found the twins in groups.
 static void make_leaf(struct builder *b, const struct range *r, struct placement *place)
 {
     const struct primitive *p = b->primitives + r->first;
@@ -279,7 +279,7 @@ bool range_halve(struct builder *b, struct range *r, struct range *right)
     return true;
 }
 
-// Makes the nodes of a range, or a leaf if it is not divided. The root is always a node.
+// Makes the nodes of a range, or a leaf if the range is not divided. The root is always a node.
 static void divide(struct builder *b, const struct range *r, struct placement *place)
 {
     struct range parts[NODE_CHILDREN];

@@ -23,7 +23,8 @@
 
 #include <string.h>
 
-// Points closer than this fraction of the surface's size coincide; floats cannot represent the difference.
+// Two points coincide if their distance is below this fraction of the surface's size, because floats cannot represent
+// the difference.
 #define COINCIDENT 1e-9
 // A derivative is treated as zero if it is below this fraction of the surface's size divided by the domain's length.
 #define VANISHED 1e-9

@@ -2,7 +2,7 @@
 //
 // Adjacent patches form one parametric surface. u runs around the cross-section: over 4 patches on the body and the
 // lid, and over 2 patches on the handle and the spout. On the body, v runs from the centre of the bottom to the rim. On
-// the lid, it runs from the edge to the top. On the handle and the spout, it runs away from the body. All joints are
+// the lid, v runs from the edge to the top. On the handle and the spout, v runs away from the body. All joints are
 // smooth in the data and share positions and normals. As published, the pot is open: the lid is inside the rim without
 // touching it, and the handle and the spout end inside the body's wall.
 #include "shapes.h"

@@ -1,5 +1,5 @@
-// exit_codes.h: the program's exit codes. Main's return value, the reports, the help, the man page and the docs use the
-// same table. The numbers are independent of lam_code.
+// exit_codes.h: the program's exit codes. main(), the reports, the help, the man page and the docs use the same table.
+// The numbers are independent of lam_code.
 #ifndef EXIT_CODES_H
 #define EXIT_CODES_H
 

@@ -27,7 +27,7 @@ static bool check_jobs(int operands, const struct options *o, lam_error *error)
             return complain(error, LAM_BAD_ARGUMENT, "options '--jobs' and '--%s' cannot be used together", others[i]);
     if (o->batch.skip_same && !o->batch.journal)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--skip-same' needs a journal; with --jobs, name it: --journal FILE");
+                        "option '--skip-same' needs a journal; with --jobs, give --journal FILE");
     return job_check_options(o, error);
 }
 

@@ -243,7 +243,8 @@ static bool draw_frame(struct compare *c, double left, double top, double width,
     return draw_line(&c->drawing, round, 5, 2 * c->page.unit, FRAME, 0, error);
 }
 
-// Draws an enlarged section of a cell's picture below the picture, and frames the section in both.
+// Draws an enlarged section of a cell's picture below the picture, and draws a frame around the section in both
+// pictures.
 static bool draw_inset(struct compare *c, const struct cell *cell, struct highlight box, int left, int top,
                        lam_error *error)
 {
@@ -288,7 +289,7 @@ static void join(const char *const *words, int count, char line[512])
 }
 
 // Draws text on one line, or on two lines if the text would be too small to read on one line. Breaks the text after the
-// comma or the space nearest to its middle.
+// comma or the space that is nearest to the middle of the text.
 static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
 {
     double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);

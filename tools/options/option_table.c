@@ -237,8 +237,8 @@ static const struct choice normals_words[] = {
 
 static const struct choice sheet_words[] = {
     {"summary", SHEET_SUMMARY,
-     "flat, Gouraud and Phong shading, a reflection of the environment (--environment, or the sky), and an anisotropic "
-     "highlight"},
+     "flat, Gouraud and Phong shading, a reflection of the environment (the sky, unless you give --environment), and "
+     "an anisotropic highlight"},
     {"terms", SHEET_TERMS,
      "ambient, diffuse and specular alone; all terms together at shininess 50, at shininess 1000, and at shininess "
      "1000 with flat shading"},

@@ -154,7 +154,8 @@ struct option {
     const char *alone;          // the value of an option without a value; NULL means that a value is required
     bool of_file;               // the option concerns the output file (WRITES_NO_FILE)
     bool loads;                 // if the option changes, the model must be read again
-    uint8_t also_in, not_in;    // bits of option_use to add to the group's uses, and to remove from them
+    uint8_t also_in, not_in;    // bits of option_use to add to the group's uses, and bits to remove from the group's
+                                // uses
     const lam_setting *setting; // the library's setting that the option stores, or NULL
     // The option that accepts several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;

@@ -44,7 +44,7 @@ struct settings_parser {
 // --- the position of a key
 
 // Returns the line of a key in valid JSON text; `group` is the object that contains the key, or NULL for the top level.
-// Returns 1 if the key is written with escapes.
+// Returns line 1 if the text writes the key with escapes.
 static int line_of(const char *text, const char *group, const char *key)
 {
     int line = 1, depth = 0;

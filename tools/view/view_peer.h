@@ -1,5 +1,5 @@
 // view_peer.h: accepts only connections of the viewer's own user. The address with the token is an argument of xdg-open
-// and of the browser, which other users can read in /proc.
+// and of the browser, so other users can read the address in /proc.
 #ifndef VIEW_PEER_H
 #define VIEW_PEER_H
 

@@ -1,4 +1,4 @@
-// plot.c: the command `plot`: plots attenuation, spot and highlight as curves and prints their numbers.
+// plot.c: the command `plot`: plots attenuation, spot cones and highlights as curves, and prints the values.
 #include "plot.h"
 
 #include <stdlib.h>

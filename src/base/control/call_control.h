@@ -14,8 +14,8 @@ struct call_control {
     // The latest request that exceeded a budget: the bytes in use, the requested bytes and the limit. Accessed
     // atomically.
     uint64_t refused_used, refused_bytes, refused_limit;
-    // The total size in bytes of all files read so far; accessed atomically. If it is 0, no file was read, and no limit
-    // is derived from file sizes.
+    // The total size in bytes of all files read so far; accessed atomically. If the total size is 0, no file was read,
+    // and no limit is derived from file sizes.
     uint64_t input_bytes;
     bool unknown_field; // the control sets a field that this version does not know
     double last_share;

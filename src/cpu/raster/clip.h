@@ -17,8 +17,8 @@ enum outside {
 };
 #define OUTSIDE_NAN 0x7fc00000
 
-// Clips triangle t of a draw (with the number `id`) against each plane that at least one of its corners is outside of.
-// Bins the resulting triangles.
+// Clips triangle t of a draw (with the number `id`) against each plane for which at least one corner is outside. Bins
+// the resulting triangles.
 void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
                    uint32_t t, uint32_t id);
 

@@ -26,9 +26,9 @@ INLINE u8x16 average(u8x16 a, u8x16 b)
 }
 
 // The Paeth predictor in 8-bit arithmetic. With p = a + b − c, |p − a| = |b − c| and |p − b| = |a − c|. If a and b are
-// on different sides of c, |p − c| is the difference between these two. If a and b are on the same side of c, |p − c|
-// is the sum of the other two distances. This sum is never the smallest distance, so 255 replaces it. If distances are
-// equal, a is preferred to b, and b to c.
+// on different sides of c, |p − c| is the difference between the other two distances. If a and b are on the same side
+// of c, |p − c| is the sum of the other two distances. This sum is never the smallest distance, so 255 replaces it. If
+// distances are equal, a is preferred to b, and b to c.
 INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
 {
     u8x16 b_below = below(b, c), a_below = below(a, c);

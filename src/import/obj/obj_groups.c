@@ -155,8 +155,8 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
     return true;
 }
 
-// Reads lines or points. They extend the last part if that part has the state's object, group and material; otherwise
-// they form a new part.
+// Reads lines or points. The lines or points extend the last part if that part has the state's object, group and
+// material. Otherwise, they form a new part.
 static bool read_strokes(struct state *state, const struct obj_statement *s, bool lines, lam_error *error)
 {
     struct obj *obj = state->obj;

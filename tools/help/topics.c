@@ -131,8 +131,8 @@ const struct topic topics[] = {
      "`height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (1 if the "
      "difference exceeds the tolerance, otherwise 0) and `picture`. The exit code is 6 if the largest difference "
      "exceeds the tolerance, and 1 if the sizes or kinds differ. If OLD and NEW are two models or two folders, "
-     "`lambent diff OLD NEW` draws the models of both sides with one camera. `-o report.html` writes a page of added, "
-     "removed and changed models, with pictures before and after. For details, see `docs/pull-requests.md`."},
+     "`lambent diff OLD NEW` draws the models of both sides with the same camera. `-o report.html` writes a page of "
+     "added, removed and changed models, with pictures before and after. For details, see `docs/pull-requests.md`."},
     {"hash", "Hashes of pictures", BIT(HASH), TOPIC_NO_TABLE,
      "`lambent hash models/ -o pictures.hash` writes a line for each model. The line contains the XXH64 hash of the "
      "picture's pixels (rows from the top; red, green, blue, alpha) and the model's path relative to the file. The "

@@ -112,6 +112,7 @@ static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *c
     thread->shading.points_lit = thread->shading.lights_evaluated = thread->shading.rays = 0;
     thread->shading.ray_layers.failed = false;
     thread->shading.work = cpu->raster.work;
+    thread->shading.uncounted = 0;
     return true;
 }
 

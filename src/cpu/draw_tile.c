@@ -7,9 +7,11 @@
 
 #include <string.h>
 
-static void shade(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
+static void shade(struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
 {
     cpu->kernels->shade_fragments(&cpu->shade, &thread->fragments, &thread->shading, tile);
+    work_add(&cpu->work, thread->shading.uncounted);
+    thread->shading.uncounted = 0;
     if (thread->shading.ray_layers.failed)
         work_fail(&cpu->work, FAILED_MEMORY);
     if (cpu->shade.recorder)
@@ -19,7 +21,7 @@ static void shade(const struct cpu_frame *cpu, struct thread_state *thread, cons
 // Draws the layers over the pixels of `area`. A thread stores at most LAYERS_MAX fragments. An area with more fragments
 // is divided into halves, if necessary down to single pixels. The fragments of a single pixel must not exceed this
 // limit.
-static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile,
+static void draw_layers(struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile,
                         const struct rectangle *area)
 {
     if (!work_continues(&cpu->work))
@@ -68,7 +70,7 @@ static void draw_layers(const struct cpu_frame *cpu, struct thread_state *thread
     thread->resolve_ns += now_ns() - shaded;
 }
 
-static void blend_tile(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
+static void blend_tile(struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
 {
     for (int c = 0; c < 4; c++)
         memset(thread->sums.sum[c], 0, TILE * TILE * sizeof(float));

@@ -38,6 +38,7 @@ bool vertex_colors_start(struct vertex_colors *colors, const struct frame *frame
     colors->failure = FAILED_NOT;
     colors->work = (struct work){.call = call, .failure = &colors->failure, .limit = UINT64_MAX};
     shading->work = &colors->work;
+    shading->uncounted = 0;
     if (frame->settings.shadows && colors->pattern.all.count != frame->settings.shadow_samples)
         light_pattern_fill(&colors->pattern, frame->settings.shadow_samples);
     colors->shade = (struct shade_frame){.frame = frame,

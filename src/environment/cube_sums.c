@@ -40,11 +40,7 @@ struct cube_sums *cube_sums_make(const struct cube_chain *chain, lam_error *erro
     for (int face = 0; face < LAM_FACE_COUNT; face += 2)
         for (int t = 0; t < n; t++)
             for (int s = 0; s < n; s++, out++) {
-                // On the opposite face, the rows are in the opposite direction; on the face −y, the columns are
-                // (cube_direction).
-                bool upper = face == LAM_FACE_PY;
-                const float *light = cube_texel(cube, face, s, t);
-                const float *behind = cube_texel(cube, face + 1, upper ? n - 1 - s : s, upper ? t : n - 1 - t);
+                const float *light = cube_texel(cube, face, s, t), *behind = cube_opposite(cube, face, s, t);
                 texel_direction(n, face, s, t, out->direction);
                 out->share = (float)((double)texel_weight(n, s, t) / total);
                 for (int c = 0; c < 3; c++) {

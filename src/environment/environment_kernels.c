@@ -4,41 +4,29 @@
 
 #include "cube_lookup.h"
 
+#include <string.h>
+
 enum { ROW_MAX = 64 }; // texels per side of cubes from cube_sums_row, a multiple of 16
 
 // --- lobes divided into cells
 
-// Two neighbouring texels of a row (red, green and blue of each, and two unused floats), for PLACES points. The
-// compiler's vector types round each float in the same way as scalar C.
-#define PLACES (LANES == 16 ? 2 : 1)
+// Two neighbouring texels of a row: red, green and blue of each, and two unused floats. The compiler's vector types
+// round each float in the same way as scalar C.
 typedef float texel_pair __attribute__((vector_size(32)));
 typedef float texel_pair_memory __attribute__((vector_size(32), aligned(4), may_alias));
-typedef float texel_pairs __attribute__((vector_size(32 * PLACES)));
+typedef double doubles __attribute__((vector_size(32)));
 
-// Repeats lane i of `left` for the first texel, and lane i of `right` for the second.
-#if LANES == 16
-#define BESIDE(left, right, i)                                                                                         \
-    __builtin_shufflevector(left, right, i, i, i, LANES + i, LANES + i, LANES + i, i, i, i + 1, i + 1, i + 1,          \
-                            LANES + i + 1, LANES + i + 1, LANES + i + 1, i + 1, i + 1)
-#else
-#define BESIDE(left, right, i) __builtin_shufflevector(left, right, i, i, i, LANES + i, LANES + i, LANES + i, i, i)
-#endif
+// The texels that LANES points read for a direction, and their weights.
+struct positions {
+    const float *upper, *lower; // the texels of the cube, and the same texels a row further down
+    int32_t first[LANES];       // the index of the upper left texel's red
+    float down[LANES];          // the weight of the lower texels
+    float across[LANES][2];     // the weights of the left and the right texels
+};
 
-LANE_FN texel_pairs texels_at(const float *texels, const int32_t *first)
-{
-    texel_pair one = (texel_pair) * (const texel_pair_memory *)(texels + first[0]);
-#if LANES == 16
-    texel_pair two = (texel_pair) * (const texel_pair_memory *)(texels + first[1]);
-    return __builtin_shufflevector(one, two, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-#else
-    return one;
-#endif
-}
-
-// Adds the light of LANES directions, bilinearly interpolated, times a weight. The sums of the left and the right
-// texels are kept separate; they are added together at the end.
-LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environment *cube, num x, num y, num z,
-                       float weight)
+// Finds the texels of LANES directions; `weight` multiplies their light.
+LANE_FN void find_positions(struct positions *out, const struct lam_environment *cube, num x, num y, num z,
+                            float weight)
 {
     int side = cube->size + 2;
     float half = 0.5f * (float)cube->size, middle = half + 0.5f;
@@ -48,29 +36,41 @@ LANE_FN void add_light(texel_pairs sum[LANES / PLACES], const struct lam_environ
     num across = min_of(max_of(at.across * scale + middle, min), max);
     num down = min_of(max_of(at.down * scale + middle, min), max);
     inum column = int_of(across), row = int_of(down);
-    int32_t first[LANES];
-    inum_store(first,
+    inum_store(out->first,
                wrap_mul(wrap_add(wrap_mul(wrap_add(wrap_mul(at.face, inum_of(side)), row), inum_of(side)), column),
                         inum_of(3)));
-    num lower = down - num_of_int(row), right = (across - num_of_int(column)) * weight, left = weight - right;
-    const float *upper_row = cube->texels, *lower_row = cube->texels + cube_row(cube);
-#define ADD(i)                                                                                                         \
-    if (i < LANES) {                                                                                                   \
-        texel_pairs u = texels_at(upper_row, first + (i)), l = texels_at(lower_row, first + (i));                      \
-        sum[(i) / PLACES] += (u + (l - u) * BESIDE(lower, lower, i)) * BESIDE(left, right, i);                         \
+    num right = (across - num_of_int(column)) * weight, left = weight - right;
+    out->upper = cube->texels;
+    out->lower = cube->texels + cube_row(cube);
+    num_store(out->down, down - num_of_int(row));
+    for (int i = 0; i < LANES; i++) {
+        out->across[i][0] = lane(left, i);
+        out->across[i][1] = lane(right, i);
     }
-#if LANES == 16
-    ADD(0) ADD(2) ADD(4) ADD(6) ADD(8) ADD(10) ADD(12) ADD(14)
-#else
-    ADD(0)
-    ADD(1)
-    ADD(2)
-    ADD(3)
-#if LANES == 8
-    ADD(4) ADD(5) ADD(6) ADD(7)
-#endif
-#endif
-#undef ADD
+}
+
+// Repeats the weight of the left texel and the weight of the right texel. Both are loaded in one step.
+static inline texel_pair beside(const float weights[2])
+{
+    double both_weights;
+    memcpy(&both_weights, weights, sizeof both_weights);
+    const texel_pair repeated = (texel_pair)(doubles){both_weights, both_weights, both_weights, both_weights};
+    return __builtin_shufflevector(repeated, repeated, 0, 0, 0, 1, 5, 5, 6, 7);
+}
+
+// Adds the bilinearly interpolated light of `count` directions for each of LANES points. The sums of the left and the
+// right texels are kept separate; they are added together at the end.
+static inline void add_light(texel_pair sums[LANES], const struct positions *positions, int count)
+{
+    for (int i = 0; i < LANES; i++) {
+        texel_pair sum = sums[i];
+        for (const struct positions *at = positions; at < positions + count; at++) {
+            texel_pair upper = *(const texel_pair_memory *)(at->upper + at->first[i]),
+                       lower = *(const texel_pair_memory *)(at->lower + at->first[i]);
+            sum += (upper + (lower - upper) * at->down[i]) * beside(at->across[i]);
+        }
+        sums[i] = sum;
+    }
 }
 
 struct frames {
@@ -115,22 +115,27 @@ LANE_FN struct frames frames_of(int size, int face, int s, int t)
 static void prefilter_row(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t)
 {
+    enum { TOGETHER = 8 }; // cells
     for (int s = 0; s < out->size; s += LANES) {
         struct frames f = frames_of(out->size, face, s, t);
-        texel_pairs sum[LANES / PLACES] = {{0}};
+        struct positions at[TOGETHER];
+        texel_pair sum[LANES] = {{0}};
+        int count = 0, next = first;
         if (others)
-            add_light(sum, others, f.z[0], f.z[1], f.z[2], 1);
-        for (int c = first; c < end; c++) {
-            const struct cell *cell = &cells->cell[c];
-            num d[3];
-            for (int i = 0; i < 3; i++)
-                d[i] = f.x[i] * cell->x + f.y[i] * cell->y + f.z[i] * cell->z;
-            add_light(sum, cell->cube, d[0], d[1], d[2], cell->weight);
+            find_positions(&at[count++], others, f.z[0], f.z[1], f.z[2], 1);
+        for (; next < end || count; count = 0) {
+            for (; next < end && count < TOGETHER; next++) {
+                const struct cell *cell = &cells->cell[next];
+                num d[3];
+                for (int i = 0; i < 3; i++)
+                    d[i] = f.x[i] * cell->x + f.y[i] * cell->y + f.z[i] * cell->z;
+                find_positions(&at[count++], cell->cube, d[0], d[1], d[2], cell->weight);
+            }
+            add_light(sum, at, count);
         }
         for (int i = 0; i < LANES && s + i < out->size; i++)
             for (int c = 0; c < 3; c++)
-                cube_texel(out, face, s + i, t)[c] =
-                    sum[i / PLACES][8 * (i % PLACES) + c] + sum[i / PLACES][8 * (i % PLACES) + 3 + c];
+                cube_texel(out, face, s + i, t)[c] = sum[i][c] + sum[i][3 + c];
     }
 }
 
@@ -150,7 +155,7 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
     float q = alpha < 0 ? 0 : (float)((1 - alpha * alpha) / 2), square = (float)(alpha * alpha);
     for (int s = 0; s < cube->size; s += LANES) {
         num x = num_load(n[0] + s), y = num_load(n[1] + s), z = num_load(n[2] + s);
-        num total = num_of(0), r = num_of(0), g = num_of(0), b = num_of(0);
+        num total = num_of(0), sum[3] = {total, total, total}, sum_behind[3] = {total, total, total};
         for (size_t i = 0; i < sums->count; i++) {
             const struct opposite_texels *from = &sums->pair[i];
             num along = x * from->direction[0] + y * from->direction[1] + z * from->direction[2];
@@ -162,14 +167,19 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
                 weight = cosine * (part * part);
             }
             total += weight * from->share;
-            r += weight * pick(behind, num_of(from->light_behind[0]), num_of(from->light[0]));
-            g += weight * pick(behind, num_of(from->light_behind[1]), num_of(from->light[1]));
-            b += weight * pick(behind, num_of(from->light_behind[2]), num_of(from->light[2]));
+            for (int c = 0; c < 3; c++) {
+                num light = num_of(from->light[c]), light_behind = num_of(from->light_behind[c]);
+                sum[c] += weight * pick(behind, light_behind, light);
+                sum_behind[c] += weight * pick(behind, light, light_behind);
+            }
         }
-        const num mean[3] = {r / total, g / total, b / total};
-        for (int k = 0; k < LANES && s + k < cube->size; k++)
-            for (int c = 0; c < 3; c++)
-                cube_texel(cube, face, s + k, t)[c] = lane(mean[c], k);
+        for (int c = 0; c < 3; c++) {
+            num mean = sum[c] / total, mean_behind = sum_behind[c] / total;
+            for (int k = 0; k < LANES && s + k < cube->size; k++) {
+                cube_texel(cube, face, s + k, t)[c] = lane(mean, k);
+                cube_opposite(cube, face, s + k, t)[c] = lane(mean_behind, k);
+            }
+        }
     }
 }
 

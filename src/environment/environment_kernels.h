@@ -32,13 +32,23 @@ struct environment_kernels {
     // of `others` (may be NULL), which contains the sums of the other cells.
     void (*prefilter_row)(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t);
-    // Computes row t of a face of `out` from all texels of a small copy. If `alpha` is below 0, the row contains the
-    // irradiance. Otherwise the row contains the environment prefiltered with the GGX lobe, with alpha = roughness².
+    // Computes row t of a face of `out`, and the texels in the opposite directions, from all texels of a small copy. If
+    // `alpha` is below 0, the row contains the irradiance. Otherwise the row contains the environment prefiltered with
+    // the GGX lobe, with alpha = roughness². `face` is LAM_FACE_PX, LAM_FACE_PY or LAM_FACE_PZ.
     void (*cube_sums_row)(const struct cube_sums *sums, double alpha, struct lam_environment *out, int face, int t);
 };
 
 extern const struct environment_kernels environment_kernels_scalar, environment_kernels_avx2,
     environment_kernels_avx512;
+
+// Returns the texel in the opposite direction of a texel of LAM_FACE_PX, LAM_FACE_PY or LAM_FACE_PZ. On the opposite
+// face, the rows are in the opposite direction; on LAM_FACE_NY, the columns are (cube_direction).
+static inline float *cube_opposite(const struct lam_environment *cube, int face, int s, int t)
+{
+    int last = cube->size - 1;
+    bool upper = face == LAM_FACE_PY;
+    return cube_texel(cube, face + 1, upper ? last - s : s, upper ? t : last - t);
+}
 
 // Computes the unit direction of a texel.
 void texel_direction(int size, int face, int s, int t, float out[3]);

@@ -147,12 +147,11 @@ static void make_row(void *user, size_t index, int thread)
     struct lam_environment *cube = level < ENVIRONMENT_LEVELS ? &work->light->level[level] : &work->light->irradiance;
     int face = (int)index / cube->size, t = (int)index % cube->size;
     double roughness = level < ENVIRONMENT_LEVELS ? prefiltered_roughness(level) : 0;
-    if (level == ENVIRONMENT_LEVELS)
-        work->kernels->cube_sums_row(work->sums, -1, cube, face, t);
-    else if (far_size(level))
+    if (level < ENVIRONMENT_LEVELS && far_size(level))
         work->kernels->prefilter_row(&work->cells[level], 0, work->cells[level].near, &work->far[level], cube, face, t);
-    else
-        work->kernels->cube_sums_row(work->sums, roughness * roughness, cube, face, t);
+    else if (face % 2 == 0) // this also computes the rows of the opposite face
+        work->kernels->cube_sums_row(work->sums, level < ENVIRONMENT_LEVELS ? roughness * roughness : -1, cube, face,
+                                     t);
 }
 
 // Makes the cells of the levels that have rings, and the cubes for their far cells.

@@ -4,28 +4,8 @@
 #include "pixels.h"
 
 #include <stdlib.h>
-#if !defined(__wasm__)
-#include <sys/mman.h>
-#endif
 
 enum { MAX_SIDE = 65535 };
-
-// Large pictures use huge pages if the system provides them, because the first access is then three times as fast.
-static void *get_pixels(size_t bytes)
-{
-    const size_t huge = (size_t)2 << 20;
-    if (bytes < huge || bytes > SIZE_MAX - huge)
-        return malloc(bytes);
-    size_t rounded = (bytes + huge - 1) & ~(huge - 1);
-    void *pixels = aligned_alloc(huge, rounded);
-#ifdef MADV_HUGEPAGE
-    // The last page becomes a huge page only if little of it would be unused. If the system does not follow this
-    // advice, only the speed is affected.
-    if (pixels)
-        madvise(pixels, rounded - bytes <= bytes / 16 ? rounded : rounded - huge, MADV_HUGEPAGE);
-#endif
-    return pixels;
-}
 
 bool lam_image_make(lam_image *image, int width, int height, lam_pixel_format format, lam_error *error)
 {
@@ -47,7 +27,7 @@ bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format
     uint64_t bytes = (uint64_t)width * (uint64_t)height * pixel_bytes(format) + more; // below 2³⁷
     // The system may grant more memory than is available, and later kill the process when the process uses that memory.
     // At most half of the memory is used, because drawing and encoding also need memory.
-    void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? get_pixels((size_t)bytes) : NULL;
+    void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? pages_malloc((size_t)bytes) : NULL;
     if (!pixels)
         return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which is not available", width,
                     height, (double)bytes / 1e6);

@@ -20,6 +20,13 @@ struct mesh_polygons {
     uint64_t triangles; // of the mesh, including the triangles of the polygons
 };
 
+// Marks the vertices that corners use: sets their bytes to 1. Several threads may mark the same vertex.
+static inline void mesh_mark_vertices(const uint32_t *indices, size_t corners, uint8_t *marks)
+{
+    for (size_t i = 0; i < corners; i++)
+        __atomic_store_n(&marks[indices[i]], 1, __ATOMIC_RELAXED);
+}
+
 // Splits the polygons in place, in parallel. If load_params.polygon_edges is set, sets *inner_edges
 // (lam_mesh.inner_edges, in the scene's arena), unless there are no polygons.
 bool mesh_triangulate(const struct import_source *source, struct lam_scene *scene, const struct mesh_polygons *polygons,

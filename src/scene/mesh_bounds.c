@@ -156,7 +156,9 @@ bool scene_measure_mesh(struct lam_scene *scene, lam_mesh *mesh, struct scene_ex
                         lam_error *error)
 {
     *extent = (struct scene_extent){.translucent = has_translucent_colors(mesh, pool)};
-    if (!find_used(scene, mesh, extent, pool, error))
+    if (scene->meshes.items == mesh && scene->first_all_used)
+        extent->used_count = mesh->vertex_count;
+    else if (!find_used(scene, mesh, extent, pool, error))
         return false;
     if (!box_tree_make(&extent->boxes, mesh, extent->used, extent->used_count, &scene->arena, pool, error))
         return false;

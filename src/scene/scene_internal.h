@@ -101,6 +101,7 @@ struct lam_scene {
     double deferred_crease_rad;
     struct scene_mark *mark; // the state for lam_scene_reset, or NULL
     bool shared_arrays;      // meshes may share arrays, so no array is changed in place
+    bool first_all_used;     // the importer of the first mesh knows that triangles use every vertex
 };
 
 // Works like lam_scene_make, but charges allocations to `call` (may be NULL) until scene_built is called.

@@ -7,7 +7,7 @@
 
 #include "float_state.h"
 
-enum { PROBES_MAX = 16, AHEAD = 8 };
+enum { PROBES_MAX = 16, AHEAD = 24 };
 
 // --- fetching
 
@@ -40,15 +40,18 @@ static inline __attribute__((always_inline)) texel fetch_tap(const struct lam_te
         right, lower);
 }
 
-// Prefetches the texels of a later point, because textures are larger than the processor's caches.
+// Prefetches the texels of a later point, because textures are larger than the processor's caches. Two neighbouring
+// texels can be in two cache lines.
 static inline __attribute__((always_inline)) void prefetch_tap(const struct lam_texture *texture, int channels,
                                                                int level, int32_t first, int32_t down)
 {
     const struct texture_level *l = &texture->levels[level];
-    ptrdiff_t step = channels * (l->floats ? (ptrdiff_t)sizeof(float) : 1);
+    ptrdiff_t size = l->floats ? (ptrdiff_t)sizeof(float) : 1, step = channels * size, last = step + 4 * size - 1;
     const char *at = (l->floats ? (const char *)l->floats : (const char *)texture->bytes) + first * step;
     __builtin_prefetch(at);
+    __builtin_prefetch(at + last);
     __builtin_prefetch(at + down * step);
+    __builtin_prefetch(at + down * step + last);
 }
 
 static inline __attribute__((always_inline)) void fetch_rows(const struct lam_texture *texture, int channels,

@@ -185,7 +185,8 @@ static void test_same_bytes(void **state)
     check_same_bytes((lam_draw_params){0});
 }
 
-// The sums are the same with every instruction set. With `alpha` of cube_sums_row < 0, it is the irradiance.
+// The sums are the same with every instruction set. With `alpha` of cube_sums_row < 0, it is the irradiance. The rows
+// of the last face that cube_sums_row fills are opposite to rows of LAM_FACE_PZ.
 static void test_kernels(void **state)
 {
     (void)state;
@@ -211,12 +212,12 @@ static void test_kernels(void **state)
             int face = row / SIZE, t = row % SIZE;
             if (t % 3 == 0)
                 kernels->prefilter_row(&cells, 0, cells.count, t % 2 ? &chain.cube[2] : NULL, &out, face, t);
-            else
+            else if (face % 2 == 0)
                 kernels->cube_sums_row(sums, t % 3 == 1 ? -1 : 0.3, &out, face, t);
         }
         assert_memory_equal(texels[lanes], texels[0], sizeof *texels);
     }
-    assert_true(cube_texel(&(struct lam_environment){.size = SIZE, .texels = texels[0]}, 5, 20, 20)[1] > 0);
+    assert_true(cube_texel(&(struct lam_environment){.size = SIZE, .texels = texels[0]}, 5, 20, 19)[1] > 0);
     free(sums);
     cube_chain_free(&chain);
     lam_environment_free(environment);

@@ -134,6 +134,10 @@ static void assert_same_scene(const lam_scene *a, const lam_scene *b)
         assert_int_equal(m->parts[p].triangle_count, n->parts[p].triangle_count);
         assert_int_equal(m->parts[p].material, n->parts[p].material);
     }
+    lam_vec3 low[2], high[2];
+    assert_true(lam_scene_bounds(a, &low[0], &high[0]) && lam_scene_bounds(b, &low[1], &high[1]));
+    assert_memory_equal(&low[0], &low[1], sizeof *low);
+    assert_memory_equal(&high[0], &high[1], sizeof *high);
     for (int w = 0; w == 0 || lam_scene_warning(a, w - 1); w++)
         assert_same_text(lam_scene_warning(a, w), lam_scene_warning(b, w));
 }
@@ -192,6 +196,22 @@ static void usual_files(void **state)
         bool lines = styles[i].first && styles[i].first[0] == 'l'; // with a warning that contains a line number
         for (int threads = 1; threads <= 3; threads++)
             assert_int_equal(served(threads), !lines);
+    }
+}
+
+// A vertex that no face uses does not affect the bounds.
+static void unused_vertex(void **state)
+{
+    (void)state;
+    for (int quads = 0; quads < 2; quads++) {
+        make((struct style){.quads = quads});
+        add("v 0 0 99\n");
+        assert_true(load_both());
+        assert_true(served(2));
+        lam_vec3 high;
+        lam_scene *scene = lam_scene_load(path, NULL, NULL, NULL);
+        assert_true(lam_scene_bounds(scene, NULL, &high) && high.z < 1);
+        lam_scene_free(scene);
     }
 }
 
@@ -346,13 +366,10 @@ static void memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(usual_files),
-        cmocka_unit_test(statements),
-        cmocka_unit_test(unusual_files),
-        cmocka_unit_test(edges),
-        cmocka_unit_test(errors_are_those_of_small_files),
-        cmocka_unit_test(can_be_stopped),
-        cmocka_unit_test(memory),
+        cmocka_unit_test(usual_files),    cmocka_unit_test(unused_vertex),
+        cmocka_unit_test(statements),     cmocka_unit_test(unusual_files),
+        cmocka_unit_test(edges),          cmocka_unit_test(errors_are_those_of_small_files),
+        cmocka_unit_test(can_be_stopped), cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests_name("large OBJ files", tests, start, stop);
 }

@@ -133,6 +133,29 @@ static void put_square(struct made *file, const char *format, const char *vertex
 static const float square[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 static const uint32_t square_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
 
+// A vertex that no face uses does not affect the bounds.
+static void test_unused_vertex(void **state)
+{
+    (void)state;
+    for (uint32_t last = 2; last < 4; last++) {
+        struct made file = {0};
+        put_square(&file, "binary_little_endian", "property float x\nproperty float y\nproperty float z\n",
+                   "element face 2\nproperty list uchar int vertex_indices\n");
+        for (int i = 0; i < 12; i++)
+            put_f32(&file, square[i / 3][i % 3] - (i == 11 ? 9 : 0));
+        for (uint32_t f = 0; f < 2; f++) {
+            const uint32_t corners[3] = {0, 1, f ? last : 2};
+            put_u8(&file, 3);
+            for (int k = 0; k < 3; k++)
+                put_u32(&file, corners[k]);
+        }
+        lam_vec3 low;
+        lam_scene *scene = load(&file, "a.ply");
+        assert_true(lam_scene_bounds(scene, &low, NULL) && low.z == (last == 3 ? -9 : 0));
+        lam_scene_free(scene);
+    }
+}
+
 // The layout of most files, and the same with other types and properties around the list.
 static void test_binary_triangles(void **state)
 {
@@ -671,6 +694,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ascii),
         cmocka_unit_test(test_everything),
+        cmocka_unit_test(test_unused_vertex),
         cmocka_unit_test(test_binary_triangles),
         cmocka_unit_test(test_mixed_of_triangle_size),
         cmocka_unit_test(test_vertex_attributes),

@@ -66,7 +66,8 @@ enum fault {
     FAULTS
 };
 
-// A picture of random filters and random filtered bytes, in several chunks.
+// A picture of random filtered bytes, in several chunks. In every second group of eight rows, the filters are 1 and 4,
+// whose rows are unfiltered together.
 static struct file make_file(int color_type, int channels, enum fault fault)
 {
     struct file file = {malloc(FILE_BYTES), 0};
@@ -76,7 +77,9 @@ static struct file make_file(int color_type, int channels, enum fault fault)
     for (size_t i = 0; i < bytes; i++)
         filtered[i] = (uint8_t)(random_bits() & random_bits());
     for (size_t y = 0; y < rows; y++)
-        filtered[y * row] = (uint8_t)(y < 5 ? y : random_bits() % 5);
+        filtered[y * row] = (uint8_t)((y / 8 + fault) % 2 ? 1 + random_bits() % 2 * 3
+                                      : y % 8 < 5         ? y % 8
+                                                          : random_bits() % 5);
     if (fault == NO_FILTER)
         filtered[row * (rows - 1)] = 5;
     uLongf size = 2 * bytes;

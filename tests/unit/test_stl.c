@@ -297,6 +297,23 @@ static void test_first_mistake(void **state)
     free(bytes);
 }
 
+// Any NaN in a large file is found, also if its bits are those of an unused entry of stl_shared.c.
+static void test_not_finite(void **state)
+{
+    (void)state;
+    enum { FACETS = 70000 };
+    size_t size = 84 + 50 * FACETS;
+    uint8_t *bytes = calloc(1, size);
+    assert_non_null(bytes);
+    uint32_t count = FACETS;
+    memcpy(bytes + 80, &count, 4);
+    memset(bytes + 84 + 50 * 7 + 24, 0xff, 12);
+    lam_error error;
+    assert_null(lam_scene_load_memory(bytes, size, "a.stl", &(lam_load_params){.threads = 2}, NULL, &error));
+    assert_string_equal(error.text, "a.stl: byte 458: facet 8: found NaN as x of corner 2, expected a finite number");
+    free(bytes);
+}
+
 static void test_colors_viscam(void **state)
 {
     (void)state;
@@ -440,6 +457,7 @@ int main(void)
         cmocka_unit_test(test_binary),
         cmocka_unit_test(test_binary_errors),
         cmocka_unit_test(test_first_mistake),
+        cmocka_unit_test(test_not_finite),
         cmocka_unit_test(test_colors_viscam),
         cmocka_unit_test(test_colors_magics),
         cmocka_unit_test(test_colors_junk),

@@ -392,7 +392,7 @@ static void free_batch(struct batch *b)
 static void keep_memory(void)
 {
 #ifdef __GLIBC__
-    enum { MAPPED_FROM = 4 << 20, KEPT = 16 << 20, AT_ONCE = 1 << 20 };
+    enum { MAPPED_FROM = 16 << 20, KEPT = 32 << 20, AT_ONCE = 1 << 20 };
     mallopt(M_MMAP_THRESHOLD, MAPPED_FROM);
     mallopt(M_TRIM_THRESHOLD, KEPT);
     mallopt(M_TOP_PAD, AT_ONCE);

@@ -129,6 +129,7 @@ static void read_chunk(void *user, size_t index, int thread)
     if (!call_should_continue(read_state->call) || __atomic_load_n(&read_state->failed, __ATOMIC_RELAXED))
         return;
     size_t reached;
+    pages_prepare(read_state->to + at, end - at);
     int none = 0, reason = read_range(read_state->file, read_state->to + at, at, end, &reached);
     // If several chunks fail, the first failure is reported.
     if (reason &&

@@ -207,8 +207,20 @@ LANE_FN num max_of(num a, num b) { return (num)wasm_f32x4_pmax((v128_t)b, (v128_
 LANE_FN num min_of(num a, num b) { return pick(a < b, a, b); }
 LANE_FN num max_of(num a, num b) { return pick(a > b, a, b); }
 #endif
+// gcc does not combine an integer comparison and a selection into one instruction.
+#if LANES == 16 && defined(__AVX512F__)
+LANE_FN inum imin_of(inum a, inum b) { return (inum)_mm512_min_epi32((__m512i)a, (__m512i)b); }
+LANE_FN inum imax_of(inum a, inum b) { return (inum)_mm512_max_epi32((__m512i)a, (__m512i)b); }
+#elif LANES == 8 && defined(__AVX2__)
+LANE_FN inum imin_of(inum a, inum b) { return (inum)_mm256_min_epi32((__m256i)a, (__m256i)b); }
+LANE_FN inum imax_of(inum a, inum b) { return (inum)_mm256_max_epi32((__m256i)a, (__m256i)b); }
+#elif LANES == 4 && defined(__SSE4_1__)
+LANE_FN inum imin_of(inum a, inum b) { return (inum)_mm_min_epi32((__m128i)a, (__m128i)b); }
+LANE_FN inum imax_of(inum a, inum b) { return (inum)_mm_max_epi32((__m128i)a, (__m128i)b); }
+#else
 LANE_FN inum imin_of(inum a, inum b) { return ipick(a < b, a, b); }
 LANE_FN inum imax_of(inum a, inum b) { return ipick(a > b, a, b); }
+#endif
 // Returns |x| by clearing the sign bit; NaN stays NaN.
 LANE_FN num absolute(num x) { return num_of_bits(bits_of(x) & 0x7fffffff); }
 // Returns max(x, 0), and 0 for NaN.
@@ -351,6 +363,17 @@ LANE_FN num lanes_at(num x, inum at)
         to[i] = from[ilane(at, i)];
     return num_load(to);
 #endif
+}
+
+// Returns table[at] for a table of 16 floats. Each at[i] is below `count`.
+LANE_FN num look_up(const float table[16], int count, inum at)
+{
+    if (count <= LANES)
+        return lanes_at(num_load(table), at & (LANES - 1));
+    float to[LANES];
+    for (int i = 0; i < LANES; i++)
+        to[i] = table[ilane(at, i) & 15];
+    return num_load(to);
 }
 
 // Returns the minimum of all lanes, none of which may be NaN.

@@ -14,10 +14,18 @@ void *pages_get(size_t bytes, size_t *held)
 
 void *pages_get_sparse(size_t bytes, size_t *held) { return pages_get(bytes, held); }
 
+void *pages_malloc(size_t bytes) { return aligned_alloc(64, (bytes + 63) / 64 * 64); }
+
 void pages_free(void *pages, size_t held)
 {
     (void)held;
     free(pages);
+}
+
+void pages_prepare(void *at, size_t bytes)
+{
+    (void)at;
+    (void)bytes;
 }
 
 void pages_trim(void *pages, size_t *held, size_t bytes)
@@ -81,10 +89,37 @@ void *pages_get(size_t bytes, size_t *held)
     return pages;
 }
 
+void *pages_malloc(size_t bytes)
+{
+    if (bytes < HUGE_PAGE || bytes > SIZE_MAX - HUGE_PAGE)
+        return malloc(bytes);
+    size_t rounded = (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
+    void *pages = aligned_alloc(HUGE_PAGE, rounded);
+#ifdef MADV_HUGEPAGE
+    // The last page becomes a huge page only if little of it would be unused. If the system does not follow this
+    // advice, only the speed is affected.
+    if (pages)
+        madvise(pages, rounded - bytes <= bytes / 16 ? rounded : rounded - HUGE_PAGE, MADV_HUGEPAGE);
+#endif
+    return pages;
+}
+
 void pages_free(void *pages, size_t held)
 {
     if (pages)
         munmap(pages, held);
+}
+
+void pages_prepare(void *at, size_t bytes)
+{
+#ifdef MADV_POPULATE_WRITE
+    const size_t before = (uintptr_t)at % PAGE;
+    if (bytes > PAGE)
+        madvise((uint8_t *)at - before, before + bytes, MADV_POPULATE_WRITE);
+#else
+    (void)at;
+    (void)bytes;
+#endif
 }
 
 void pages_trim(void *pages, size_t *held, size_t bytes)

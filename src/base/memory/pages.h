@@ -17,6 +17,12 @@ void *pages_get(size_t bytes, size_t *held);
 // Allocates small pages, for sparsely used blocks.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
+// Allocates memory for free(), in huge pages if it is large. A program may keep freed memory for later allocations. The
+// system then need not clear it again.
+void *pages_malloc(size_t bytes);
+// Makes the pages that contain `bytes` bytes at `at` ready to be written, with one system call. This takes a third of
+// the time of the accesses that would provide the pages one by one. Some systems ignore the call.
+void pages_prepare(void *at, size_t bytes);
 // Releases the pages after the first `bytes` bytes, if the system supports this.
 void pages_trim(void *pages, size_t *held, size_t bytes);
 

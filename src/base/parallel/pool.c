@@ -1,6 +1,7 @@
 // pool.c: a thread pool for parallel loops.
 #include "pool.h"
 
+#include "call_control.h"
 #include "float_state.h"
 
 #include <pthread.h>
@@ -12,15 +13,18 @@ enum {
     THREADS_MAX = 1024,
     WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would depend on
                             // `ulimit -s`.
+    SPIN_NS = 50000,        // how long a thread waits before it sleeps: about as long as waking a thread takes
 };
 
 struct pool {
     int threads; // number of threads, including the caller
     pthread_mutex_t lock;
     pthread_cond_t work, done;
-    unsigned round; // incremented by each pool_run
-    int busy;       // workers that have not yet finished the round
+    unsigned round;    // incremented by each pool_run and by pool_free
+    unsigned finished; // the last round that all workers have finished
+    int busy;          // workers that have not yet finished the round
     bool closing;
+    bool spins; // whether waiting threads spin before they sleep
 
     // The work of the current round.
     pool_task *task;
@@ -35,6 +39,16 @@ struct pool {
     } workers[];
 };
 
+// Tells the processor that this thread waits in a loop, so that the core's other thread runs faster.
+static inline void pause_briefly(void)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("yield");
+#endif
+}
+
 static void take_work(struct pool *pool, int thread)
 {
     for (;;) {
@@ -45,15 +59,25 @@ static void take_work(struct pool *pool, int thread)
     }
 }
 
+// Waits a short time for another thread to change *round, which it does while it holds the lock.
+static void spin_while(const struct pool *pool, const unsigned *round, unsigned value)
+{
+    const uint64_t start = now_ns();
+    while (pool->spins && __atomic_load_n(round, __ATOMIC_RELAXED) == value && now_ns() - start < SPIN_NS)
+        pause_briefly();
+}
+
 static void *worker_main(void *argument)
 {
     struct worker *worker = argument;
     struct pool *pool = worker->pool;
     float_state_enter();
     unsigned seen = 0;
-    pthread_mutex_lock(&pool->lock);
     for (;;) {
-        while (pool->round == seen && !pool->closing)
+        if (seen > 0) // the first round may be long after the start
+            spin_while(pool, &pool->round, seen);
+        pthread_mutex_lock(&pool->lock);
+        while (pool->round == seen)
             pthread_cond_wait(&pool->work, &pool->lock);
         if (pool->closing)
             break;
@@ -61,8 +85,11 @@ static void *worker_main(void *argument)
         pthread_mutex_unlock(&pool->lock);
         take_work(pool, worker->number);
         pthread_mutex_lock(&pool->lock);
-        if (--pool->busy == 0)
+        if (--pool->busy == 0) {
+            __atomic_store_n(&pool->finished, seen, __ATOMIC_RELAXED);
             pthread_cond_signal(&pool->done);
+        }
+        pthread_mutex_unlock(&pool->lock);
     }
     pthread_mutex_unlock(&pool->lock);
     return NULL;
@@ -89,6 +116,7 @@ struct pool *pool_make(int threads)
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);
     pool->threads = 1;
+    pool->spins = threads <= processor_count();
     // Workers block all signals, so that the program's own threads handle them.
     sigset_t all, before;
     pthread_attr_t attributes;
@@ -115,6 +143,7 @@ void pool_free(struct pool *pool)
         return;
     pthread_mutex_lock(&pool->lock);
     pool->closing = true;
+    __atomic_store_n(&pool->round, pool->round + 1, __ATOMIC_RELAXED);
     pthread_cond_broadcast(&pool->work);
     pthread_mutex_unlock(&pool->lock);
     for (int i = 1; i < pool->threads; i++)
@@ -142,7 +171,8 @@ void pool_run(struct pool *pool, size_t count, pool_task *task, void *user)
     pool->count = count;
     __atomic_store_n(&pool->next, 0, __ATOMIC_RELAXED);
     pool->busy = pool->threads - 1;
-    pool->round++;
+    const unsigned before = pool->round;
+    __atomic_store_n(&pool->round, before + 1, __ATOMIC_RELAXED);
     pthread_cond_broadcast(&pool->work);
     pthread_mutex_unlock(&pool->lock);
 
@@ -150,6 +180,7 @@ void pool_run(struct pool *pool, size_t count, pool_task *task, void *user)
     take_work(pool, 0);
     float_state_leave(state);
 
+    spin_while(pool, &pool->finished, before);
     pthread_mutex_lock(&pool->lock);
     while (pool->busy)
         pthread_cond_wait(&pool->done, &pool->lock);

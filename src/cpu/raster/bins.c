@@ -7,7 +7,7 @@
 
 enum {
     SLAB = 2 << 20,   // a huge page
-    FILLED = 1 << 17, // number of triangles per thread that nearly fill the thread's first slab
+    FILLED = 1 << 20, // number of triangles per thread that nearly fill the thread's first slab
 };
 
 // Allocates `bytes` from a list of slabs. New slabs come from the system and are kept for later frames.
@@ -121,10 +121,8 @@ void bin_large(const struct raster_frame *raster, struct thread_bins *bins, cons
             bool missed = false;
             for (int k = 0; k < 3; k++)
                 missed |= a[k] * (px - c->x[k]) + b[k] * (py - c->y[k]) + max[k] < 0;
-            struct bin_block *block =
-                missed ? NULL : bin_reserve(raster, bins, (ty * raster->tiles_across + tx) * TILE_BINS, 1);
-            if (block)
-                block->ids[block->count++] = id;
+            if (!missed)
+                bin_add(raster, bins, (ty * raster->tiles_across + tx) * TILE_BINS, (struct bin_entry){id, 1, 0, 0});
         }
     }
 }

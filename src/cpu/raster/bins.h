@@ -5,22 +5,30 @@
 #include "raster_frame.h"
 
 // Each tile has two bins: one for small back-facing triangles, and one for all others. A bin is a chain of blocks of
-// triangle numbers. Every thread fills its own bins, so binning needs no locks. The picture does not depend on the
-// order of a tile's triangles. Back faces are drawn last, because most of them are then occluded. The depth bound of
-// each back face is tested first (occlusion.inc).
+// entries. Every thread fills its own bins, so binning needs no locks. The picture does not depend on the order of a
+// tile's triangles. Back faces are drawn last, because most of them are then occluded. The box and the nearest key of
+// an entry's back faces are tested first (occlusion.inc).
 enum {
-    TILE_BINS = 2,       // bin 2·t of tile t contains front faces and large back faces, and bin 2·t + 1 contains small
-                         // back faces
-    BIN_BLOCK_IDS = 128, // this size and the next size are multiples of LANES_MAX, so that whole packets can be read
-    BIN_BLOCK_BACK_FACES = 64,
+    TILE_BINS = 2, // bin 2·t of tile t contains front faces and large back faces, and bin 2·t + 1 contains small back
+                   // faces
+    BIN_BLOCK_ENTRIES = 40,
     SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit into 32 bits
 };
-#define CLIPPED 0x80000000u // flag in a bin entry: the triangle was clipped
+#define CLIPPED 0x80000000u // flag in bin_entry.first: the number of a clipped triangle
+
+// Triangles of a tile whose numbers are similar. Neighbours in a mesh usually touch the same tile, so that one entry
+// lists up to LANES triangles.
+struct bin_entry {
+    uint32_t first;     // a triangle number
+    uint16_t triangles; // bit i is set if the entry contains triangle first + i; one bit if the triangle is clipped
+    uint16_t box;       // for back faces: the box around the triangles in the tile (occlusion.inc)
+    float key;          // for back faces: the nearest key of all corners
+};
 
 struct bin_block {
     struct bin_block *next;
     uint32_t count;
-    uint32_t ids[BIN_BLOCK_IDS]; // for back faces, BIN_BLOCK_BACK_FACES numbers followed by their bounds
+    struct bin_entry entries[BIN_BLOCK_ENTRIES];
 };
 
 // One triangle of a clipped polygon: its own window coordinates, and the number of the original triangle.
@@ -80,19 +88,19 @@ static inline bool tile_has_triangles(const struct raster_frame *raster, size_t 
     return false;
 }
 
-// Returns the newest block of a bin, or a new one if `count` more numbers do not fit. Returns NULL if memory runs out.
-static inline struct bin_block *bin_reserve(const struct raster_frame *raster, struct thread_bins *bins, int bin,
-                                            uint32_t count)
+// Adds an entry to a bin. If memory runs out, the entry is dropped, and the frame is marked as failed.
+static inline void bin_add(const struct raster_frame *raster, struct thread_bins *bins, int bin, struct bin_entry entry)
 {
     struct bin_block *block = bins->heads[bin];
-    if (block && block->count + count <= (bin & 1 ? BIN_BLOCK_BACK_FACES : BIN_BLOCK_IDS))
-        return block;
-    struct bin_block *fresh = new_bin_block(raster, bins);
-    if (!fresh)
-        return NULL;
-    fresh->next = block;
-    fresh->count = 0;
-    return bins->heads[bin] = fresh;
+    if (!block || block->count == BIN_BLOCK_ENTRIES) {
+        struct bin_block *fresh = new_bin_block(raster, bins);
+        if (!fresh)
+            return;
+        fresh->next = block;
+        fresh->count = 0;
+        block = bins->heads[bin] = fresh;
+    }
+    block->entries[block->count++] = entry;
 }
 
 #endif

@@ -21,10 +21,11 @@ static void mark_bins(void *user, size_t index, int number)
         const struct bin_block *block = bins->heads[index * TILE_BINS + (size_t)(i % TILE_BINS)];
         for (; block; block = block->next)
             for (uint32_t k = 0; k < block->count; k++) {
-                uint32_t id = block->ids[k];
+                uint32_t id = block->entries[k].first;
                 if (id & CLIPPED)
                     id = clipped_triangle(bins, id & ~CLIPPED)->id;
-                rank_bitset_add(&cpu->shade.visible.triangles, id);
+                for (unsigned rest = block->entries[k].triangles; rest; rest &= rest - 1)
+                    rank_bitset_add(&cpu->shade.visible.triangles, id + (uint32_t)__builtin_ctz(rest));
             }
     }
 }
@@ -129,13 +130,14 @@ static bool search_tiles(struct cpu_frame *cpu, struct visible_buffers *buffers,
     return true;
 }
 
-// Frees the bins, which are no longer needed.
+// Frees the bins, which are no longer needed, if they are large.
 static void release_bins(struct cpu_frame *cpu)
 {
     size_t tiles = tile_count(cpu);
     for (int i = 0; i < pool_threads(cpu->pool); i++) {
         memset(cpu->bins[i].heads, 0, tiles * TILE_BINS * sizeof(struct bin_block *));
-        call_refund(cpu->call, slabs_free(&cpu->bins[i].blocks));
+        if (cpu->bins[i].blocks.count > 1)
+            call_refund(cpu->call, slabs_free(&cpu->bins[i].blocks));
     }
 }
 

@@ -108,7 +108,8 @@ struct shading {
     struct vertex_cache vertices;
     struct light_list lights;
     uint64_t points_lit, lights_evaluated, rays;
-    struct work *work; // the frame's work
+    struct work *work;  // the frame's work
+    uint64_t uncounted; // units of work that have not been added yet
 };
 
 #endif

@@ -13,10 +13,12 @@ void facet_normal(const lam_mesh *mesh, size_t triangle, float normal[3])
         const float *at = mesh->positions + 3 * (size_t)corner_vertex(mesh, 3 * triangle + k);
         p[k] = v3((double)at[0], (double)at[1], (double)at[2]);
     }
-    lam_vec3 n = v3_unit(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
-    normal[0] = (float)n.x;
-    normal[1] = (float)n.y;
-    normal[2] = (float)n.z;
+    lam_vec3 n = v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]));
+    double length = math_sqrt(v3_dot(n, n)), inverse = 1 / length; // in double, products of floats cannot overflow
+    bool there = length > 0 && math_finite(length);
+    normal[0] = there ? (float)(n.x * inverse) : 0;
+    normal[1] = there ? (float)(n.y * inverse) : 0;
+    normal[2] = there ? (float)(n.z * inverse) : 0;
 }
 
 enum { WORDS = 1 << 7 }; // words of the set per task

@@ -8,6 +8,7 @@ enum {
     // Padding words before and after a row, so that loops may read beyond both ends of the row.
     PADDING_BEFORE = 4,
     PADDING_AFTER = CHUNK,
+    STREAM_PADDING = 2 * CHUNK, // bytes before and after the packed rows of a strip
 };
 
 typedef uint8_t u8x16 __attribute__((vector_size(16)));
@@ -17,10 +18,20 @@ typedef u32x4 u32x4_memory __attribute__((aligned(4), may_alias));
 
 static inline u32x4 load(const uint32_t *at) { return (u32x4) * (const u32x4_memory *)at; }
 
+// A value of last_positions that is not a position, and whose bytes are equal. The distance from this value to any
+// position is above DEFLATE_FARTHEST.
+#define NO_POSITION 0x80808080u
+
 // Tokens are built as 64-bit integers; the first quarter is the lowest 16 bits.
 static inline void put_token(struct token *at, uint64_t token) { memcpy(at, &token, sizeof token); }
 
 static size_t stride_of(int width) { return PADDING_BEFORE + (size_t)width + PADDING_AFTER; }
+
+// Returns the number of bytes of a filtered row in the stream, with its filter.
+static size_t stream_row(const struct deflate *deflate)
+{
+    return (size_t)deflate->width * (unsigned)deflate->bytes_per_pixel + 1;
+}
 
 size_t deflate_scratch(int width, int rows)
 {
@@ -31,15 +42,20 @@ bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int r
 {
     deflate->width = width;
     deflate->bytes_per_pixel = bytes_per_pixel;
-    deflate->stride = stride_of(width);
-    uint32_t *words = arena_array(arena, (size_t)rows * deflate->stride, sizeof *words);
+    const bool packed = bytes_per_pixel <= DEFLATE_PACKED;
+    const int pixels_per_token = packed ? 4 / bytes_per_pixel : 1;
+    deflate->stride = packed ? 0 : stride_of(width);
+    uint32_t *words = arena_array(arena, packed ? stride_of(width) : (size_t)rows * deflate->stride, sizeof *words);
+    uint8_t *stream = packed ? arena_array(arena, (size_t)rows * stream_row(deflate) + 2 * STREAM_PADDING, 1) : NULL;
     deflate->last_positions = arena_array(arena, 1 << DEFLATE_HASH_BITS, sizeof *deflate->last_positions);
     // There is space for one more token than will be kept, because find_runs writes a token for each pixel before it
     // decides whether to keep it.
-    deflate->tokens = arena_array(arena, (size_t)rows * ((size_t)width + 1) + 1, sizeof *deflate->tokens);
-    if (!words || !deflate->last_positions || !deflate->tokens)
+    const size_t tokens = (size_t)rows * ((size_t)((width + pixels_per_token - 1) / pixels_per_token) + 1) + 1;
+    deflate->tokens = arena_array(arena, tokens, sizeof *deflate->tokens);
+    if (!words || (packed && !stream) || !deflate->last_positions || !deflate->tokens)
         return false;
     deflate->words = words + PADDING_BEFORE;
+    deflate->stream = packed ? stream + STREAM_PADDING : NULL;
     return true;
 }
 
@@ -47,12 +63,12 @@ void deflate_start(struct deflate *deflate, uint8_t filter, bool matches)
 {
     deflate->filter = filter;
     deflate->row = deflate->words;
-    deflate->matches = matches || deflate->bytes_per_pixel < 3; // grey pictures always use matches
+    deflate->matches = matches;
     deflate->y = 0;
     deflate->end = deflate->tokens;
     memset(deflate->counts, 0, sizeof deflate->counts);
-    if (deflate->matches)
-        memset(deflate->last_positions, 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS); // no positions yet
+    if (deflate->matches || deflate->stream) // no positions yet
+        memset(deflate->last_positions, NO_POSITION & 0xFF, sizeof *deflate->last_positions << DEFLATE_HASH_BITS);
 }
 
 // Returns a token whose first `used` (1 … 4) quarters are zero, and whose other quarters are empty.
@@ -202,64 +218,45 @@ static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
     return count < max ? count : max;
 }
 
-// Limits for find_matches, indexed by bytes_per_pixel. Pixels of one or two bytes need few bits as literals, so only
-// longer matches and runs reduce the size (measured).
-static const int key_pixels[5] = {0, 8, 4, 2, 2};  // pixels that are hashed together
-static const int min_match[5] = {0, 20, 12, 2, 2}; // pixels
-static const int min_run[5] = {0, 8, 5, 2, 2};     // number of pixels that repeat the previous pixel
+static inline uint64_t hash_of(uint64_t key) { return key * 0x9E3779B97F4A7C15u >> (64 - DEFLATE_HASH_BITS); }
 
-// Returns the next key_pixels pixels as one integer.
-static inline uint64_t key_of(const uint32_t *at, int bytes_per_pixel)
-{
-    if (bytes_per_pixel >= 3)
-        return two_pixels(at);
-    uint64_t key = 0;
-    const int shift = 8 * bytes_per_pixel;
-    for (int i = 0; i < key_pixels[bytes_per_pixel]; i += 2) {
-        const uint64_t pair = two_pixels(at + i), mask = (UINT64_C(1) << 2 * shift) - 1;
-        key |= ((pair | pair >> (32 - shift)) & mask) << i * shift;
-    }
-    return key;
-}
-
-// At each pixel, uses the first possible of three encodings: a run, a match with the last position of the same key, or
-// literals for as many pixels as one token can contain. If a match may be as short as one pixel, a single repetition is
-// also a match. The source and the target of a match are each within one row, so they contain no filter byte.
+// At each pixel, uses the first possible of three encodings: a run, a match with the last position of the same two
+// pixels, or a literal. A single repetition is also a match. The source and the target of a match are each within one
+// row, so they contain no filter byte.
 static inline __attribute__((always_inline)) void find_matches(struct deflate *deflate, const int bytes_per_pixel,
                                                                int first, int end)
 {
+    enum { SHORTEST = 2 }; // pixels of a match or a run
     struct token *token = deflate->end;
     const int width = deflate->width, max_match = DEFLATE_LONGEST / bytes_per_pixel;
     const uint32_t *row = deflate->row;
-    const int64_t row_bytes = (int64_t)width * bytes_per_pixel + 1;
+    const int64_t row_bytes = (int64_t)stream_row(deflate);
     const uint64_t near = distance_of((uint32_t)bytes_per_pixel), one_more = match_of((size_t)bytes_per_pixel, near);
     for (int x = 0; x < width;) {
-        if (two_pixels(row + x) == two_pixels(row + x - 1)) {
-            int run = x < first ? first - x : x >= end ? width - x : 2;
+        const uint64_t key = two_pixels(row + x);
+        if (key == two_pixels(row + x - 1)) {
+            int run = x < first ? first - x : x >= end ? width - x : SHORTEST;
             while (x + run + CHUNK <= width && chunk_repeats(row, x + run))
                 run += CHUNK;
             while (row[x + run] == row[x - 1])
                 run++;
-            if (run >= min_run[bytes_per_pixel]) {
-                token = put_match(token, (size_t)run * (unsigned)bytes_per_pixel, near);
-                x += run;
-                continue;
-            }
+            token = put_match(token, (size_t)run * (unsigned)bytes_per_pixel, near);
+            x += run;
+            continue;
         }
-        const uint64_t key = key_of(row + x, bytes_per_pixel);
-        if (x + key_pixels[bytes_per_pixel] <= width) {
-            uint32_t *last = &deflate->last_positions[key * 0x9E3779B97F4A7C15u >> (64 - DEFLATE_HASH_BITS)];
+        if (x + SHORTEST <= width) {
+            uint32_t *last = &deflate->last_positions[hash_of(key)];
             const uint32_t position = *last, there_y = position >> 16;
             const int there_x = (int)(position & 0xFFFF);
             *last = deflate->y << 16 | (uint32_t)x;
-            if (position != UINT32_MAX) {
+            if (position != NO_POSITION) {
                 const int64_t back =
                     (int64_t)(deflate->y - there_y) * row_bytes + (int64_t)(x - there_x) * bytes_per_pixel;
                 const uint32_t *there = deflate->words + there_y * deflate->stride + there_x;
-                if ((back <= DEFLATE_FARTHEST) & (key_of(there, bytes_per_pixel) == key)) {
+                if ((back <= DEFLATE_FARTHEST) & (two_pixels(there) == key)) {
                     const int max = width - (x > there_x ? x : there_x);
                     const int count = equal_pixels(row + x, there, max < max_match ? max : max_match);
-                    if (count >= min_match[bytes_per_pixel]) {
+                    if (count >= SHORTEST) {
                         put_token(token++, match_of((size_t)(count * bytes_per_pixel), distance_of((uint32_t)back)));
                         x += count;
                         continue;
@@ -267,18 +264,123 @@ static inline __attribute__((always_inline)) void find_matches(struct deflate *d
                 }
             }
         }
-        if (bytes_per_pixel < DEFLATE_SHORTEST) {
-            const int left = (width - x) * bytes_per_pixel, bytes = left < 4 ? left : 4;
-            put_token(token++, (spread((uint32_t)key) & (UINT64_MAX >> (64 - 16 * bytes))) | unused_after(bytes));
-            x += 4 / bytes_per_pixel;
-        } else {
-            const uint64_t literal = spread(row[x]) | unused_after(bytes_per_pixel);
-            const uint64_t run = 0 - (uint64_t)(row[x] == row[x - 1]);
-            put_token(token++, literal ^ ((literal ^ one_more) & run)); // a branchless selection
-            x++;
-        }
+        const uint64_t literal = spread(row[x]) | unused_after(bytes_per_pixel);
+        const uint64_t run = 0 - (uint64_t)(row[x] == row[x - 1]);
+        put_token(token++, literal ^ ((literal ^ one_more) & run)); // a branchless selection
+        x++;
     }
     deflate->end = token;
+}
+
+static inline uint64_t eight_bytes(const uint8_t *at)
+{
+    uint64_t bytes;
+    memcpy(&bytes, at, sizeof bytes);
+    return bytes;
+}
+
+// Returns the number of equal bytes starting at `a` and `b`, at most `max`. The function may read seven bytes beyond
+// the end.
+static inline int equal_bytes(const uint8_t *a, const uint8_t *b, int max)
+{
+    for (int count = 0; count < max; count += 8) {
+        const uint64_t differ = eight_bytes(a + count) ^ eight_bytes(b + count);
+        if (differ) {
+            count += __builtin_ctzll(differ) / 8;
+            return count < max ? count : max;
+        }
+    }
+    return max;
+}
+
+// Stores the lowest byte or the two lowest bytes of words, rounding the count up to 16 words.
+static inline void pack(uint8_t *out, const uint32_t *words, int count, int bytes_per_pixel)
+{
+    typedef uint16_t u16x8 __attribute__((vector_size(16)));
+    for (int i = 0; i < count; i += CHUNK) {
+        u16x8 halves[2];
+        for (int k = 0; k < 2; k++)
+            halves[k] = __builtin_shufflevector((u16x8)load(words + i + 8 * k), (u16x8)load(words + i + 8 * k + 4), 0,
+                                                2, 4, 6, 8, 10, 12, 14);
+        const u8x16 bytes = __builtin_shufflevector((u8x16)halves[0], (u8x16)halves[1], 0, 2, 4, 6, 8, 10, 12, 14, 16,
+                                                    18, 20, 22, 24, 26, 28, 30);
+        if (bytes_per_pixel == 1)
+            memcpy(out + i, &bytes, sizeof bytes);
+        else
+            memcpy(out + 2 * i, halves, sizeof halves);
+    }
+}
+
+// Does the same as find_matches for pixels of one or two bytes, whose rows are packed as in the stream. Such pixels
+// need few bits as literals, so only longer matches and runs reduce the size (measured). `row` is the row in the
+// stream; a token contains four bytes. Offsets and lengths are in bytes.
+static inline __attribute__((always_inline)) void find_packed(struct deflate *deflate, uint8_t *row, const int pixel,
+                                                              int first, int end)
+{
+    enum { KEY = 8 };                          // bytes that are hashed together
+    const int shortest = pixel == 1 ? 20 : 24; // bytes of a match
+    const int shortest_run = pixel == 1 ? 8 : 10;
+    const int size = deflate->width * pixel;
+    const uint32_t row_offset = (uint32_t)(row - deflate->stream);
+    const uint64_t near = distance_of((uint32_t)pixel);
+    struct token *token = deflate->end;
+    row[size] = (uint8_t)~row[size - pixel]; // every run ends at the last pixel
+    int at = 0;
+    while (at + KEY <= size) {
+        const uint64_t key = eight_bytes(row + at);
+        if (key == eight_bytes(row + at - pixel) && at > 0) {
+            int run = at < first * pixel ? first * pixel - at : at >= end * pixel ? size - at : KEY;
+            while (at + run + KEY <= size && eight_bytes(row + at + run) == eight_bytes(row + at + run - pixel))
+                run += KEY;
+            while (row[at + run] == row[at + run - pixel] && row[at + run + pixel - 1] == row[at + run - 1])
+                run += pixel;
+            if (run >= shortest_run) {
+                token = put_match(token, (size_t)run, near);
+                at += run;
+                continue;
+            }
+        }
+        uint32_t *last = &deflate->last_positions[hash_of(key)];
+        const uint32_t here = row_offset + (uint32_t)at, position = *last, back = here - position;
+        *last = here;
+        const uint8_t *there = row + at - (back <= DEFLATE_FARTHEST ? back : 0);
+        // most of the keys that occurred before do not begin a match of the shortest length
+        if ((back <= DEFLATE_FARTHEST) & (eight_bytes(there) == key) &
+            (eight_bytes(there + KEY) == eight_bytes(row + at + KEY))) {
+            const int there_at = (int)((position - 1) % ((uint32_t)size + 1));
+            const int left = size - (at > there_at ? at : there_at);
+            const int max = left < DEFLATE_LONGEST ? left : DEFLATE_LONGEST;
+            const int length = equal_bytes(row + at, there, max) / pixel * pixel;
+            if (length >= shortest) {
+                put_token(token++, match_of((size_t)length, distance_of(back)));
+                at += length;
+                continue;
+            }
+        }
+        put_token(token++, spread((uint32_t)key));
+        at += 4;
+    }
+    for (; at < size; at += 4) {
+        const int bytes = size - at < 4 ? size - at : 4;
+        put_token(token++,
+                  (spread((uint32_t)eight_bytes(row + at)) & (UINT64_MAX >> (64 - 16 * bytes))) | unused_after(bytes));
+    }
+    deflate->end = token;
+}
+
+// Packs the row and finds its tokens.
+static void packed_row(struct deflate *deflate, int first, int end)
+{
+    const int pixel = deflate->bytes_per_pixel;
+    uint8_t *row = deflate->stream + deflate->y * stream_row(deflate) + 1;
+    row[-1] = deflate->filter;
+    memset(row, 0, (size_t)(first * pixel));
+    pack(row + first * pixel, deflate->row + first, end - first, pixel);
+    memset(row + end * pixel, 0, (size_t)((deflate->width - end) * pixel));
+    if (pixel == 1)
+        find_packed(deflate, row, 1, first, end);
+    else
+        find_packed(deflate, row, 2, first, end);
 }
 
 static inline void count(uint32_t counts[4][DEFLATE_KINDS], const struct token *token)
@@ -296,10 +398,8 @@ void deflate_row(struct deflate *deflate, int first, int end)
     uint32_t *row = deflate->row;
     row[-1] = ~row[0];
     row[deflate->width] = ~row[deflate->width - 1];
-    if (deflate->bytes_per_pixel == 1)
-        find_matches(deflate, 1, first, end);
-    else if (deflate->bytes_per_pixel == 2)
-        find_matches(deflate, 2, first, end);
+    if (deflate->stream)
+        packed_row(deflate, first, end);
     else if (deflate->matches && deflate->bytes_per_pixel == 3)
         find_matches(deflate, 3, first, end);
     else if (deflate->matches)

@@ -22,6 +22,7 @@ enum {
     DEFLATE_SHORTEST = 3, // the shortest match in bytes
     DEFLATE_LONGEST = 258,
     DEFLATE_FARTHEST = 32768, // the largest distance in bytes
+    DEFLATE_PACKED = 2,       // rows of pixels of at most two bytes are packed
     // A quarter of a token is one of these: a byte; the length of a match, 3 … 258 bytes; the symbol of a match's
     // distance; or n ≤ 8 raw bits with the value v, represented as DEFLATE_BITS + 2ⁿ + v.
     DEFLATE_MATCH = 256, // + length − 3
@@ -44,11 +45,13 @@ struct deflate {
     int width, bytes_per_pixel;
     uint32_t *row;   // the next row: one word per pixel, with 4 words of padding before the row and 16 after it
     uint32_t *words; // the first row
-    size_t stride;   // the distance between rows, in words
+    size_t stride;   // the distance between rows in words; 0 if the rows are packed
+    uint8_t *stream; // the added rows as bytes, each after its filter, if the rows are packed; otherwise NULL
     uint8_t filter;
     bool matches;
-    uint32_t y;               // number of rows added
-    uint32_t *last_positions; // with matches: the last position of pixels with each hash, as y << 16 | x
+    uint32_t y; // number of rows added
+    // With matches: the last position of pixels with each hash, as y << 16 | x, or as an offset in `stream`.
+    uint32_t *last_positions;
     struct token *tokens, *end;
     // The number of occurrences of each kind in each quarter, for even and odd tokens separately.
     uint32_t counts[2][4][DEFLATE_KINDS];

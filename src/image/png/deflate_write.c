@@ -106,7 +106,9 @@ static void store(struct storing *storing, uint8_t byte)
 static uint8_t *put_stored(const struct deflate *deflate, uint8_t *out)
 {
     struct storing storing = {out, stream_bytes(deflate), 0};
-    for (size_t y = 0; y < deflate->y; y++) {
+    for (size_t i = 0; deflate->stream && i < stream_bytes(deflate); i++)
+        store(&storing, deflate->stream[i]);
+    for (size_t y = 0; !deflate->stream && y < deflate->y; y++) {
         const uint32_t *row = deflate->words + y * deflate->stride;
         store(&storing, deflate->filter);
         for (int x = 0; x < deflate->width; x++)

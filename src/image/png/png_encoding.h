@@ -5,6 +5,7 @@
 #include "arena.h"
 #include "call_control.h"
 #include "checksum.h"
+#include "png_filter.h"
 #include "pool.h"
 
 #include <lambent/image.h>
@@ -12,9 +13,10 @@
 // A picture to be encoded as PNG, in strips of rows that any thread can encode.
 struct png_encoding {
     const lam_image *image;
-    const uint8_t *zeros; // the row above the first row
-    int bytes_per_pixel;  // 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGBA
-    int rows;             // the number of rows of each strip; the last strip may have fewer
+    const uint8_t *zeros;   // the row above the first row
+    struct png_span *spans; // of each row
+    int bytes_per_pixel;    // 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGBA
+    int rows;               // the number of rows of each strip; the last strip may have fewer
     int strips;
     size_t capacity;          // the maximum size of a strip's stream in bytes
     void *threads;            // the method's state, one per thread

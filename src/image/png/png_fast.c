@@ -2,7 +2,6 @@
 #include "deflate.h"
 #include "fail.h"
 #include "png_encoding.h"
-#include "png_filter.h"
 
 #include <string.h>
 
@@ -12,9 +11,8 @@ static int first_trial(int rows) { return rows < TRIAL_STEP ? 0 : TRIAL_STEP / 2
 
 static struct png_span span_at(const struct png_encoding *encoding, int y)
 {
-    const int width = encoding->image->width;
-    return png_span_filtered(png_span_of(png_pixel_row(encoding, y), width),
-                             png_span_of(png_pixel_row(encoding, y - 1), width), width);
+    const struct png_span none = {0};
+    return png_span_filtered(encoding->spans[y], y > 0 ? encoding->spans[y - 1] : none, encoding->image->width);
 }
 
 static void filter_span(const struct png_encoding *encoding, enum png_filter filter, int y, struct png_span span,
@@ -67,10 +65,8 @@ static size_t fast_strip(struct png_encoding *encoding, int strip, int thread, s
     const int top = strip * encoding->rows, rows = png_strip_rows(encoding, strip);
     const enum png_filter filter = choose_filter(encoding, scratch, top, rows);
     deflate_start(scratch, (uint8_t)filter, encoding->bytes_per_pixel < 3 || is_grey(encoding, top, rows));
-    struct png_span above = png_span_of(png_pixel_row(encoding, top - 1), width);
     for (int y = 0; y < rows; y++) {
-        const struct png_span here = png_span_of(png_pixel_row(encoding, top + y), width);
-        const struct png_span span = png_span_filtered(here, above, width);
+        const struct png_span span = span_at(encoding, top + y);
         memset(scratch->row, 0, (size_t)span.first * 4);
         filter_span(encoding, filter, top + y, span, scratch->row + span.first);
         memset(scratch->row + span.end, 0, (size_t)(width - span.end) * 4);
@@ -79,7 +75,6 @@ static size_t fast_strip(struct png_encoding *encoding, int strip, int thread, s
         adler_row(adler, scratch->row + span.first, span.end - span.first, encoding->bytes_per_pixel);
         adler_zeros(adler, (size_t)(width - span.end) * pixel);
         deflate_row(scratch, span.first, span.end);
-        above = here;
     }
     return deflate_write(scratch, out);
 }

@@ -74,83 +74,124 @@ static size_t join_pixels(const struct inflater *d, const struct picture_file *f
 
 // --- filters
 
-// The channels of a pixel are in the lower four of eight lanes. If the file has three channels or one, the fourth lane
-// is arbitrary.
-typedef uint8_t bytes8 __attribute__((vector_size(8)));
+// Four pixels of four channels. If the file has three channels or one, the fourth channel is arbitrary.
 typedef uint8_t bytes16 __attribute__((vector_size(16)));
 typedef uint32_t words4 __attribute__((vector_size(16)));
-typedef int16_t wide8 __attribute__((vector_size(16)));
 
-#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-#define WIDE(i) 16 + (i), i
-#else
-#define WIDE(i) i, 16 + (i)
-#endif
-
-static inline wide8 wide_of(uint32_t pixel)
+// Loads four bytes in memory order. Grey is copied to all channels.
+static inline uint32_t pixel_at(const uint8_t *at, int channels)
 {
-    const bytes16 bytes = (bytes16)(words4){pixel}, zero = {0};
-    return (wide8)__builtin_shufflevector(bytes, zero, WIDE(0), WIDE(1), WIDE(2), WIDE(3), WIDE(4), WIDE(5), WIDE(6),
-                                          WIDE(7));
-}
-
-// Loads four bytes in memory order.
-static inline uint32_t pixel_at(const uint8_t *at)
-{
-    uint32_t pixel;
-    memcpy(&pixel, at, sizeof pixel);
+    uint32_t pixel = *at * 0x01010101u;
+    if (channels != 1)
+        memcpy(&pixel, at, sizeof pixel);
     return pixel;
 }
 
-static inline void store_pixel(uint8_t *at, wide8 v)
-{
-    const bytes8 bytes = __builtin_convertvector(v, bytes8);
-    memcpy(at, &bytes, 4);
-}
-
 // Returns the smaller number in each lane. The code is written so that compilers use vector instructions.
-static inline wide8 min8(wide8 x, wide8 y)
+static inline bytes16 min16(bytes16 x, bytes16 y)
 {
-    for (int i = 0; i < 8; i++)
+    for (int i = 0; i < 16; i++)
         x[i] = x[i] < y[i] ? x[i] : y[i];
     return x;
 }
 
-static inline wide8 max8(wide8 x, wide8 y)
+static inline bytes16 max16(bytes16 x, bytes16 y)
 {
-    for (int i = 0; i < 8; i++)
+    for (int i = 0; i < 16; i++)
         x[i] = x[i] > y[i] ? x[i] : y[i];
     return x;
 }
 
 // Returns, per channel, the left, upper or upper left pixel (a, b or c) that is nearest to a + b − c. If distances are
-// equal, the first of them is used. If c is between a and b, the distance is high − c for the lower of both, c − low
-// for the higher, and |low + high − 2c| for c itself. The lower is nearest if 3c − a − b ≥ high, and the higher is
-// nearest if 3c − a − b ≤ low. These conditions are also correct for all other c. Only few steps depend on a, the most
-// recent pixel.
-static inline wide8 paeth(wide8 a, wide8 b, wide8 c)
+// equal, the first of them is used. If c is between a and b, the distance is x = high − c for the lower of both,
+// y = c − low for the higher, and |x − y| for c itself. The lower is nearest if 2x ≤ y, and the higher is nearest if
+// 2y ≤ x. If 0 replaces negative differences, these conditions are also correct for all other c. Both are only met if
+// a = b = c. Few steps depend on a, the most recent pixel.
+static inline bytes16 paeth(bytes16 a, bytes16 b, bytes16 c)
 {
-    const wide8 low = min8(a, b), high = max8(a, b), middle = (c + c + c - b) - a;
-    const wide8 takes_low = high <= middle, takes_high = middle <= low;
-    const wide8 other = (takes_low & low) | (~takes_low & c);
-    return (takes_high & high) | (~takes_high & other);
+    const bytes16 x = max16(a, max16(b, c)) - c, y = c - min16(a, min16(b, c));
+    const bytes16 takes_low = (bytes16)(max16(x, y >> 1) == y >> 1), takes_high = (bytes16)(max16(y, x >> 1) == x >> 1);
+    return c + ((takes_low & (min16(a, b) - c)) + (takes_high & (max16(a, b) - c)));
 }
 
-// Unfilters to pixels of `size` bytes, 3 or 4. A fourth byte is always read and written, even after the end of a row.
-// `filter` and `channels` are constants after inlining.
+// Returns the value that a filter adds to the pixel of the file.
+static inline bytes16 predicted(int filter, bytes16 a, bytes16 b, bytes16 c)
+{
+    return filter == 1   ? a
+           : filter == 2 ? b
+           : filter == 3 ? (a & b) + ((a ^ b) >> 1)
+           : filter == 4 ? paeth(a, b, c)
+                         : (bytes16){0};
+}
+
+// Unfilters a row to pixels of `size` bytes, 3 or 4. A fourth byte is always read and written, even after the end of a
+// row. `filter` and `channels` are constants after inlining.
 static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const uint8_t *above, const uint8_t *from,
                                                            size_t width, size_t size, int filter, int channels)
 {
-    const wide8 alpha = channels < 4 ? (wide8){0, 0, 0, 255} : (wide8){0};
-    wide8 a = {0}, c = {0};
+    const bytes16 alpha = channels < 4 ? (bytes16){0, 0, 0, 255} : (bytes16){0};
+    bytes16 a = {0}, c = {0};
     for (size_t i = 0; i < width; i++, row += size, above += size, from += channels) {
-        // Grey is copied to three channels.
-        wide8 v = wide_of(channels == 1 ? from[0] * 0x01010101u : pixel_at(from)), b = wide_of(pixel_at(above));
-        v += filter == 1 ? a : filter == 2 ? b : filter == 3 ? (a + b) >> 1 : filter == 4 ? paeth(a, b, c) : (wide8){0};
-        a = v & 255;
+        bytes16 b = (bytes16)(words4){pixel_at(above, 4)};
+        a = (bytes16)(words4){pixel_at(from, channels)} + predicted(filter, a, b, c);
         c = b;
-        store_pixel(row, a | alpha);
+        words4 out = (words4)(a | alpha);
+        memcpy(row, &out, 4);
     }
+}
+
+// Four rows that are unfiltered together. Each row is LAG pixels behind the row above it, so that the pixels do not
+// wait for one another.
+enum { ROWS = 4, LAG = 2, DELAY = LAG * (ROWS - 1) };
+
+struct four_rows {
+    uint8_t *row;
+    const uint8_t *above, *from;
+    size_t width, size;
+    bytes16 a, older,
+        c; // the pixels of the previous step and of the step before it, and the pixels above the previous ones
+    bytes16 looks_up; // all bits of the rows with filter 4; a row with filter 1 is the same with b = c = 0
+};
+
+// Unfilters pixel `i` of the first row, and the delayed pixels of the other rows. `inner` and `channels` are constants
+// after inlining. With `inner`, all of these pixels exist, and none of them is the last of its row.
+static inline __attribute__((always_inline)) void step_rows(struct four_rows *r, size_t i, bool inner, int channels)
+{
+    const size_t size = r->size;
+    const words4 alpha =
+        (words4)(channels < 4 ? (bytes16){0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255} : (bytes16){0});
+    const size_t step = (size_t)channels, from_row = 1 + r->width * step;
+    bool exists[ROWS];
+    uint32_t pixels[ROWS] = {0};
+    for (size_t k = 0; k < ROWS; k++) {
+        exists[k] = inner || (i >= LAG * k && i - LAG * k < r->width);
+        if (exists[k])
+            pixels[k] = pixel_at(r->from + k * from_row + (i - LAG * k) * step, channels);
+    }
+    const words4 older = (words4)r->older;
+    const bytes16 b = (bytes16)(words4){exists[0] ? pixel_at(r->above + i * size, 4) : 0, older[0], older[1], older[2]};
+    const bytes16 a = (bytes16)(words4){pixels[0], pixels[1], pixels[2], pixels[3]} +
+                      paeth(r->a, b & r->looks_up, r->c & r->looks_up);
+    r->older = r->a;
+    r->a = a;
+    r->c = b;
+    const words4 out = (words4)a | alpha;
+    for (size_t k = 0; k < ROWS; k++) {
+        const uint32_t pixel = out[k];
+        if (exists[k])
+            memcpy(r->row + (k * r->width + i - LAG * k) * size, &pixel, inner ? 4 : size);
+    }
+}
+
+static inline __attribute__((always_inline)) void unfilter_four(struct four_rows *r, int channels)
+{
+    size_t i = 0, last = r->width - 1;
+    for (; i < DELAY; i++)
+        step_rows(r, i, false, channels);
+    for (; i < last; i++)
+        step_rows(r, i, true, channels);
+    for (; i <= last + DELAY; i++)
+        step_rows(r, i, false, channels);
 }
 
 #define UNFILTER_CASES(channels)                                                                                       \
@@ -168,21 +209,45 @@ static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const u
         break;                                                                                                         \
     case 8 * channels + 4:                                                                                             \
         unfilter(row, above, from, width, size, 4, channels);                                                          \
+        break;                                                                                                         \
+    case 8 * channels + 5:                                                                                             \
+        unfilter_four(&(struct four_rows){row, above, from, width, size, .looks_up = looks_up}, channels);             \
         break;
 
-// Unfilters a row of the file, which consists of a filter byte and the pixels. Returns false if the filter is unknown.
-static bool unfilter_row(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t width, size_t size,
-                         int channels)
+// Returns whether the filters of the next rows are 1 or 4. *looks_up receives the rows with filter 4.
+static bool are_four(const uint8_t *from, size_t row_bytes, bytes16 *looks_up)
 {
+    words4 rows = {0};
+    for (size_t k = 0; k < ROWS; k++, from += row_bytes) {
+        if (*from != 1 && *from != 4)
+            return false;
+        rows[k] = *from == 4 ? UINT32_MAX : 0;
+    }
+    *looks_up = (bytes16)rows;
+    return true;
+}
+
+// Unfilters the next row of the file, or the next four rows. A row consists of a filter byte and the pixels. Returns the
+// number of unfiltered rows, or 0 if the filter is unknown. `left` is the number of rows that are left.
+static size_t unfilter_next(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t left, size_t width,
+                            size_t size, int channels)
+{
+    bytes16 looks_up = {0};
+    bool four = left >= ROWS && width > DELAY && are_four(from, 1 + width * (size_t)channels, &looks_up);
     int filter = *from++;
     if (filter > 4)
-        return false;
-    switch (8 * channels + filter) {
+        return 0;
+    if (filter == 2 && size == (size_t)channels) {
+        for (size_t i = 0; i < width * size; i++)
+            row[i] = (uint8_t)(from[i] + above[i]);
+        return 1;
+    }
+    switch (8 * channels + (four ? 5 : filter)) {
         UNFILTER_CASES(1)
         UNFILTER_CASES(3)
         UNFILTER_CASES(4)
     }
-    return true;
+    return four ? ROWS : 1;
 }
 
 // --- whole pictures
@@ -201,18 +266,17 @@ static bool decompress(const struct inflater *d, const uint8_t *compressed, size
 }
 
 // Unfilters rows in place. The file's rows are at the end of the picture's memory, so that no pixel is overwritten
-// before it is read.
+// before it is read, even if four rows are written at once.
 static bool unfilter_rows(const lam_image *image, const uint8_t *rows, const uint8_t *zeros, int channels)
 {
-    size_t width = (size_t)image->width, height = (size_t)image->height, size = pixel_bytes(image->format);
+    size_t width = (size_t)image->width, height = (size_t)image->height, size = pixel_bytes(image->format), made = 1;
     const uint8_t *above = zeros;
-    bool ok = true;
-    for (size_t y = 0; ok && y < height; y++, rows += 1 + width * (size_t)channels) {
+    for (size_t y = 0; made && y < height; y += made, rows += (1 + width * (size_t)channels) * made) {
         uint8_t *row = (uint8_t *)image->pixels + size * width * y;
-        ok = unfilter_row(row, above, rows, width, size, channels);
-        above = row;
+        made = unfilter_next(row, above, rows, height - y, width, size, channels);
+        above = row + size * width * (made - 1);
     }
-    return ok;
+    return made;
 }
 
 static size_t filtered_bytes(size_t width, size_t height, int channels)
@@ -223,7 +287,7 @@ static size_t filtered_bytes(size_t width, size_t height, int channels)
 size_t png_whole_extra(uint32_t width, uint32_t height, lam_pixel_format format, int channels)
 {
     size_t filtered = filtered_bytes(width, height, channels), pixels = (size_t)width * height * pixel_bytes(format);
-    return (filtered > pixels ? filtered - pixels : 0) + 1;
+    return (filtered > pixels ? filtered - pixels : 0) + ROWS * (1 + 4 * (size_t)width);
 }
 
 bool png_read_whole(const struct picture_file *file, int channels, lam_image *image)

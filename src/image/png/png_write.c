@@ -85,23 +85,24 @@ static int channels_of(const uint8_t *pixels, size_t count)
     return (colored ? PNG_COLORED : 0) | (opaque ? 0 : PNG_TRANSLUCENT);
 }
 
-// Adds the channels that a strip's pixels need. Strips are skipped only if all channels are already needed, so the
-// result does not depend on the order of the strips.
-static void find_channels(void *user, size_t index, int thread)
+// Finds the spans of a strip's rows, and adds the channels that its pixels need. Pixels are skipped only if all channels
+// are already needed, so the result does not depend on the order of the strips.
+static void examine_strip(void *user, size_t index, int thread)
 {
     (void)thread;
-    enum { BLOCK = 4096 };
     struct png_writer *writer = user;
     const struct png_encoding *encoding = &writer->encoding;
-    const uint8_t *pixels = png_pixel_row(encoding, (int)index * encoding->rows);
-    size_t left = (size_t)png_strip_rows(encoding, (int)index) * (size_t)encoding->image->width;
-    for (int known; left && (known = __atomic_load_n(&writer->channels, __ATOMIC_RELAXED)) != PNG_ALL_CHANNELS;) {
-        const size_t count = left < BLOCK ? left : BLOCK;
-        const int found = channels_of(pixels, count);
+    const int width = encoding->image->width, top = (int)index * encoding->rows;
+    for (int y = top; y < top + png_strip_rows(encoding, (int)index); y++) {
+        const uint8_t *row = png_pixel_row(encoding, y);
+        const struct png_span span = encoding->spans[y] = png_span_of(row, width);
+        const int known = __atomic_load_n(&writer->channels, __ATOMIC_RELAXED), count = span.end - span.first;
+        if (known == PNG_ALL_CHANNELS)
+            continue;
+        const int found =
+            channels_of(row + 4 * (size_t)span.first, (size_t)count) | (count < width ? PNG_TRANSLUCENT : 0);
         if (found & ~known)
             __atomic_fetch_or(&writer->channels, found, __ATOMIC_RELAXED);
-        pixels += 4 * count;
-        left -= count;
     }
 }
 
@@ -228,19 +229,22 @@ bool png_write_channels(const lam_image *image, const lam_save_params *params, s
     encoding->strips = (image->height + encoding->rows - 1) / encoding->rows;
     if (encoding->strips == 1)
         pool = NULL;
-    pool_run(pool, (size_t)encoding->strips, find_channels, &writer);
-    *channels = writer.channels;
-    encoding->bytes_per_pixel = (writer.channels & PNG_COLORED ? 3 : 1) + (writer.channels & PNG_TRANSLUCENT ? 1 : 0);
     crc_tables_make(&writer.crc);
 
     struct arena arena;
     arena_start(&arena, NULL);
     const int batch = encoding->strips < BATCH_STRIPS ? encoding->strips : BATCH_STRIPS;
+    const size_t height = (size_t)image->height, row_bytes = (size_t)image->width * 4;
     writer.done = arena_array(&arena, (size_t)batch, sizeof *writer.done);
-    encoding->zeros = arena_alloc_zeroed(&arena, (size_t)image->width * 4);
-    bool ok = writer.done && encoding->zeros;
-    if (!ok)
-        fail_memory(error, (size_t)batch * sizeof *writer.done + (size_t)image->width * 4);
+    encoding->spans = arena_array(&arena, height, sizeof *encoding->spans);
+    encoding->zeros = arena_alloc_zeroed(&arena, row_bytes);
+    bool ok = writer.done && encoding->spans && encoding->zeros;
+    if (ok)
+        pool_run(pool, (size_t)encoding->strips, examine_strip, &writer);
+    else
+        fail_memory(error, (size_t)batch * sizeof *writer.done + height * sizeof *encoding->spans + row_bytes);
+    *channels = writer.channels;
+    encoding->bytes_per_pixel = (writer.channels & PNG_COLORED ? 3 : 1) + (writer.channels & PNG_TRANSLUCENT ? 1 : 0);
     ok = ok && writer.method->start(encoding, pool, &arena, error) &&
          encode_strips(&writer, params->raw, pool, out, error);
     if (writer.method->end)

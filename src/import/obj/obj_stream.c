@@ -12,12 +12,14 @@
 #include "pages.h"
 
 #include <sched.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
     TAIL = 16 << 10,            // bytes read after a chunk, for its last line
     STATEMENTS = 4096,          // the maximum number of statements per chunk
     COUNT_MAX = UINT32_MAX - 1, // the maximum number of elements of a kind
+    SMALL_FILE = 16 << 20,      // the arrays of smaller files fill few huge pages
 };
 
 enum array { POSITIONS, TEXCOORDS, NORMALS, CORNERS, CORNER_TEXCOORDS, CORNER_NORMALS, POLYGONS, ARRAYS };
@@ -53,8 +55,11 @@ struct stream {
     struct loop_status loop;
     int unsupported; // atomic; set if obj.c must read the file instead
     struct chunk_scratch *scratch;
+    uint8_t *scratch_memory; // of all threads
+    size_t scratch_bytes;    // charged to the call
     uint8_t *arrays[ARRAYS];
-    size_t reserved[ARRAYS];
+    size_t reserved[ARRAYS], reserved_marks;
+    uint8_t *marks;    // mesh_mark_vertices
     size_t next_chunk; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
     struct obj_counts total;
     size_t charged;
@@ -69,6 +74,8 @@ static bool stream_continues(struct stream *stream)
 {
     return !__atomic_load_n(&stream->unsupported, __ATOMIC_RELAXED) && should_continue(&stream->loop);
 }
+
+static bool is_small(const struct stream *stream) { return stream->file->size < SMALL_FILE; }
 
 static uint64_t count_of(const struct obj_counts *counts, enum array kind)
 {
@@ -229,12 +236,17 @@ static bool count_chunk(struct stream *stream, struct chunk_scratch *scratch, si
 }
 
 static void copy_corners(const struct stream *stream, struct chunk_scratch *scratch, enum array kind, uint64_t first,
-                         uint64_t triangles)
+                         const struct obj_counts *counts)
 {
-    const uint32_t *from = scratch->arrays[kind];
+    uint32_t *from = scratch->arrays[kind];
+    // A polygon of n corners leaves 2 n - 6 indices unset until it is divided into triangles.
+    const struct mesh_polygon *polygons = scratch->arrays[POLYGONS];
+    for (size_t i = 0; i < counts->polygons; i++)
+        memset(from + 3 * (size_t)polygons[i].first_triangle + polygons[i].count, 0,
+               (2 * (size_t)polygons[i].count - 6) * sizeof *from);
     uint32_t *to = (uint32_t *)(void *)stream->arrays[kind] + 3 * first;
     uint32_t index_max = scratch->index_max[kind - CORNERS];
-    for (size_t i = 0; i < 3 * triangles; i++) {
+    for (size_t i = 0; i < 3 * counts->triangles; i++) {
         index_max = from[i] > index_max ? from[i] : index_max;
         to[i] = from[i];
     }
@@ -244,14 +256,19 @@ static void copy_corners(const struct stream *stream, struct chunk_scratch *scra
 static void copy_chunk(const struct stream *stream, struct chunk_scratch *scratch, const struct obj_counts *counts,
                        const struct obj_counts *before)
 {
+    for (enum array kind = 0; is_small(stream) && kind < ARRAYS; kind++)
+        pages_prepare(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row,
+                      (size_t)count_of(counts, kind) * array_kinds[kind].row);
     for (enum array kind = POSITIONS; kind <= NORMALS; kind++)
         memcpy(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row, scratch->arrays[kind],
                (size_t)count_of(counts, kind) * array_kinds[kind].row);
-    copy_corners(stream, scratch, CORNERS, before->triangles, counts->triangles);
+    copy_corners(stream, scratch, CORNERS, before->triangles, counts);
+    if (scratch->index_max[0] < rows_max(POSITIONS, stream->file->size)) // otherwise the index is wrong
+        mesh_mark_vertices(scratch->arrays[CORNERS], 3 * counts->triangles, stream->marks);
     if (scratch->texcoords)
-        copy_corners(stream, scratch, CORNER_TEXCOORDS, before->triangles, counts->triangles);
+        copy_corners(stream, scratch, CORNER_TEXCOORDS, before->triangles, counts);
     if (scratch->normals)
-        copy_corners(stream, scratch, CORNER_NORMALS, before->triangles, counts->triangles);
+        copy_corners(stream, scratch, CORNER_NORMALS, before->triangles, counts);
     const struct mesh_polygon *from = scratch->arrays[POLYGONS];
     struct mesh_polygon *to = (struct mesh_polygon *)(void *)stream->arrays[POLYGONS] + before->polygons;
     for (size_t i = 0; i < counts->polygons; i++)
@@ -283,8 +300,11 @@ static bool alloc_scratch(struct stream *stream)
     size_t text = OBJ_CHUNK + TAIL + FILE_PADDING, bytes = text;
     for (enum array kind = 0; kind < ARRAYS; kind++)
         bytes += (rows_max(kind, OBJ_CHUNK) + 1) * array_kinds[kind].row / 64 * 64 + 64;
-    uint8_t *memory = arena_array(&obj->memory, threads, bytes);
-    if (!stream->scratch || !memory)
+    if (!stream->scratch || !call_charge(stream->loop.call, threads * bytes))
+        return false;
+    stream->scratch_bytes = threads * bytes;
+    uint8_t *memory = stream->scratch_memory = pages_malloc(threads * bytes); // the picture may use this memory later
+    if (!memory)
         return false;
     for (size_t t = 0; t < threads; t++) {
         struct chunk_scratch *scratch = &stream->scratch[t];
@@ -313,11 +333,12 @@ static bool reserve_arrays(struct stream *stream)
 {
     for (enum array kind = 0; kind < ARRAYS; kind++) {
         size_t bytes = rows_max(kind, stream->file->size) * array_kinds[kind].row;
-        stream->arrays[kind] = pages_get(bytes, &stream->reserved[kind]);
+        stream->arrays[kind] = (is_small(stream) ? pages_get_sparse : pages_get)(bytes, &stream->reserved[kind]);
         if (!stream->arrays[kind])
             return false;
     }
-    return true;
+    stream->marks = pages_get_sparse(rows_max(POSITIONS, stream->file->size), &stream->reserved_marks);
+    return stream->marks != NULL;
 }
 
 // Returns whether all indices in the faces refer to existing elements, and whether the counts are in range.
@@ -415,6 +436,8 @@ static bool load(struct stream *stream)
         .texcoord_used = obj->texcoords != NULL,
         .normal_used = obj->normals != NULL,
     };
+    // The memory for the triangles of a polygon contains other numbers than the polygon's corners.
+    obj->scene->first_all_used = !stream->total.polygons && !memchr(stream->marks, 0, stream->total.positions);
     obj->chunks = &whole;
     obj->chunk_count = 1;
     return obj_complete(obj, NULL) && !obj->line_requested;
@@ -431,7 +454,10 @@ bool obj_load_stream(const struct import_source *source, struct lam_scene *scene
         if (stream.reserved[kind])
             pages_free(stream.arrays[kind], stream.reserved[kind]);
     }
-    call_refund(source->call, stream.charged);
+    if (stream.reserved_marks)
+        pages_free(stream.marks, stream.reserved_marks);
+    free(stream.scratch_memory);
+    call_refund(source->call, stream.charged + stream.scratch_bytes);
     arena_free(&obj.memory);
     return done;
 }

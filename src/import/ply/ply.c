@@ -213,6 +213,7 @@ static bool build(struct ply_import *reader, lam_error *error)
     if (surface) {
         bool done = reader->elements[FACES] ? ply_faces(source, &reader->tables[FACES], scene, &mesh, error)
                                             : ply_strips(source, &reader->tables[STRIPS], scene, &mesh, error);
+        scene->first_all_used = reader->tables[FACES].all_used;
         if (!done || !mesh_add_object(scene, &mesh, NULL, error))
             return false;
     }

@@ -79,6 +79,7 @@ struct ply_table {
     // are set. Rows of fewer than three corners reserve no items.
     uint32_t *items;
     const uint32_t *starts; // one more element than the table has rows
+    bool all_used;          // every number below the request's item_limit is known to be an item
 };
 
 // The data that a caller requests from an element.

@@ -4,9 +4,12 @@
 // them, and then their chunks are read in parallel. In nearly all files, each face is a list of three corners. If the
 // number of remaining bytes matches this layout, the rows are read with its fixed stride, and checked.
 #include "fail.h"
+#include "mesh_build.h"
 #include "shown_name.h"
 #include "ply_load.h"
 #include "ply_rows.h"
+
+#include <string.h>
 
 // Reports a wrong item of a row's list. The list is at `items` in memory, and at `offset` in the file.
 static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t *items, size_t offset, uint32_t item,
@@ -39,6 +42,12 @@ static uint32_t read_items(const struct ply_reader *reader, const uint8_t *at, u
     return count;
 }
 
+static void mark_items(const struct ply_reader *reader, size_t first, size_t last)
+{
+    if (reader->marks)
+        mesh_mark_vertices(reader->items + 3 * first, 3 * (last - first), reader->marks);
+}
+
 // Reads a chunk of rows with three items each, at a fixed stride.
 static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_error *error)
 {
@@ -66,8 +75,10 @@ static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_er
             __atomic_store_n(&reader->mixed, 1, __ATOMIC_RELAXED);
             return true;
         }
-        if (!wrong)
+        if (!wrong) {
+            mark_items(reader, first, last);
             return true;
+        }
         at = rows + reader->list_offset;
         items = reader->items + 3 * first;
     }
@@ -81,6 +92,7 @@ static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_er
             return fail_item(reader, row, at + count_size,
                              all->offset + row * stride + reader->list_offset + count_size, good, error);
     }
+    mark_items(reader, first, last);
     return true;
 }
 
@@ -115,7 +127,10 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
         ply_type_size(element->properties[list].count_type) + 3 * ply_type_size(element->properties[list].type);
     reader->items = arena_array(keep, count, 3 * sizeof *reader->items);
     uint32_t *offsets = arena_array(scratch, property_count, sizeof *offsets);
-    if (!reader->items || !offsets)
+    const size_t limit = reader->request->item_limit;
+    const bool may_use_all = limit <= 3 * count;
+    reader->marks = may_use_all ? arena_alloc_zeroed(scratch, limit) : NULL;
+    if (!reader->items || !offsets || (may_use_all && !reader->marks))
         return call_memory_error(reader->source->call, count * 3 * sizeof *reader->items, error);
     struct ply_table *table = reader->table;
     reader->list_offset = table->offsets[list];
@@ -134,6 +149,7 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
         offsets[i] = table->offsets[i] + ((int)i > list ? (uint32_t)list_bytes : 0);
     table->offsets = offsets;
     table->items = reader->items;
+    table->all_used = may_use_all && !memchr(reader->marks, 0, limit);
     *done = true;
     return true;
 }

@@ -23,7 +23,8 @@ struct ply_reader {
     // ply_binary.c
     size_t offset; // the offset of row 0 in the file
     size_t list_offset;
-    int mixed; // atomic; set if a row has more or fewer than the expected three items
+    uint8_t *marks; // mesh_mark_vertices; one byte per vertex, or NULL if there are more vertices than items
+    int mixed;      // atomic; set if a row has more or fewer than the expected three items
 };
 
 // Allocates the arrays that the serial pass fills.

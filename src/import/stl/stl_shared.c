@@ -2,8 +2,7 @@
 //
 // A binary STL stores three corners for each facet. Programs store neighbouring facets close to one another in the
 // file, so a small table of recent vertices finds nearly all corners at the same position. The mesh then needs half the
-// memory, and later steps process each vertex once. If the caller requests facet normals, vertices are not shared,
-// because later steps are then faster.
+// memory, and later steps process each vertex once.
 //
 // The facets are divided into windows, and vertices are shared only within a window. One thread reads the chunks of a
 // window in order. Once the vertices of the previous window are counted, the thread knows the numbers of its vertices
@@ -18,21 +17,37 @@
 #include <string.h>
 
 enum {
-    WINDOWS = 32,         // the maximum number of windows
+    // With few windows, more facets share vertices. With many windows, more threads are busy.
+    WINDOWS = 16,     // number of windows if a window then has at most WINDOW_CHUNKS chunks
+    WINDOWS_MAX = 32, // the maximum number of windows
+    WINDOW_CHUNKS = 16,
     FACETS_MIN = 1 << 16, // smaller files gain little
-    TABLE_BITS = 15,      // the table has 2^TABLE_BITS entries: 512 KiB
+    TABLE_BITS = 14,      // the table has 2^TABLE_BITS pairs of vertices: 512 KiB
 };
 
-// The most recent vertex with a given hash. An empty entry contains the bits of NaN, so it differs from every valid
-// position.
 struct recent_vertex {
     uint64_t xy; // bits of the position
-    uint32_t z, vertex;
+    uint32_t z, number;
 };
+
+// The two most recent vertices with a given hash. With one vertex, many vertices of large models would be forgotten
+// before the next row of facets uses them.
+typedef struct recent_vertex recent_vertices[2];
+
+// Returns the index of a position's pair in the table. The position 0 has index 0.
+static inline size_t pair_of(uint64_t xy, uint32_t z)
+{
+    return (xy * UINT64_C(0x9e3779b97f4a7c15) + z * UINT64_C(0xd6e8feb86659fd93)) >> (64 - TABLE_BITS);
+}
+
+static inline bool is_at(const struct recent_vertex *recent, uint64_t xy, uint32_t z)
+{
+    return ((xy ^ recent->xy) | (z ^ recent->z)) == 0;
+}
 
 // The memory of one thread.
 struct share_worker {
-    struct recent_vertex *table;
+    recent_vertices *table;
     uint32_t (*positions)[3]; // bits of the positions of the window's vertices
     uint8_t *rows;            // the facets of a chunk, if the file is read in parts
 };
@@ -55,29 +70,32 @@ struct sharing {
     uint32_t vertices;  // number of vertices in the windows before next_window
 };
 
-// Finds the vertices of some facets. `count` is the number of vertices so far. Returns the new number. The processor
-// cannot predict whether a position has occurred before, so the loop contains no branch. No address that is read
-// depends on an earlier comparison, so the processor does not wait for the comparison.
+// Finds the vertices of some facets. `count` is the number of vertices so far. Returns the new number. Nearly all corners
+// are at the position of the most recent vertex with their hash, and need one comparison. No address that is read depends
+// on an earlier comparison, so the processor does not wait for the comparison.
 static uint32_t share_facets(const struct share_worker *worker, const uint8_t *facet, size_t facets, uint32_t count,
                              uint32_t *restrict indices, struct stl_words *words)
 {
-    struct recent_vertex *restrict table = worker->table;
+    recent_vertices *restrict table = worker->table;
     uint32_t(*restrict positions)[3] = worker->positions;
     for (size_t i = 0; i < facets; i++, facet += STL_FACET) {
         for (size_t k = 0; k < 3; k++) {
+            const uint8_t *corner = facet + STL_CORNERS + 12 * k;
             uint64_t xy;
             uint32_t z;
-            memcpy(&xy, facet + STL_CORNERS + 12 * k, sizeof xy);
-            memcpy(&z, facet + STL_CORNERS + 12 * k + 8, sizeof z);
-            uint64_t hash = xy * UINT64_C(0x9e3779b97f4a7c15);
-            hash = (hash ^ hash >> 32 ^ z) * UINT64_C(0xd6e8feb86659fd93);
-            struct recent_vertex *recent = &table[hash >> (64 - TABLE_BITS)];
-            uint32_t is_new = ((xy ^ recent->xy) | (z ^ recent->z)) != 0;
-            uint32_t vertex = recent->vertex ^ ((recent->vertex ^ count) & -is_new);
-            *recent = (struct recent_vertex){xy, z, vertex};
-            memcpy(positions[count], facet + STL_CORNERS + 12 * k, sizeof *positions);
-            count += is_new;
-            *indices++ = vertex;
+            memcpy(&xy, corner, sizeof xy);
+            memcpy(&z, corner + 8, sizeof z);
+            struct recent_vertex *recent = table[pair_of(xy, z)];
+            if (!is_at(&recent[0], xy, z)) {
+                // 0, or all bits
+                uint32_t is_second = -(uint32_t)is_at(&recent[1], xy, z);
+                uint32_t number = count ^ ((count ^ recent[1].number) & is_second);
+                recent[1] = recent[0];
+                recent[0] = (struct recent_vertex){xy, z, number};
+                memcpy(positions[count], corner, sizeof *positions);
+                count += 1 + is_second;
+            }
+            *indices++ = recent[0].number;
         }
         stl_add_word(words, stl_word_of(facet));
     }
@@ -111,9 +129,12 @@ static bool share_chunk(struct sharing *s, struct share_worker *worker, size_t i
     return all_finite(worker->positions + before, *count - before);
 }
 
+// An empty entry has a position of another pair, so that no corner is found there: the position 0, and in pair 0 a
+// position of NaN.
 static void start_window(struct share_worker *worker)
 {
-    memset(worker->table, 0xff, sizeof *worker->table << TABLE_BITS);
+    memset(worker->table, 0, sizeof *worker->table << TABLE_BITS);
+    memset(worker->table[0], 0xff, sizeof worker->table[0]);
 }
 
 // Waits until the previous window is counted, and counts this window. Returns the number of vertices before this
@@ -210,13 +231,21 @@ static bool share(struct sharing *s, struct lam_scene *scene, lam_mesh *mesh)
     mesh->positions = (const float *)(const void *)s->positions;
     mesh->vertex_count = s->vertices;
     mesh->indices = s->indices;
+    scene->first_all_used = true;
     return true;
+}
+
+// Returns the number of chunks per window.
+static size_t window_chunks(size_t chunks)
+{
+    size_t few = (chunks + WINDOWS - 1) / WINDOWS, many = (chunks + WINDOWS_MAX - 1) / WINDOWS_MAX;
+    return few < WINDOW_CHUNKS ? few : many > WINDOW_CHUNKS ? many : WINDOW_CHUNKS;
 }
 
 bool stl_share_vertices(const struct import_source *source, const struct row_bytes *facets, struct stl_words *words,
                         struct lam_scene *scene, lam_mesh *mesh)
 {
-    if (facets->count < FACETS_MIN || source->params->normals == LAM_NORMALS_FACET)
+    if (facets->count < FACETS_MIN)
         return false;
     struct arena scratch;
     arena_start(&scratch, source->call);
@@ -225,7 +254,7 @@ bool stl_share_vertices(const struct import_source *source, const struct row_byt
                         .facets = facets,
                         .chunks = parallel_rows_count(facets->count),
                         .words = words};
-    s.window_chunks = (s.chunks + WINDOWS - 1) / WINDOWS;
+    s.window_chunks = window_chunks(s.chunks);
     s.window_vertices = (s.window_chunks + 1) * PARALLEL_ROWS * 3 / 2;
     bool done = start_workers(&s, &scratch) && first_chunk_shares(&s, &scratch) && share(&s, scene, mesh);
     if (s.reserved_indices)

@@ -29,6 +29,14 @@ void pages_free(void *pages, size_t held)
         VirtualFree(pages, 0, MEM_RELEASE);
 }
 
+void *pages_malloc(size_t bytes) { return malloc(bytes); }
+
+void pages_prepare(void *at, size_t bytes)
+{
+    (void)at;
+    (void)bytes;
+}
+
 void pages_trim(void *pages, size_t *held, size_t bytes)
 {
     size_t kept = whole_pages(bytes);

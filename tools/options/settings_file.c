@@ -234,9 +234,10 @@ static bool take_ground(struct settings_parser *r, const json_t *value)
     const struct option *option = option_find("ground");
     bool color = json_is_string(value) && strcmp(json_string_value(value), "color") == 0;
     if (color && !json_is_string(r->ground_color))
-        return wrong(r, NULL, "ground", "found 'color', expected also a string \"ground_color\", such as \"#888888\"");
+        return wrong(r, NULL, "ground",
+                     "found 'color', expected a string \"ground_color\" as well, such as \"#888888\"");
     if (!color && r->ground_color)
-        return wrong(r, NULL, "ground_color", "expected also \"ground\": \"color\"");
+        return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" as well");
     return take_value(r, NULL, "ground", option, color ? r->ground_color : value);
 }
 
@@ -289,7 +290,7 @@ static bool take_root(struct settings_parser *r, json_t *root)
     json_t *value;
     r->ground_color = json_object_get(root, "ground_color");
     if (r->ground_color && !json_object_get(root, "ground"))
-        return wrong(r, NULL, "ground_color", "expected also \"ground\": \"color\"");
+        return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" as well");
     json_object_foreach(root, key, value)
     {
         bool is_group = strcmp(key, "image") == 0 || strcmp(key, "environment") == 0;

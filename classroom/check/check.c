@@ -19,7 +19,8 @@
 
 // --- preparation
 
-// Returns a scene with only those features that the shaders can express and that a term of the scene shows.
+// Returns a scene without the features that the shaders cannot express, and without those that no term of the scene
+// shows.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
@@ -36,7 +37,7 @@ static struct reference_scene visible_scene(const struct run *r, int index)
     return s;
 }
 
-// Returns whether a scene is the same for these shaders as one of `scenes`. Shaders that declare no name for a strength
+// Returns whether these shaders draw a scene exactly like one of `scenes`. Shaders that declare no name for a strength
 // draw every term in every scene.
 static bool is_repeated(const struct run *r, int index, unsigned scenes)
 {
@@ -395,7 +396,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (!check_reserved("lam_check_params", params, error) ||
         (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
-    lam_check_params own = *params; // a copy whose shaders read the fixed state of GLSL 110 and 120 from inputs
+    lam_check_params own = *params; // a copy, in whose shaders inputs replace the fixed state of GLSL 110 and 120
     struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)

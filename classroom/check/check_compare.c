@@ -67,7 +67,7 @@ static uint64_t count_not_numbers(const float *pixels, size_t count)
 static float decode(float encoded) { return (float)srgb_linear((double)encoded); }
 
 // Returns whether the shader encodes its colours as sRGB, like the shaders that `lambent shader` prints. The source of
-// such a shader contains the constant 12.92 of the encoding. Its pictures are decoded before they are compared.
+// such a shader contains the encoding's constant 12.92. The shader's pictures are decoded before they are compared.
 static bool is_encoded(const struct run *r)
 {
     return r->interface.contract->printed && declarations_uses(&r->interface.fragment, "12.92");
@@ -188,10 +188,10 @@ static bool is_searchable(struct run *r, bool writes)
         form && (model == LAM_REFLECTION_AUTO || model == LAM_REFLECTION_PHONG || model == LAM_REFLECTION_BLINN_PHONG ||
                  (model == LAM_REFLECTION_GGX && !r->interface.multiple_scattering));
     if (!known)
-        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "lambent does not search for mistakes in this shader of `lambent shader`: it searches only "
-                        "with the models of Lambert, Phong and Blinn-Phong, and GGX with --single-scattering, and "
-                        "never with --gl1 or --viewer infinite");
+        diagnostics_add(
+            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+            "lambent does not search for mistakes in this shader, which `lambent shader` printed: it supports only "
+            "Lambert, Phong, Blinn-Phong and GGX with --single-scattering, without --gl1 and --viewer infinite");
     for (int i = 0; i < r->scene_count; i++) {
         clear += check_missing_share(&r->scenes[i], false) / r->scene_count;
         r->scenes[i].spoilt = check_missing_share(&r->scenes[i], true) > 0.25;
@@ -204,7 +204,7 @@ static bool is_searchable(struct run *r, bool writes)
     return writes && known && clear < 0.9 && usable > 0;
 }
 
-// Finds the accepted styles that the shader uses, which are as correct as the reference. Then compares the shader with
+// Finds the styles that the shader uses. These styles are as correct as the reference. Then compares the shader with
 // pictures drawn in these styles.
 static bool accept_styles(struct run *r, struct fault_search *s, bool writes, lam_error *error)
 {

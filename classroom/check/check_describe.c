@@ -101,8 +101,8 @@ static const struct {
     {"only small highlights differ: check the exponent", is_glossy},
 };
 
-// Returns the number of scenes with a property, if all differing scenes have it and nearly all scenes with it differ;
-// otherwise 0.
+// Returns the number of scenes with a property. Returns 0 if a scene without the property differs, or if too few scenes
+// with the property differ.
 static int count_with(const struct run *r, bool (*has)(const struct run *r, int scene))
 {
     int with = 0, failed = 0;
@@ -170,10 +170,9 @@ static void find_projected_normal(struct run *r)
             lit = lit || is_any(word, normal, 2);
         }
         if (projected && lit) {
-            diagnostics_add(
-                &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, r->params->vertex_name, d->words[begin].line,
-                "the normal is multiplied by the projection, after which angles mean nothing; use the normal "
-                "matrix (normal-clip-space)");
+            diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, r->params->vertex_name, d->words[begin].line,
+                            "the normal is multiplied by the projection, which does not preserve angles; use the "
+                            "normal matrix (normal-clip-space)");
             return;
         }
         if (projected && assigned && clip_count < MAX_CLIP && strcmp(d->words[begin].text, "mat4") == 0)

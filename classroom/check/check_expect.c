@@ -51,7 +51,7 @@ static bool draw_by_shader(struct run *r, struct scene_comparison *scene, lam_er
     return fault_shader_draw(r->shader, &scene->reference_scene, &model, &none, scene->reference, error);
 }
 
-// Makes a scene that contains only the surfaces. Sets whether both of their sides are drawn.
+// Makes a scene that contains only the surfaces, and lights one side or both sides of the surfaces.
 static lam_scene *surfaces_of(const struct run *r, const struct reference_scene *s, lam_camera *camera,
                               lam_error *error)
 {
@@ -174,7 +174,7 @@ struct open_number {
     int count, own; // 1 + the index of the contract's own value; 0 means the source does not contain it
 };
 
-// Finds the numbers with an open value, and counts the combinations of values.
+// Finds the numbers whose values are not known, and counts the combinations of possible values.
 static int find_open(struct shader_interface *interface, struct open_number open[MAX_OPEN], int *count)
 {
     enum uniform_semantic semantics[SEMANTIC_COUNT];

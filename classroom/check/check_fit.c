@@ -26,7 +26,7 @@ static const double max_negative = 0.01; // a factor below the negative of this 
 
 struct fit {
     struct run *r;
-    struct fault_shader *shader; // draws the pictures with a stride
+    struct fault_shader *shader; // draws every `stride`-th pixel of every `stride`-th row
     int stride, size;
     uint32_t *from[MAX_SCENES],
         *to[MAX_SCENES]; // pixel indices in the shader's pictures and in the pictures of the fault shader
@@ -186,7 +186,8 @@ static bool find_faults(struct fit *f, const struct interpretation *interpretati
 
 // --- the report
 
-// Draws the references: a correct shader of this interpretation, with its factors.
+// Draws the references as a correct shader would draw them under this interpretation, with the interpretation's
+// factors.
 static bool draw_references(struct run *r, const struct interpretation *g, lam_error *error)
 {
     size_t pixels = (size_t)r->size * (size_t)r->size;
@@ -249,7 +250,7 @@ static int by_mean(const void *a, const void *b)
 }
 
 // Lists the interpretations to combine with faults: those that differ from the closest interpretation only in the
-// highlight and its forms. If the source contains reflect(), the highlight is Phong's.
+// highlight. If the source contains reflect(), the highlight is Phong's.
 static int choose_bases(const struct run *r, struct interpretation *interpretations, int count,
                         const struct interpretation *best)
 {

@@ -25,7 +25,7 @@ struct run {
     lam_light_frame frame; // the space of the first light
     lam_reflection reflection;
     char *vertex;    // the vertex shader, which is generated if the caller provides none
-    lam_bytes bytes; // the drawing process's message, into which `drawn` points
+    lam_bytes bytes; // the drawing process's message; `drawn` contains pointers to parts of the message
     struct draw_result drawn;
     struct scene_comparison *scenes;
     int scene_count;

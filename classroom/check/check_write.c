@@ -29,12 +29,12 @@ static const struct {
      "it points away from the light; if yours points to the light, use light_direction. Correct `space` too"},
     {"eye_position", "correct `space` if the program uses another space"},
     {"normal_matrix", "correct `space` if the matrix transforms to another space"},
-    {"shininess", "the exponent of the highlight, which the scenes choose"},
+    {"shininess", "the highlight's exponent, which each scene sets"},
 };
 
 static const char *const root_comment[] = {
     "Written by `lambent check --write-contract`; docs/check/contract-file.md explains every key and every role.",
-    "Correct `name` and `title` first, then `space`: eye or world, the space of the lighting.",
+    "Correct `name` and `title` first, then `space`: the space in which lighting is computed (eye or world).",
     "\"strengths\": \"any\" accepts every colour and strength. With \"given\", each name needs a role, and mistakes in "
     "colours are found.",
     "If the exercise demands them, add \"gate\": \"required\", \"unit_normals\": \"required\", \"bare_ambient\": "
@@ -58,7 +58,8 @@ static json_t *comment_of(const json_t *entry)
     return json_sprintf("%s%s%s", role ? meaning_of(role) : "", correct ? "; " : "", correct ? correct : "");
 }
 
-// Adds a comment to each entry without a comment, and restores names of the fixed state.
+// Adds a comment to each entry that lacks one. Restores names such as gl_LightSource, which checks rename to
+// fixed_LightSource.
 static json_t *comment_entries(const json_t *entries)
 {
     json_t *out = json_object();

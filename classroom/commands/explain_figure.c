@@ -163,9 +163,8 @@ static bool draw_arrow(const struct diagram *g, int arrow, struct drawing *d, la
            draw_line(d, line, 2, 2.6 * unit, color, 0, error) && draw_line(d, wings, 3, 2.6 * unit, color, 0, error);
 }
 
-// Draws the arrows in an order that keeps all of them visible. In the picture, h lies on l and is shorter, because v
-// points towards the viewer. Therefore h is drawn after l. Then n is drawn, and vectors towards the viewer are drawn
-// last.
+// Draws the arrows in an order in which no arrow hides another. In the picture, the arrow h covers the beginning of the
+// arrow l, so h is drawn after l. Then n is drawn, and vectors towards the viewer are drawn last.
 static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *error)
 {
     static const int order[ARROWS] = {2, 3, 5, 1, 4, 0};
@@ -178,8 +177,8 @@ static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *
     return spot;
 }
 
-// Computes where the tips of all arrows lie in the picture if each arrow starts at the shaded point and has this
-// length. Returns false if a tip is outside the picture.
+// Computes the positions of the arrows' tips in the picture. Each arrow starts at the shaded point and has the length
+// `length` in the scene. Returns false if a tip is outside the picture.
 static bool find_tips(const struct explain_figure *f, const struct subject *s, double length, double margin,
                       struct point tips[ARROWS])
 {
@@ -221,9 +220,9 @@ static bool draw_vectors(const struct explain_figure *f, const struct subject *s
     return draw_diagram(&g, d, error);
 }
 
-// Draws the vectors in the plane of the normal and the light (or of n and v, if there is no light), with the surface as
-// a horizontal line. For a thread, draws the plane of t and l, with the thread as the horizontal line, because only the
-// angle between t and l matters.
+// Draws the vectors from the side: in the plane of n and l (or of n and v, if there is no light). The surface is a
+// horizontal line. For a thread, the plane contains t and l, because only the angle between t and l matters, and the
+// thread is the horizontal line.
 static bool draw_from_the_side(const struct subject *s, const struct sheet_layout *at, struct drawing *d,
                                lam_error *error)
 {
@@ -391,7 +390,7 @@ static bool put_terms(const lam_explanation *e, const struct subject *s, struct 
     return true;
 }
 
-// Prints the heading of the panel: the surface, the methods, and the light that the arrows belong to.
+// Prints the heading of the panel: the surface, the methods, and the light for which the arrows are drawn.
 static void put_words(const struct explain_figure *f, const struct subject *s, struct drawing *d,
                       struct sheet_layout *at)
 {

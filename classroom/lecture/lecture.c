@@ -34,9 +34,10 @@ bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam
     };
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
         if (missing[i].asked && missing[i].what)
-            return fail(error, LAM_UNSUPPORTED,
-                        "'lam_shader_params.style lecture' does not support %s; expected %s'lam_shader_params.style full'",
-                        missing[i].what, missing[i].instead);
+            return fail(
+                error, LAM_UNSUPPORTED,
+                "'lam_shader_params.style lecture' does not support %s; expected %s'lam_shader_params.style full'",
+                missing[i].what, missing[i].instead);
         else if (missing[i].asked)
             return fail(error, LAM_UNSUPPORTED,
                         "'lam_shader_params.style lecture' does not support 'lam_draw_params.reflection %s'; expected "

@@ -92,8 +92,8 @@ typedef struct lam_light {
     float radius;
     // Directional: the angular radius of the disc that emits the light (0.27 degrees for the sun). 0: a point.
     float angular_radius_rad;
-    // Point, directional, spot: the share of this light that ambient occlusion dims (lam_draw_params.occlusion), 0..1.
-    // 1 suits large, soft lights. Ambient and hemisphere light is always dimmed.
+    // Point, directional, spot: the share of this light to which ambient occlusion (lam_draw_params.occlusion) applies,
+    // 0..1. 1 suits large, soft lights. Ambient and hemisphere light is always dimmed.
     float occluded;
     LAM_RESERVED(30);
 } lam_light;

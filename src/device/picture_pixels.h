@@ -1,5 +1,5 @@
 // picture_pixels.h: converts linear light to the pixels of a picture, LANES at a time: composites them over the
-// background and encodes them. All devices use this code. Define LANES before including it (lanes.h).
+// background and encodes them. All devices use this code. Define LANES before including this file (lanes.h).
 #ifndef PICTURE_PIXELS_H
 #define PICTURE_PIXELS_H
 

@@ -1,4 +1,4 @@
-// cube_lookup.h: looks up LANES directions in a cube map. Define LANES before including it (lanes.h).
+// cube_lookup.h: looks up LANES directions in a cube map. Define LANES before including this file (lanes.h).
 #ifndef CUBE_LOOKUP_H
 #define CUBE_LOOKUP_H
 

@@ -67,11 +67,12 @@ static void sky_row(int face, int t, float *texels)
 
 // The studio for physical materials is a cubic room around the origin. The lamps are small and bright, so that a clear
 // coat mirrors a few clear highlights, and its colour stays saturated between them. The brightest lamp, on the ceiling,
-// lights the tops of objects, which cast short soft shadows on a ground. A tall lamp in front lights the sides that
-// face the viewer. A tall lamp at the right lights the third side less, so that the three visible faces of a cube
-// differ. The lamp behind the object is high: it lights rounded tops and the rims of black objects. Metals mirror a
-// bright horizon between a dark floor and dim walls, and a large dim lamp at the left. A horizontal white surface
-// receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face of the cube map is a wall of the room.
+// lights the tops of objects. The objects' shadows on a ground are therefore short and soft. A tall lamp in front
+// lights the sides that face the viewer. A tall lamp at the right is weaker. The three visible faces of a cube
+// therefore differ in brightness. The lamp behind the object is high: it lights rounded tops and the rims of black
+// objects. Metals mirror a bright horizon between a dark floor and dim walls, and a large dim lamp at the left. A
+// horizontal white surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face of the cube map
+// is a wall of the room.
 struct lamp {
     double intensity;
     struct rgb color;
@@ -93,8 +94,8 @@ static double soft_edge(double x, double half_width)
     return ramp(-half_width - edge, -half_width, x < 0 ? x : -x);
 }
 
-// Returns the light of the walls at a height in the room, −1 … 1. Near the floor, the light has the floor's colour, and
-// at the horizon there is a bright band.
+// Returns the light of the walls at a height in the room, −1 … 1. The colour changes from the floor's colour to the
+// wall's colour, with a bright band at the horizon.
 static struct rgb wall_at(double height)
 {
     static const struct rgb floor_color = {{0.085, 0.0825, 0.08}}, wall = {{0.066, 0.068, 0.076}},

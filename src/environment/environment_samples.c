@@ -26,7 +26,7 @@ static void draw_disc(struct disc_point *points, int count)
     }
 }
 
-// Returns the sum of brightness times solid angle over the texels of a row of a face; `weights` receives the summands.
+// For each texel in a row of a face, stores the brightness times the solid angle in `weights`. Returns the sum.
 static double weigh_row(const struct lam_environment *cube, int face, int t, double *weights)
 {
     double sum = 0;
@@ -58,11 +58,12 @@ static struct sampled_light light_at(const struct lam_environment *cube, const f
 struct drawing {
     const struct lam_environment *cube, *small;
     const float (*to_environment)[3];
-    double *rows, *weights, total; // the brightness of the small copy: per row, per texel of one row, and in total
+    // The brightness of each row of the small copy, of each texel in one row, and of the whole copy.
+    double *rows, *weights, total;
 };
 
-// Selects directions towards the environment's light. The first coordinate of the point set selects the row, and the
-// second selects the texel in the row. The remainders of both coordinates are the position in the texel.
+// Selects directions towards the environment's light. The first coordinate of a point selects the row, and the second
+// selects the texel in the row. After the selection, the remainders of both coordinates give the position in the texel.
 static void draw_lights(const struct drawing *d, struct environment_samples *out)
 {
     int size = d->small->size, row = 0, weighed = -1;

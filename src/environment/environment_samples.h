@@ -1,7 +1,7 @@
 // environment_samples.h: fixed directions for summing an environment's light over a lobe. Three methods of importance
 // sampling are combined. Half of the directions follow the brightness of the environment, a quarter follow the GGX
-// microfacets that the eye sees, and a quarter follow the cosine. The sum weights each direction by all three densities
-// (multiple importance sampling). A single sampling method therefore need not match the whole lobe. These weights are
+// microfacets that the eye sees, and a quarter follow the cosine. The sum weights each direction by the densities of
+// all three methods (multiple importance sampling), so no single method has to match the whole lobe. The weights are
 // the balance heuristic (Veach and Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
 //
 // Each set is a Hammersley point set. The directions are the same for all points of a picture, and on every machine.
@@ -27,8 +27,10 @@ struct environment_samples {
     struct sampled_light *light;
     struct disc_point *lobe, *cosine;
     int light_count, lobe_count, cosine_count;
-    int size;             // texels per side of the density's faces
-    const float *density; // 6 faces, row by row: the density of `light` per area, for faces from −1 to 1
+    int size; // texels per side of the density's faces
+    // 6 faces, row by row: the probability density of the directions in `light`, per area; a side of a face has length
+    // 2.
+    const float *density;
 };
 
 // Selects `count` directions. `to_environment` rotates the caller's axes to the environment's axes. `storage` owns the

@@ -1,5 +1,5 @@
 // prefiltered_lookup.h: looks up LANES directions in the levels of a prefiltered environment. Define LANES before
-// including it.
+// including this file.
 #ifndef PREFILTERED_LOOKUP_H
 #define PREFILTERED_LOOKUP_H
 

@@ -33,8 +33,8 @@ struct exporting {
     struct arena *arena; // memory of the export
     struct lam_export *out;
     lam_up from, to; // the up axis of the scene and of the format
-    // For flat formats: one mesh in world space for each kind of items. The mesh's parts refer to the materials. The
-    // mesh is empty if the scene contains no items of its kind.
+    // For flat formats: one mesh for triangles, one for lines and one for points, all in world space. The parts of a
+    // mesh refer to the materials. A mesh is empty if the scene contains no items of this kind.
     lam_mesh flat[EXPORT_KINDS];
     struct text text;          // the model's file
     struct call_control *call; // NULL if there is none
@@ -81,7 +81,8 @@ void export_memory_free(struct exporting *e, void *memory, size_t bytes);
 bool export_asks(struct exporting *e);
 static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
 
-// These functions return false and fill the error if a loop ended early or if the text is incomplete.
+// These functions check that no loop ended early, and that the text is complete. Otherwise, they return false and fill
+// the error.
 bool export_is_whole(struct exporting *e);
 bool export_text_is_whole(struct exporting *e, const struct text *text);
 
@@ -103,8 +104,8 @@ lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t
 // export_vertices.c: merges corners with equal attributes into vertices.
 struct export_vertices {
     uint32_t count;          // number of vertices
-    const uint32_t *corners; // for each vertex, a corner with its attributes
-    const uint32_t *numbers; // for each corner, its vertex
+    const uint32_t *corners; // for each vertex, the index of a corner with the same attributes
+    const uint32_t *numbers; // for each corner, the index of the corner's vertex
 };
 bool export_share_vertices(struct exporting *e, const lam_mesh *mesh, struct export_vertices *out);
 
@@ -114,7 +115,7 @@ uint32_t export_color_element(const lam_mesh *mesh, size_t corner);
 void export_color(const lam_mesh *mesh, size_t element, float color[4]);
 void export_color_bytes(const lam_mesh *mesh, size_t element, uint8_t bytes[4]);
 
-// Returns a channel of light as a number for OBJ and MTL.
+// Converts a channel of linear light to the number that OBJ and MTL store.
 double export_encoded(float light);
 
 // Encodes a texture's picture as PNG, in memory that malloc allocates. Records a loss and returns false if PNG cannot

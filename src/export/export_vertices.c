@@ -9,7 +9,7 @@
 
 enum { ATTRIBUTES = 6 };
 
-// The elements of a corner's attributes.
+// For each attribute of a corner, the index of the attribute's element in the mesh.
 struct corner {
     uint32_t elements[ATTRIBUTES];
 };
@@ -84,13 +84,13 @@ void export_color(const lam_mesh *mesh, size_t element, float color[4])
     }
 }
 
-// Returns the number that OBJ and MTL use for a channel of light: sRGB-encoded below 1. The reader rounds the number to
-// a float and decodes it. If a byte divided by 255 decodes to exactly `light`, that quotient is the result. Otherwise,
-// the result is the smallest float between 0 and 1 whose decoded value is at least `light`. A colour read from OBJ or
-// MTL is therefore written with its original number.
+// Values below 1 are encoded as sRGB. The reader rounds the number to a float and decodes it. If a quotient of a byte
+// and 255 decodes to exactly `light`, the function returns this quotient. Otherwise, it returns the smallest float
+// between 0 and 1 that decodes to at least `light`. A colour read from OBJ or MTL is therefore written with its
+// original number.
 double export_encoded(float light)
 {
-    uint32_t low = 0, high = 0x3f800000; // bit patterns of 0 and 1
+    uint32_t low = 0, high = 0x3f800000; // the bit patterns of the floats 0 and 1
     if (!(light > 0) || light >= 1)
         return light > 0 ? (double)light : 0;
     float number = (float)(srgb_byte((double)light) / 255.0);

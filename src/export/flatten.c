@@ -66,7 +66,7 @@ static void put_positions(struct flat *f, const lam_mesh *m, const lam_mat4 *tra
         memcpy(to, m->positions, 3 * (size_t)m->vertex_count * sizeof *to);
         return;
     }
-    export_lose(f->e, "transforms of objects are applied to their coordinates, which are rounded to floats");
+    export_lose(f->e, "the objects' transforms are applied to the coordinates, which are then rounded to floats");
     for (size_t i = 0; i < m->vertex_count && export_continues(f->e, i); i++) {
         const float *p = m->positions + 3 * i;
         lam_vec3 world = mat4_point(
@@ -177,7 +177,7 @@ static void lose_sides(struct exporting *e, const lam_object *object)
     if (object->back_material >= 0)
         export_lose(e, "materials of back faces are omitted: the format does not support them");
     if (object->one_sided)
-        export_lose(e, "lighting of back faces like front faces is omitted: the format does not support it");
+        export_lose(e, "back faces are no longer lit like front faces: the format does not support this");
 }
 
 static bool flatten(struct exporting *e, enum export_kind kind)

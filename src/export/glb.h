@@ -6,21 +6,21 @@
 
 #include <jansson.h>
 
-// The indices of the accessors for the arrays of a mesh of the scene; −1 means that the array is missing.
+// For each array of a mesh in the scene, the index of the array's accessor, or −1 if the mesh has no such array.
 struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
     int first_indices; // accessor of the first part's indices; the other parts follow
-    // the latest mesh of the file that uses this mesh of the scene, or −1; glb_mesh.before refers to the previous one
+    // the latest mesh in the file that was made from this mesh in the scene, or −1; glb_mesh.before is the previous one
     int first_mesh;
 };
 
-// A mesh of the file: a mesh of the scene or one of its parts, with the materials of an object.
+// A mesh in the file: a mesh in the scene, or one part of it, with the materials of an object.
 struct glb_mesh {
     int part;     // −1: all parts
     int material; // the object's material; −1 if the parts' materials are used
     bool double_sided;
-    int before; // the previous mesh of the file that uses the same mesh of the scene, or −1
+    int before; // the previous mesh in the file that was made from the same mesh in the scene, or −1
 };
 
 struct glb_image {
@@ -35,15 +35,15 @@ struct glb {
     struct text bytes;         // the buffer
     struct glb_arrays *arrays; // one element per mesh of the scene
     struct scene_list own;     // struct glb_mesh: one element per mesh of the file
-    // the index in the file of each material and of the default material: [0] one-sided, [1] double-sided; −1 if not
-    // written yet
+    // for each material, and then the default material, the material's index in the file: [0] one-sided, [1]
+    // double-sided; −1 if not written yet
     int *material_index[2];
     struct scene_list pictures; // struct glb_image
     int thumbnail;              // index of the thumbnail's image
     bool failed;                // memory ran out while the JSON was built
 };
 
-// Sets a member or adds an element, and takes ownership of the value. A NULL value records that memory ran out.
+// Sets a member or adds an element, and takes ownership of the value. If `value` is NULL, records that memory ran out.
 void glb_set(struct glb *glb, json_t *object, const char *key, json_t *value);
 int glb_add(struct glb *glb, json_t *list, json_t *value); // returns its index
 
@@ -63,10 +63,11 @@ bool glb_error(struct glb *glb);
 
 bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size);
 
-// Returns the index of the file's mesh for a part of an object (−1: all parts), or −1 if memory runs out.
+// Writes the mesh for a part of an object (−1: all parts) if necessary, and returns the mesh's index in the file.
+// Returns −1 if memory runs out.
 int glb_mesh_of(struct glb *glb, const lam_object *object, int part);
 
-// Returns the index in the file of a material of the scene (−1 means the default material).
+// Writes a material if necessary (−1 means the scene's default material), and returns the material's index in the file.
 int glb_material(struct glb *glb, int material, bool double_sided);
 
 // Returns the JSON object for a map's texture, with its texture coordinates and transform. Returns NULL if there is no

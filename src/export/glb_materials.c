@@ -8,8 +8,8 @@
 
 static float scale_of(const lam_texture_map *map) { return map->scale == 0 ? 1 : map->scale; }
 
-// Returns the map if glTF can represent it: each slot of glTF prescribes a channel and allows no scale or offset.
-// Otherwise, records a loss and returns NULL.
+// Returns the map if glTF can store it. For each kind of map, glTF prescribes the channel and allows no scale or
+// offset. If glTF cannot store the map, records a loss and returns NULL.
 static const lam_texture_map *usual(struct glb *glb, const lam_material *m, lam_map slot, int channel)
 {
     const lam_texture_map *map = m->maps[slot];

@@ -65,7 +65,7 @@ static bool add_object(struct glb *glb, const lam_object *object)
     if (object->back_material >= 0)
         export_lose(glb->e, "materials of back faces are omitted: glTF does not support them");
     if (object->one_sided)
-        export_lose(glb->e, "back faces are lit from behind: glTF cannot light them like front faces");
+        export_lose(glb->e, "back faces are no longer lit like front faces: glTF does not support this");
     bool named = false;
     for (uint32_t i = 0; i < m->part_count; i++)
         named |= m->parts[i].name != NULL;
@@ -114,8 +114,8 @@ static void lose_fields(struct glb *glb, const lam_light *l)
         export_lose(glb->e, "spot lights with an exponent become soft cones with the same angle");
 }
 
-// glTF's intensities are in candela and lux, and a white Lambertian surface reflects 1/π of the light. In Lambent, such
-// a surface reflects all of the light.
+// The intensity in glTF (candela or lux) is π times Lambent's. In glTF, a white Lambertian surface reflects 1/π of the
+// light. In Lambent, such a surface reflects all of the light.
 static json_t *light(struct glb *glb, const lam_light *l)
 {
     static const char *const words[LAM_LIGHT_TYPE_COUNT] = {
@@ -183,7 +183,7 @@ static void add_camera(struct glb *glb, const lam_camera *c, const char *name)
         lam_scene_sphere(glb->e->scene, -1, &centre, &radius);
         far_plane = v3_length(v3_sub(centre, c->eye)) + 2 * radius + 1e-3;
         near_plane = far_plane / 10000;
-        export_lose(glb->e, "planes of cameras that are fitted to the scene become numbers");
+        export_lose(glb->e, "cameras are written with fixed near and far planes: glTF requires numbers");
     }
     json_t *object, *numbers;
     if (c->ortho_half_height > 0) {

@@ -77,7 +77,8 @@ static void put_options(struct exporting *e, struct text *text, const lam_textur
     if (m[0][1] != 0 || m[1][0] != 0)
         export_lose(e, "rotated texture coordinates of maps are omitted: MTL does not support them");
     if (map->texcoords)
-        export_lose(e, "maps of the second texture coordinates use the first: OBJ has one set");
+        export_lose(
+            e, "maps that use the second set of texture coordinates use the first set instead: OBJ supports only one");
     if (scale[0] != 1 || scale[1] != 1)
         export_list(text, " -s", scale, 2);
     if (offset[0] != 0 || offset[1] != 0)

@@ -112,7 +112,7 @@ static size_t object_length(const char *name)
 }
 
 // Writes the name of a part. `before` is the name of the previous part, or NULL. A program that reads these statements
-// can join object and group into the same name again.
+// can restore the name "object/group".
 static void put_part_name(struct text *text, const char *name, const char *before)
 {
     size_t length = object_length(name);

@@ -69,7 +69,7 @@ struct frame_light {
     float cos_outer, inverse_width;
     float ambient[3]; // the light's own ambient term with gl1; otherwise it is part of the frame's sum
     float diffuse[3], specular[3];
-    float occluded; // share of the light that ambient occlusion dims
+    float occluded; // share of the light to which ambient occlusion applies
     int light;      // the index in the scene; −1 for a light of the rig
     const lam_light *source;
     // These members are set only with shadows.

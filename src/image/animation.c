@@ -101,9 +101,9 @@ static bool check_frame(const lam_animation *animation, const lam_image *frame, 
     return true;
 }
 
-// Returns whether the memory limit allows another frame. In addition to the frames so far, the next frame needs memory
-// for three buffers of the size of a picture: the previous picture, the changed rectangle and the encoded rectangle. If
-// the limit does not allow another frame, the animation can no longer be used.
+// Returns whether the memory limit allows another frame. The next frame needs three more buffers, each as large as a
+// picture: for the previous picture, the changed rectangle and the encoded rectangle. If the limit does not allow
+// another frame, the animation can no longer be used.
 static bool check_memory(lam_animation *animation, const lam_control *control, lam_error *error)
 {
     struct call_control call;

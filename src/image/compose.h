@@ -6,9 +6,9 @@
 
 // Composes the channels of a picture over a background, in linear light unless the picture's values are raw.
 struct compose {
-    double linear[256];   // the linear value of each byte
-    double from[256];     // for i > 0, the smallest linear value that rounds to byte i, which is the linear value of (i
-                          // − ½)/255
+    double linear[256]; // the linear value of each byte
+    // For i > 0, the smallest linear value that rounds to byte i: the linear value of (i − ½)/255.
+    double from[256];
     double background[3]; // linear
     uint8_t clear[3];     // the result if alpha is 0
 };

@@ -1,4 +1,4 @@
-// lighting.h: the equations in C. Define LANES as 1, 4, 8 or 16 before including it (src/base/math/lanes.h).
+// lighting.h: the equations in C. Define LANES as 1, 4, 8 or 16 before including this file (src/base/math/lanes.h).
 //
 // In GLSL the files of the equations are concatenated in this order after prelude.glsl; therefore they have no guards.
 #ifndef LIGHTING_H

@@ -19,8 +19,8 @@ static bool colors_are_clear(const lam_mesh *mesh)
     return clear;
 }
 
-// Iterates over the parts of an object, with the materials of their front and back faces. next_shown returns false
-// after the last part.
+// A part of an object, with the materials of its front and back faces. next_shown moves to the next part, and returns
+// false after the last part.
 struct shown {
     uint32_t part;
     lam_material *front, *back; // NULL if back faces use the front's material

@@ -92,7 +92,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     if (importer->up_is_habit && params->up == LAM_UP_AUTO && is_terrain_on_z(scene)) {
         scene->up = LAM_UP_Z;
         lam_scene_add_warning(scene, "z is assumed to be up, because the model is a terrain in the plane of x and y "
-                                     "(up y keeps the file's axes)");
+                                     "(the up axis y keeps the file's axes)");
     }
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
     call_progress(source->call, 1, "normals");
@@ -130,7 +130,7 @@ static bool load_in_parts(struct import_source *source, const struct importer **
         source->size = file.size;
         source->parts = &file;
         call_add_input(source->call, file.size);
-        // If the file is too large, load reports that after this function returns.
+        // If the file is too large, `load` reports this error after this function returns.
         if (call_check_file(source->call, source->name, file.size, NULL))
             *importer = importer_for_parts(source->name, head, file.size, source->params->format);
         in_parts = *importer && (*importer)->in_parts && (*importer)->in_parts(source);

@@ -6,14 +6,15 @@
 #include <stdint.h>
 
 struct unsupported_format {
-    const char *name;    // "a PNG picture"
-    const char *instead; // extension of a format to export instead; NULL if the file is not a 3D model
+    const char *name; // "a PNG picture"
+    // The extension of a supported format to which the user can export the model; NULL if the file is not a 3D model.
+    const char *instead;
 };
 
 // Returns NULL if the content is not recognised.
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size);
 
-// Returns the 3D format with this file extension (without its dot), or NULL if the extension is unknown.
+// Returns the 3D format with this file extension, or NULL if the extension is unknown. `ending` contains no dot.
 const struct unsupported_format *unsupported_format_named(const char *ending);
 
 #endif

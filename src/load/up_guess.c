@@ -7,7 +7,7 @@
 #define THIN     0.3
 #define NOT_FLAT 0.01 // thinner models are flat pictures, which usually stand upright
 #define FACING   0.6
-#define EVEN     0.999 // a larger share means that there are no slopes, as with stacked cards
+#define EVEN     0.999 // with a larger share, the model has no slopes, like stacked cards
 
 // A model with fewer triangles may be an upright sheet.
 enum { TRIANGLES_MIN = 1000 };

@@ -3,7 +3,7 @@
 
 #include "linear.h"
 
-// Spreads the bits of a number 0…1023, with a 0 after each bit.
+// Inserts a 0 after each bit of a number from 0 to 1023.
 static uint32_t spread_bits(uint32_t n)
 {
     uint32_t spread = 0;
@@ -41,7 +41,8 @@ void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count)
         pattern->z[at] = math_sqrt(1 - share);
         pattern->length[at] = length - (int)length;
     }
-    for (int i = count; i < OCCLUSION_RAYS_MAX; i++) { // lanes without a ray
+    // Fills the elements that no ray uses but that a vector of lanes may read.
+    for (int i = count; i < OCCLUSION_RAYS_MAX; i++) {
         pattern->x[i] = pattern->y[i] = pattern->length[i] = 0;
         pattern->z[i] = 1;
     }

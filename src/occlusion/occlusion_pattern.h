@@ -1,13 +1,12 @@
 // occlusion_pattern.h: the directions and lengths of the rays that compute ambient occlusion at a lit point.
 //
-// Directions are projected from points of a disc below the hemisphere (Malley's method), so that each direction has an
-// equal share of the cosine-weighted integral. The points form Vogel's spiral (1979), as for lights with a size
+// The points of a disc are projected up to the hemisphere (Malley's method), so that each direction contributes equally
+// to the cosine-weighted integral. The points are on Vogel's spiral (1979), as for lights with a size
 // (light_pattern.h). Every lit point rotates the disc by its own angle, so that visible steps become fine noise. A
 // surface at the distance d occludes its direction by the share
 //    w(d) = clamp((radius − d) / (OCCLUSION_FADING radius), 0, 1)
-// This is the fraction of rays that reach as far as d if their lengths are evenly distributed from (1 −
-// OCCLUSION_FADING) radius to the radius. A ray is therefore either blocked or not, and the distance of its hit does
-// not matter.
+// The lengths of the rays are evenly distributed from (1 − OCCLUSION_FADING) radius to the radius, so w(d) is the
+// fraction of rays that are longer than d. It therefore matters only whether a ray is blocked, not at which distance.
 #ifndef OCCLUSION_PATTERN_H
 #define OCCLUSION_PATTERN_H
 
@@ -22,16 +21,17 @@ enum { OCCLUSION_RAYS_MAX = 1024, OCCLUSION_TURNS = 256 };
 struct occlusion_pattern {
     int count;
     double x[OCCLUSION_RAYS_MAX], y[OCCLUSION_RAYS_MAX], z[OCCLUSION_RAYS_MAX]; // unit directions
-    double length[OCCLUSION_RAYS_MAX];                     // 0…1, from the longest ray to the shortest
-    double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS]; // of the angles that occlusion_turn selects
+    double length[OCCLUSION_RAYS_MAX]; // from 0 (the longest ray) to 1 (the shortest)
+    // The cosines and sines of the angles that occlusion_turn selects.
+    double cosine[OCCLUSION_TURNS], sine[OCCLUSION_TURNS];
 };
 
 // Returns the turn at a pixel: interleaved gradient noise (Jimenez 2014) computed in integers. The turns of
 // neighbouring pixels differ as much as possible.
 static inline uint32_t occlusion_turn(uint32_t x, uint32_t y)
 {
-    uint32_t part = x * 0x112e0be8u + y * 0x017e8cd9u;       // fraction of 0.06711056 x + 0.00583715 y
-    return (uint32_t)((uint64_t)part * 3472289 >> 16) >> 24; // the fraction of 52.9829189 times the number above
+    uint32_t part = x * 0x112e0be8u + y * 0x017e8cd9u;       // the fractional part of 0.06711056 x + 0.00583715 y
+    return (uint32_t)((uint64_t)part * 3472289 >> 16) >> 24; // the fractional part of 52.9829189 · part
 }
 
 void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count);

@@ -51,7 +51,7 @@ struct builder {
 bool ray_triangles_prepare(struct builder *builder, lam_error *error);
 
 // Returns the largest number of nodes for a range of this many triangles. A node with fewer than NODE_CHILDREN children
-// has only leaves, and more than LEAF_MIN triangles; by induction this gives (2 count − 1)/7.
+// has only leaves, and more than LEAF_MIN triangles. By induction, the number of nodes is at most (2 count − 1)/7.
 static inline uint32_t ray_nodes_below(uint32_t count) { return count ? (uint32_t)((2 * (uint64_t)count - 1) / 7) : 0; }
 
 // Divides the primitives into nodes and leaves.

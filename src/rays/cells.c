@@ -2,9 +2,9 @@
 //
 // The centres of a large range's triangles are sorted into the cells of a grid, and the boxes of the cells determine
 // how the range is divided. There are far fewer cells than triangles. A range of few triangles, or a range within one
-// cell, is removed from its cells. One thread then divides the range (splits.c). For a large range within one cell, a
-// separate grid is built instead. Tasks depend only on the number of triangles, and the position of a range's nodes
-// depends only on its triangles. The result is therefore the same for any number of threads.
+// cell, is not divided by cells but by one thread (splits.c). For a large range within one cell, a separate grid is
+// built instead. The tasks depend only on the number of triangles. The positions of nodes in the array depend only on
+// the triangles of the range. The result is therefore the same for any number of threads.
 #include "ranges.h"
 
 #include "fail.h"
@@ -22,7 +22,7 @@ enum {
 
 // A grid over the centres of a range's triangles.
 struct grid {
-    num start, factor, last; // convert twice the centre to a cell index up to `last`
+    num start, factor, last; // convert the doubled coordinates of a centre to a cell's index, 0 … last
     int shift[3];            // for each axis, the position of its bits in a cell's number
     uint32_t cell_count;
 };
@@ -37,9 +37,10 @@ struct large {
     struct builder *builder;
     const struct range *range;
     struct grid grid;
-    uint32_t chunk, chunks;  // triangles sorted together
-    uint16_t *keys;          // the cell of each triangle
-    uint32_t *offsets;       // for each task and cell, the number of triangles, then the position of the next triangle
+    uint32_t chunk, chunks; // triangles sorted together
+    uint16_t *keys;         // the cell of each triangle
+    // For each task and cell: first the number of triangles, later the position of the next triangle.
+    uint32_t *offsets;
     struct primitive *cells; // cells that contain triangles
     uint32_t used_cells;
     struct box *boxes;          // for each task, the box of its triangles and the box of twice their centres
@@ -49,7 +50,7 @@ struct large {
 
 // --- the grid
 
-// Each bit of a cell's number halves the longest remaining side.
+// Makes the grid: each bit of a cell's number halves the side that is then the longest.
 static struct grid grid_over(const struct box *middles, uint32_t count)
 {
     int bits = 31 - __builtin_clz(count) - 2, of_axis[3] = {0, 0, 0};

@@ -33,9 +33,9 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
     return true;
 }
 
-// Adds the rounding errors of a draw. Besides the coordinates of the file (frame_draw.rounding), the transform to the
-// hierarchy's space and the computation of a point of a triangle also cause rounding errors. These two steps take fewer
-// than eight operations in double, on numbers up to the sum below.
+// Adds the rounding errors of a draw. The errors come from the coordinates in the file (frame_draw.rounding), from the
+// transform to the hierarchy's space, and from the computation of a point in a triangle. The transform and the
+// computation together need fewer than eight operations in double precision. Their operands are at most the sum below.
 static void add_rounding(struct hierarchy *h, const struct frame_draw *draw)
 {
     for (int i = 0; i < 3; i++) {

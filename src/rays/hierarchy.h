@@ -1,8 +1,8 @@
 // hierarchy.h: a bounding volume hierarchy over all triangles of a frame, for rays.
 //
-// One test in double precision decides whether a ray meets a triangle (ray_lanes.h), so results do not depend on the
-// hierarchy, whose boxes are merely conservative. The hierarchy is built by a fixed set of tasks, so it is identical
-// for any number of threads. The OpenGL device reads the same hierarchy.
+// One test in double precision decides whether a ray meets a triangle (ray_lanes.h). The boxes of the hierarchy only
+// exclude triangles that the ray cannot meet, so they do not affect results. The hierarchy is built by a fixed set of
+// tasks, so it is identical for any number of threads. The OpenGL device reads the same hierarchy.
 #ifndef HIERARCHY_H
 #define HIERARCHY_H
 
@@ -38,7 +38,7 @@ struct hierarchy {
     uint32_t node_count;                  // number of entries of `nodes`, some of which are unused; may be 0
     uint32_t triangle_count;
     const uint32_t *twins; // for each triangle of the frame, see ray_triangle.twin
-    // The largest rounding error, along each axis, of a corner (compared with the file) and of a point of a triangle.
+    // For each axis, the largest rounding error of a corner (compared with the file) or of a point in a triangle.
     double rounding[3];
 };
 

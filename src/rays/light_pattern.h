@@ -1,14 +1,14 @@
 // light_pattern.h: sample points on a light with a size, as targets for shadow rays.
 //
 // The points are on a disc perpendicular to the direction to the light. The disc also represents spherical lights. The
-// points follow the spiral of Vogel (1979), each with an equal share of the disc: point i of N at the radius √((i +
-// ½)/N), rotated by i golden angles. The points are the same for every lit point, so that the rays of neighbouring
-// points are nearly parallel and visit the same part of the hierarchy.
+// points are on Vogel's spiral (1979), and each represents the same area of the disc: point i of N is at the radius
+// √((i + ½)/N) and the angle of i golden angles. The points are the same for every lit point, so that the rays of
+// neighbouring points are nearly parallel and visit the same part of the hierarchy.
 //
-// If N exceeds LIGHT_PROBES, that many probes are traced first: probe i at the radius √(i/(LIGHT_PROBES − 1)), from the
-// rim inwards. If the probes agree, the lit point is in full light or full shadow. Otherwise it is in a penumbra, and
-// the N points are used. With fewer probes, thin objects could lie between the probes, and their faint shadows would
-// have gaps.
+// If N exceeds LIGHT_PROBES, LIGHT_PROBES probes are traced first. Probe i is at the radius √(i/(LIGHT_PROBES − 1)),
+// and the probe at the rim is traced first. If the probes agree, the lit point is in full light or full shadow.
+// Otherwise it is in a penumbra, and the N points are used. With fewer probes, thin objects could lie between the
+// probes, and their faint shadows would have gaps.
 #ifndef LIGHT_PATTERN_H
 #define LIGHT_PATTERN_H
 

@@ -1,4 +1,5 @@
-// ray_lanes.h: intersects LANES rays at a time with a hierarchy. Define LANES as 1, 4, 8 or 16 before including it.
+// ray_lanes.h: intersects LANES rays at a time with a hierarchy. Define LANES as 1, 4, 8 or 16 before including this
+// file.
 //
 // A ray is origin + t direction with 0 < t < end, in the hierarchy's space. Only crosses() decides whether a ray meets
 // a triangle. crosses() uses double and a fixed order of operations; boxes merely save work. The result therefore does

@@ -1,5 +1,5 @@
 // texture_taps.h: finds the texels that a point uses, and their weights, for LANES points at a time (docs/textures.md).
-// Define LANES before including it.
+// Define LANES before including this file.
 //
 // Every lookup mixes four texels of a level and four texels of the next level, with three weights. Lookups of fewer
 // texels use weights of 0, which do not change any bit.

@@ -331,7 +331,7 @@ class Hostile(ThreeMF):
     def test_deep(self):
         objects = f'<object id="1">{box()}</object>' + "".join(
             f'<object id="{i}"><components><component objectid="{i - 1}"/></components></object>' for i in range(2, 1000))
-        self.refused(self.save("a.3mf", model(objects, '<item objectid="999"/>')), 2, "more than 100 components")
+        self.refused(self.save("a.3mf", model(objects, '<item objectid="999"/>')), 2, "nested in more than 100 components")
         self.refused(self.save("b.3mf", f"<model {CORE}>" + "<a>" * 100000), 2, "more than 256 elements")
 
     def test_long_tokens(self):

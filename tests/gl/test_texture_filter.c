@@ -99,7 +99,7 @@ static void scenes_are_near(void **state)
     }
 }
 
-// Each way of wrapping and filtering is closest to the CPU device's picture with the same way.
+// The picture of each wrapping and filtering mode is closest to the CPU device's picture of the same mode.
 static void modes_are_kept(void **state)
 {
     (void)state;

@@ -28,7 +28,8 @@ int run_lights(int operand_count, char **operands, const struct options *options
     if (ok)
         fwrite(text.data, 1, text.size, stdout); // main reports a failed write
     if (ok && lam_scene_light_count(job.scene) == 0 && job.studio && !options->report.quiet)
-        say_plain("no lights: the environment 'studio' lights the picture; --rig studio uses lights instead\n");
+        say_plain(
+            "no lights: the picture is lit by the environment 'studio'; use --rig studio to light it with lights\n");
     lam_bytes_free(&text);
     lam_scene_free(job.scene);
     if (interrupted())

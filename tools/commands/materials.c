@@ -31,7 +31,7 @@ static double decimal(float x)
     return strtod(text, NULL);
 }
 
-// Returns true if the list shows this field as a column, that is, if at least one classic material changes it from its
+// Returns whether the list shows this field as a column: at least one classic material has a value other than the
 // default. Colours are printed without alpha.
 static bool is_column(const lam_field *field, lam_color_mode color)
 {
@@ -120,8 +120,9 @@ static void print_list(const struct options *options)
         print_table((lam_color_mode)options->picture.color_mode);
 }
 
-// Builds a scene of one mesh and an object for each material, in rows of COLUMNS from the top left. The light matches
-// the original program: it is directional, from (0, 3, 3), with a global ambient of 0.2 and an infinite viewer.
+// Builds a scene with one teapot for each material, in rows of COLUMNS from the top left. All teapots share a mesh. As
+// in the original program, a directional light comes from (0, 3, 3), the global ambient light is 0.2, and the viewer is
+// at infinity.
 static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error)
 {
     int mesh = lam_scene_add_shape(scene, "teapot", NULL, error);

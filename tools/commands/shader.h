@@ -16,7 +16,7 @@ void shader_json(FILE *file, const lam_shader *shader, const char *model);
 // Returns whether `name` is a known mistake (--mistake). If not, the error suggests a similar name.
 bool shader_mistake_is_known(const char *name, lam_error *error);
 
-// Prints numbers such as "1, 0.5, 0", with the fewest digits that parse to the same float; in C code, "1, 0.5f, 0".
+// Prints numbers, each with the fewest digits that parse to the same float: "1, 0.5, 0", or as C code "1, 0.5f, 0".
 void shader_numbers(FILE *file, const float *values, int count, bool code);
 
 #endif

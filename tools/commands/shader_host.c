@@ -26,7 +26,7 @@ static void identifier(FILE *file, const char *name)
 
 // --- single uniforms
 
-// Returns false for every element of an array except the first, whose comment describes the whole array.
+// Returns false for every element of an array except the first. The first element's comment describes the whole array.
 static bool is_first(const lam_shader_uniform *u)
 {
     const char *bracket = strchr(u->name, '[');
@@ -110,7 +110,7 @@ static bool is_map(const lam_shader_uniform *u)
            strcmp(u->name, "product_list") != 0 && strcmp(u->name, "environment_light") != 0;
 }
 
-// Prints a comment about the picture of a map. Replaces characters of the name that could end the comment.
+// Prints a comment about the map's picture. In the picture's name, replaces characters that could end the comment.
 static void write_map(FILE *file, const lam_shader_uniform *u, int unit)
 {
     if (!u->map) {
@@ -130,7 +130,7 @@ static void write_map(FILE *file, const lam_shader_uniform *u, int unit)
 
 static void set_all(FILE *file, const lam_shader_uniform *list, int count)
 {
-    int unit = 2, map_unit = 4; // units 0 and 1: the lists of lights; 2 and 3: the environment and its light
+    int unit = 2, map_unit = 4; // units 0 and 1 are for the lists of lights, 2 and 3 for the environment and its light
     for (int i = 0; i < count;) {
         const lam_shader_uniform *u = &list[i];
         if (u->block) {

@@ -1,4 +1,4 @@
-// shape.c: the command `shape`: draws a built-in shape or a surface defined by formulas, or saves it as a model file.
+// shape.c: the command `shape`: draws or saves a built-in shape or a surface defined by formulas.
 #include "command.h"
 
 #include <stdio.h>

@@ -111,8 +111,8 @@ static void warm(const char *path)
         close(file);
 }
 
-// Reads files ahead of the workers. N workers wake this thread only once for N models, because each wake-up costs
-// processor time and needs the lock.
+// Reads files ahead of the workers. Each wake-up of this thread costs processor time and needs the lock, so N workers
+// wake it only once for N models.
 static void *read_ahead(void *user)
 {
     struct batch *b = user;
@@ -254,8 +254,8 @@ static void share_threads(struct batch *b)
     b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;
 }
 
-// Returns a text with the options that all pictures in the journal share, and with the side and size of each picture of
-// a model. The text is allocated with malloc. Returns NULL if memory runs out.
+// Returns a string, allocated with malloc: the options that all pictures in the journal share, and the side and size of
+// each picture of a model. Returns NULL if memory runs out.
 static char *pictures_text(const struct batch *b)
 {
     const struct batch_plan *plan = b->plan;
@@ -425,7 +425,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
-    // With a single model, drawing reports an interrupt itself, unless drawing had not begun.
+    // Reports an interrupt that came before a single model was drawn. Later interrupts are reported while drawing.
     if (interrupted() && ok && !is_batch && plan->count == 1 && !b.interrupted &&
         b.pictures[0].outcome == PICTURE_OPEN) {
         complain(&error, LAM_CANCELLED, "%.400s: interrupted", plan->models[0].path);

@@ -10,8 +10,8 @@
 // the program's exit code.
 int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch);
 
-// Draws the planned models for a purpose other than writing files. Errors are printed in the order of the models.
-// Returns the result of `use->finish`, or the exit code of an error that ended the run.
+// Draws the planned models with `use->draw`. Errors are printed in
+// the order of the models. Returns the result of `use->finish`, or the exit code of an error that ended the run.
 int batch_use_run(const struct batch_plan *plan, const struct batch_use *use);
 
 #endif

@@ -15,7 +15,7 @@
 #include "journal.h"
 #include "option_names.h"
 
-// The number of bytes that a pipe accepts without blocking if poll() reports space (PIPE_BUF).
+// If poll() reports space in a pipe, writing this number of bytes (PIPE_BUF) does not block.
 enum { CHUNK = 4096 };
 
 // The longest wait for a reader after an interrupt.
@@ -140,7 +140,7 @@ static const char *outcome_of(const struct batch_unit *u)
     return same ? "same" : "written";
 }
 
-// Returns the record of the first failed picture. The answer repeats its class and error message.
+// Returns the record of the first failed picture. The answer repeats the class and error message in this record.
 static const json_t *failed_record(const struct batch_unit *u)
 {
     for (int i = 0; i < u->picture_count; i++)

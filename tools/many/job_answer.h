@@ -19,12 +19,13 @@ void job_answers_end(struct job_answers *answers);
 // Answers a drawn job with the results of its pictures.
 void job_answer_unit(struct job_answers *answers, const struct batch_unit *unit);
 
-// Answers a line that draws nothing. A NULL `id` is written as null. `line` is the line number; 0 is not reported.
+// Answers a line for which nothing is drawn. A NULL `id` is written as null. `line` is the line number; 0 is not
+// reported.
 void job_answer_error(struct job_answers *answers, json_t *id, uint64_t line, const char *outcome,
                       const lam_error *error);
 
-// job_answers_fail records that no reader receives the answers any more, with an errno as the reason.
-// job_answers_failure returns the recorded errno, or 0.
+// job_answers_fail records that answers can no longer be written; `reason` is the errno. job_answers_failure returns
+// the recorded errno, or 0.
 void job_answers_fail(struct job_answers *answers, int reason);
 int job_answers_failure(const struct job_answers *answers);
 

@@ -140,8 +140,7 @@ const struct command command_table[] = {
          .defaults = materials_defaults},
     [COMMAND_config] = {"config", NULL, "Print the current settings, and the name of the settings file.",
                         ABOUT | 1ull << GROUP_SETTINGS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
-                        .one_more =
-                            "the command only prints the settings; to change settings, edit the file that it names"},
+                        .one_more = "the command only prints the settings; to change settings, edit the settings file"},
     [COMMAND_devices] = {"devices", NULL,
                          "List the devices that can draw on this machine, and explain why other devices cannot.",
                          ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},
@@ -190,7 +189,7 @@ uint64_t find_groups(const char *name)
 const struct example examples[] = {
     {"lambent koala.obj", "writes koala.png, 1024x1024", true},
     {"lambent part.stl -o shot.png -b white", "writes shot.png on a white background", true},
-    {"lambent scan.ply -s 640 --view front", "draws a picture of 640x640 pixels, seen from the front", false},
+    {"lambent scan.ply -s 640 --view front", "draws the model from the front, in 640x640 pixels", false},
     {"lambent teapot --color '#ff8800'", "draws a built-in shape (`lambent shapes`)", true},
     {"lambent -q *.stl -o pictures/", "writes all pictures to one folder", true},
     {"lambent batch models/ -o 'thumbs/{dir}/{stem}.png'",

@@ -17,15 +17,14 @@ enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };
 struct own_default {
     const char *option;
     const char *standard; // NULL means the option's own default.
-    const char *brief;    // The text for -h instead of the option's text; NULL means the option's text.
+    const char *brief;    // The text that -h shows; NULL means the option's own text.
 };
 
 struct command {
     const char *name;
     const char *operands;               // the operands as shown in the help; NULL for a command without operands
     const char *summary;                // one sentence
-    uint64_t groups;                    // bit g means that the options of group g are accepted; TAKES_… means single
-                                        // options
+    uint64_t groups;                    // the accepted options: bit g for group g, and TAKES_… for single options
     int min_operands, max_operands;     // −1 in max_operands means no limit
     const struct own_default *defaults; // NULL if the command has no defaults of its own
     const char *one_more;               // a hint for the error about too many operands; may be NULL

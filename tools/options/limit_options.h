@@ -4,9 +4,9 @@
 
 #include "options.h"
 
-// Returns the number of bytes that reading and drawing a model may each use: --memory-limit, or a quarter of the memory
-// available to this process. This quarter is divided by the number of models in progress (`in_flight`). 0 means no
-// limit. Any thread may call it.
+// Returns the memory limit in bytes, which applies separately to reading and to drawing a model: --memory-limit, or a
+// quarter of the memory available to this process. This quarter is divided by the number of models in progress
+// (`in_flight`). 0 means no limit. Any thread may call it.
 uint64_t limits_memory(const struct options *options);
 
 // Returns the time limit for a model in seconds. 0 means no limit.

@@ -12,7 +12,7 @@ const char *look_text(int look);
 // Returns the text of the built-in look with this name, or NULL if there is no such look.
 const char *look_find(const char *name);
 
-// Writes the summary of a look, the first line of its file, to `out`.
+// Writes a look's summary (the first line of the file) to `out`.
 void look_summary(const char *text, char *out, size_t size);
 
 // Calls `take` for each option of a built-in look or a look file until `take` returns false. Passes the line number,

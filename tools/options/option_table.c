@@ -88,7 +88,7 @@ static const struct choice term_words_list[] = {
 static const struct choice color_mode_words[] = {
     {"srgb", LAM_COLOR_SRGB,
      "Lambent decodes the colours of files, computes lighting in linear light and encodes the picture"},
-    {"raw", LAM_COLOR_RAW, "Lambent converts no colours; the file stores the results of the equations"},
+    {"raw", LAM_COLOR_RAW, "Lambent converts no colours; the file stores the computed light unchanged"},
     {NULL, 0, NULL}};
 
 static const struct choice show_words[] = {
@@ -108,7 +108,7 @@ static const struct choice show_words[] = {
      "distance from the eye along the view direction: the nearest point is white, the farthest point black"},
     {"n.l", LAM_OUTPUT_N_L, "cosine of the angle between the normal and the direction to the light: max(n.l, 0)"},
     {"n.h", LAM_OUTPUT_N_H, "cosine of the angle between the normal and the half vector: max(n.h, 0)"},
-    {"facing", LAM_OUTPUT_FACING, "front faces blue, back faces red"},
+    {"facing", LAM_OUTPUT_FACING, "front faces are blue, back faces are red"},
     {"ids", LAM_OUTPUT_IDS, "a colour for each triangle"},
     {"coverage", LAM_OUTPUT_COVERAGE, "the fraction of a pixel's samples that the model covers"},
     {"overdraw", LAM_OUTPUT_OVERDRAW, "c/(c + 3) for a pixel that c triangles cover"},
@@ -118,7 +118,7 @@ static const struct choice show_words[] = {
      "colours"},
     {"roughness", LAM_OUTPUT_ROUGHNESS, "the roughness of physical materials"},
     {"metallic", LAM_OUTPUT_METALLIC, "the metalness of physical materials"},
-    {"occlusion", LAM_OUTPUT_OCCLUSION, "the factor of an occlusion map"},
+    {"occlusion", LAM_OUTPUT_OCCLUSION, "the value of the occlusion map"},
     {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour map, divided by 10"},
     {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: the fraction of surrounding light that reaches the point"},
     {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file"},
@@ -156,7 +156,7 @@ static const struct choice view_words[] = {
     {NULL, 0, NULL}};
 
 static const struct choice projection_words[] = {{"perspective", 0, "a vertical field of view of 30 degrees (`--fov`)"},
-                                                 {"orthographic", 1, "parallel, as in a drawing"},
+                                                 {"orthographic", 1, "parallel, as in technical drawings"},
                                                  {NULL, 0, NULL}};
 
 static const struct choice up_words[] = {{"auto", LAM_UP_AUTO, "z for STL and 3MF, y for other formats"},
@@ -173,7 +173,7 @@ static char reflection_summary[400], output_summary[200];
 
 static const struct choice tone_words[] = {
     {"auto", LAM_TONE_AUTO,
-     "khronos-neutral for physical materials, contrast for grey scans, figures and terrains, otherwise none"},
+     "khronos-neutral for physical materials, contrast for light grey scans, figures and terrains, otherwise none"},
     {"none", LAM_TONE_NONE, "no curve: each channel is clipped at 1"},
     {"reinhard", LAM_TONE_REINHARD, "x / (1 + x) for each channel"},
     {"aces", LAM_TONE_ACES, "film-like contrast (Hill's fit of ACES)"},
@@ -265,7 +265,7 @@ static const struct choice isa_words[] = {
 struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
      "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. If "
-     "the name of a file, pipe or device has no known extension, Lambent also writes a PNG. Without `-o`, Lambent "
+     "the name of a file, pipe or device has no known extension, Lambent writes a PNG too. Without `-o`, Lambent "
      "writes `MODEL.png` to the current folder (`model.png` if the model comes from standard input). Without `-o`, "
      "Lambent never overwrites a file that another program created. `-o pictures/` (with a slash at the end) writes to "
      "the folder `pictures`, and creates this folder if it is missing. Every command that writes files accepts a "
@@ -321,8 +321,8 @@ struct option option_table[OPTIONS_MAX] = {
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(picture.color_mode), .also_in = IN_SHEET, .not_in = KEEPS_MODEL},
     {"compress", 0, GROUP_PICTURE, "LEVEL", "fast", "The compression of PNG files: fast or best.",
-     "Both levels store the same pixels. The option has no effect on other formats. `best` needs libdeflate. The bytes "
-     "of the file then depend on the version of libdeflate. With `fast`, the bytes depend only on the picture.",
+     "Both levels store the same pixels. The option has no effect on other formats. `best` needs libdeflate, and the "
+     "bytes of the file depend on libdeflate's version. With `fast`, the bytes depend only on the picture.",
      compress_words, .store = store_word, .others = "compression level png-compression", FIELD(picture.compress),
      .not_in = IN_PAGE},
     {"quality", 0, GROUP_PICTURE, "N", "90 for JPEG, lossless for WebP",
@@ -336,34 +336,38 @@ struct option option_table[OPTIONS_MAX] = {
      "How to show the picture in the terminal: auto, kitty, iterm2, sixel, blocks or off.",
      "If the terminal supports pictures and you omit `-o`, Lambent shows the picture above the line that names the "
      "picture's file. `-o -` shows the picture and writes no file. Lambent recognises kitty, Ghostty, iTerm2 and "
-     "WezTerm by their environment variables. Lambent queries other terminals, which takes at most half a second. If "
+     "WezTerm by their environment variables. For other terminals, Lambent sends a query and waits at most half a "
+     "second. If "
      "the picture is wider than the window, Lambent scales the picture down. With `kitty`, `iterm2`, `sixel` or "
-     "`blocks`, Lambent also shows the picture if `-o` names a file with 8 bits per channel. Lambent shows no picture "
-     "with `--json` or `--quiet`, with several models, or if standard output is not a terminal. `sixel` and `blocks` "
+     "`blocks`, Lambent shows the picture even if `-o` names a file, provided that its format has 8 bits per channel. "
+     "Lambent shows a picture only for a single model, on a terminal, and without `--json`. `auto` shows no picture "
+     "with `--quiet`. `sixel` and "
+     "`blocks` "
      "need libchafa (Debian's package `libchafa0`). `docs/terminal.md` lists the terminals.",
      term_words_list, .of_file = true, .store = store_word, .single = TAKES_TERM,
      .others = "terminal sixel kitty preview inline", FIELD(picture.term)},
     {"durable", 0, GROUP_PICTURE, NULL, NULL, "Flush each picture and its folder to disk before continuing (fsync).",
      "After a power failure, the disk contains either the complete old picture or the complete new one. Without this "
-     "option, the operating system writes pictures to disk within seconds. Most file systems then also keep either the "
-     "old picture or the new one.",
+     "option, the operating system writes pictures to disk within seconds. Even then, most file systems keep either "
+     "the old picture or the new one.",
      .of_file = true, .store = store_switch, .others = "fsync sync", FIELD(picture.durable),
      .not_in = IN_JOB | IN_KEY | IN_PAGE},
     {"exposure", 0, GROUP_PICTURE, "STOPS", "0; auto for the lights of a glTF file",
-     "The exposure in stops, or auto: 1 doubles the light, -1 halves the light.",
+     "The exposure in stops (1 doubles the light, -1 halves the light), or auto.",
      "Lambent multiplies the model's light by 2 to the power of STOPS, before the tone curve and encoding. The "
      "exposure also applies to `--color-mode raw`, to float pictures and to the light terms of `--show`. The "
      "background keeps its colour. If the picture uses the lights of a glTF file (candela, lux), the default is "
      "`auto`. With `auto`, Lambent computes the exposure at which 95 % of the covered pixels have a luminance of at "
      "most 0.8. Lambent rounds this exposure to a third of a stop, and reports the result. `--exposure 0` keeps the "
-     "light unchanged, even for dark and white models (`--brighten`).",
+     "light unchanged. With any exposure, Lambent does not adjust the light for dark and white models (`--brighten`).",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto",
      "The tone curve: none, reinhard, aces, agx, khronos-neutral or contrast.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
-     "with physical materials, and `contrast` for grey scans, figures and terrains under the studio's lights. For all "
-     "other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. Floating-point "
-     "pictures store the light without the curve. For the formulas, see `docs/lighting/tone.md`.",
+     "with physical materials, and `contrast` for scans, figures and terrains that are light grey and lit by the "
+     "studio. For all "
+     "other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. Lambent applies no "
+     "curve to floating-point pictures. For the formulas, see `docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
     {"show", 0, GROUP_PICTURE, "QUANTITY", "the picture",
@@ -372,8 +376,8 @@ struct option option_table[OPTIONS_MAX] = {
      "the contribution of the light named key, and `light:1` shows the contribution of the first light. `n.l` and "
      "`n.h` use the first light that has a direction; `n.l:key` and `n.h:key` select another light. Other names, such "
      "as `normals` and `depth`, show surface quantities. `all` writes the picture, every term and every light as "
-     "layers of one `.exr` file. `.pfm` and `.exr` files store surface quantities unchanged; `docs/show.md` lists "
-     "their codes in 8-bit pictures.",
+     "layers of one `.exr` file. `.pfm` and `.exr` files store surface quantities unchanged. `docs/show.md` explains "
+     "how 8-bit pictures encode these quantities.",
      show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
      .others = "unlit pass aov channel layer debug term only", FIELD(picture.show), .also_in = IN_SHEET,
      .not_in = IN_LOOK},
@@ -428,8 +432,8 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "scale magnify magnification distance", FIELD(view.zoom), .min = 0.001,
      .max = 1000},
     {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The camera's vertical field of view, above 0 and below 180.",
-     "With a wide angle, the camera is closer to the model, so that the model still fills the picture. The perspective "
-     "is then stronger. `--fov 60` and `--camera fovy=60` are equivalent.",
+     "With a wide angle, the camera is closer to the model, so that the model still fills the picture with a stronger "
+     "perspective. `--fov 60` and `--camera fovy=60` are equivalent.",
      .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
      FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
@@ -443,16 +447,15 @@ struct option option_table[OPTIONS_MAX] = {
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
      .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP, .not_in = KEEPS_MODEL},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
-     "The axis is x, y or z of the scene. Lambent applies rotations in the given order. Lights do not move, except "
-     "lights that are fixed to the model. Lengths with the unit r refer to the model before the rotation. Lambent also "
-     "fits the camera to the model before the rotation. If the model would leave the picture at any angle, the camera "
-     "moves back. The model therefore has the same size and position at every angle. All pictures of a sheet share "
+     "The axis is the scene's x, y or z axis. Lambent applies rotations in the given order. Lights do not move, except "
+     "lights that are fixed to the model. The unit r refers to the size and position of the model before the rotation. "
+     "Lambent also fits the camera before the rotation, and moves it back if the model would be cut off at some angle. "
+     "The model therefore has the same size and position at every angle. All pictures of a sheet share "
      "this camera.",
      .brief = "rotate the model: y:30", .store = store_rotation, .others = "r rotation turn spin",
      FIELD(shading.rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
-     "A camera: eye=x/y/z,target=x/y/z,fovy=30 and more keys; or a camera of the model file, given by its name or "
-     "number.",
+     "The camera: keys such as eye=x/y/z,target=x/y/z,fovy=30, or the name or number of a camera in the model file.",
      "A value without `=` selects a camera of a glTF file, by its name or number (the first camera is 0). Otherwise, "
      "the value is a list of keys, separated by commas, in the model's own coordinates. `eye` is required, unless "
      "`fovy` is the only key. By default, `target` is the middle of the model, and `up` is the model's up axis. In a "

@@ -26,8 +26,8 @@ struct sweep {
     const char *field; // the key of SWEEP_LIGHT_FIELD
     int component;     // the component of the field; −1 means all
     double stops[SWEEP_STOPS_MAX];
-    int stop_count; // 0 means `time` over the whole animation
-    bool closed;    // the last value equals the first, so the last frame is one step earlier
+    int stop_count; // 0 means that `time` runs through the whole animation
+    bool closed;    // the last stop is equivalent to the first, so the frames end one step earlier
     bool whole;     // rounds the values to integers
 };
 

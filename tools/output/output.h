@@ -38,7 +38,7 @@ bool output_is_stream(const char *path);
 // extension.
 const char *output_ending(const char *path);
 
-// Sets `format` to the pixel format for the file format of `path`: 8 bits per channel for a stream. Fails with
+// Sets `format` to the pixel format that suits the extension of `path`; a stream has 8 bits per channel. Fails with
 // LAM_UNSUPPORTED.
 bool output_format(const char *path, lam_pixel_format *format, lam_error *error);
 

@@ -23,7 +23,7 @@ bool terminal_shows(void) { return terminal.kind != TERM_OFF; }
 
 static bool show(const lam_bytes *png, const lam_image *image, lam_error *error);
 
-// Returns the word of --term for a protocol.
+// Returns the protocol's name, as given with --term.
 static const char *word_of(enum term_kind kind)
 {
     const struct choice *method = option_find("term")->words;

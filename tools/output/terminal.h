@@ -1,4 +1,4 @@
-// terminal.h: shows pictures in the terminal (--term): detects the supported protocol and writes the picture in it.
+// terminal.h: shows pictures in the terminal (--term), with a protocol that the terminal supports.
 #ifndef TERMINAL_H
 #define TERMINAL_H
 
@@ -15,16 +15,16 @@ struct terminal {
 };
 
 // Determines whether pictures are also shown in the terminal, and makes output_save show them. Must be called before a
-// sandbox is entered and before the work starts. `alone` is set if the command makes one picture. With --term auto, the
-// picture is shown if no file is named, standard output is a terminal that supports sixels or the graphics of kitty or
-// iTerm2, and no other report is written to it. Fails with LAM_BAD_ARGUMENT if --term requests an unavailable protocol,
-// or with LAM_UNSUPPORTED if libchafa is missing.
+// sandbox is entered and before the work starts. `alone` is set if the command makes one picture. With --term auto,
+// pictures are shown only if the command line names no file and standard output contains no report. The terminal must
+// also support sixels, kitty graphics or iTerm2 images. Fails with LAM_BAD_ARGUMENT if --term requests an unavailable
+// protocol, or with LAM_UNSUPPORTED if libchafa is missing.
 bool terminal_start(const struct options *options, bool alone, lam_error *error);
 
 // Returns whether pictures are shown in the terminal.
 bool terminal_shows(void);
 
-// Reports that a picture cannot be written to standard output, which is a terminal that cannot show it. Returns false.
+// Reports that standard output is a terminal and the picture cannot be written to it. Returns false.
 bool terminal_refuse(const char *command, lam_error *error);
 
 // terminal_probe.c: detects the terminal's capabilities from the environment and from its answers. Waits at most half a

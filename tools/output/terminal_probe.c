@@ -1,6 +1,6 @@
 // terminal_probe.c: detects the graphics protocol of a terminal. Environment variables identify kitty, Ghostty, iTerm2
-// and WezTerm. The program sends two queries to other terminals: the query for the graphics of kitty, and "primary
-// device attributes". Every terminal answers the second query, so the program then stops waiting.
+// and WezTerm. The program sends two queries to other terminals: the kitty graphics query, and "primary device
+// attributes". Every terminal answers the second query, so the program stops waiting when this answer arrives.
 //
 // Kitty: https://sw.kovidgoyal.net/kitty/graphics-protocol/#querying-support-and-available-transmission-mediums
 // Attributes (4 means sixel graphics) and the cell size (16 t): https://invisible-island.net/xterm/ctlseqs/ctlseqs.html

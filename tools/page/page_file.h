@@ -7,9 +7,9 @@
 // Returns whether the extension of an output is ".html".
 bool page_is_named(const char *output);
 
-// Returns the path of the page, allocated with malloc. Searches LAMBENT_PAGE, the installed file
-// share/lambent/lambent.html in the parent of the program's folder, and build-web/lambent.html in the parent of the
-// build folder. Fails with LAM_UNSUPPORTED if there is no page, or with LAM_LIMIT if memory runs out.
+// Returns the path of the page, allocated with malloc. Tries, in this order: the file that LAMBENT_PAGE names, the
+// installed file ../share/lambent/lambent.html relative to the program's folder, and ../build-web/lambent.html relative
+// to a build folder. Fails with LAM_UNSUPPORTED if there is no page, or with LAM_LIMIT if memory runs out.
 char *page_file_find(lam_error *error);
 
 // Returns the contents of a file, `*size` bytes followed by a zero, allocated with malloc. Fails with LAM_CANNOT_READ,

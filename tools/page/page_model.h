@@ -25,13 +25,13 @@ bool page_model_list(const struct job *job, struct page_model *model, lam_error 
 bool page_model_add_environment(const struct options *options, struct page_model *model, lam_error *error);
 void page_model_free(struct page_model *model);
 
-// Returns a sentence that explains why the page cannot read some of the files. `index` counts the reasons from 0; NULL
-// ends the list.
+// Returns a sentence that explains why the page cannot read some of the files. There may be several reasons, with the
+// indices 0, 1 and so on. Returns NULL if there is no reason with this index.
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
-// Prints the words of the picture's command line as a JSON array without '<': the model, and each option with its value
-// in one word. `given` contains the options of the command line. Options about the machine (threads, device, limits)
-// and about output files are omitted. Fails with LAM_LIMIT.
+// Prints the picture's command line as a JSON array: the model, and one string for each option with its value. The text
+// contains no '<'. `given` contains the options of the command line. Options about the machine (threads, device,
+// limits) and about output files are omitted. Fails with LAM_LIMIT.
 bool page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model,
                       lam_error *error);
 

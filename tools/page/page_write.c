@@ -1,6 +1,6 @@
-// page_write.c: writes the one-file page with a model. Browsers do not run the model's files and the command line as
-// scripts. The page's policy, which lists its scripts by their hashes, therefore needs no change. web/page/base/inside.js
-// reads the files and the command line.
+// page_write.c: writes the one-file page with a model. The page's policy lists the hashes of its scripts. The model's
+// files and the command line are not scripts, so the policy needs no change. web/page/base/inside.js reads the files
+// and the command line.
 #include "page_write.h"
 
 #include <stdlib.h>

@@ -7,8 +7,8 @@
 
 // Writes the members width, height, triangles, read_ms, frame_ms, camera, sphere, own_lights, color and warnings of an
 // object. `read_ms` is the time that reading the model took, possibly for an earlier picture. `own_lights` is true if
-// lights of the model's file light the picture, and no --light adds to them or replaces them. `color` is the diffuse
-// colour of the first object's material.
+// the picture uses the lights in the model's file, and no --light is given. `color` is the diffuse colour of the first
+// object's material.
 void picture_json(struct json *json, const struct job *job, double read_ms);
 
 #endif

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-// The numbers of segments with which a shape clearly shows its facets. All other shapes use 24x12. The numbers differ
-// because the teapot's stacks are per patch, the knot is long, and implicit surfaces are divided into cells.
+// The numbers of segments with which a shape clearly shows its facets. All other shapes use 24x12. A teapot's stacks
+// are counted per patch, a knot is long, and implicit surfaces are divided into cells instead of segments.
 static const struct {
     const char *shape, *segments;
 } coarse_shapes[] = {{"teapot", "24x4"}, {"torus-knot", "72x10"}, {"gyroid", "32"}, {"metaballs", "24"}};
@@ -17,7 +17,7 @@ static const char *coarse(const char *shape)
     return "24x12";
 }
 
-// Returns whether the command line contains an option, or a row of variants varies the option.
+// Returns whether the command line or a row of variants sets the option.
 static bool is_given(const struct sheet *sheet, const struct options *options, const char *dashed)
 {
     if (option_given(options, dashed + 2))

@@ -15,12 +15,12 @@ struct sheet_model {
 // Returns true if the model must be read to decide which defaults apply.
 bool sheet_defaults_need_model(const struct sheet *sheet, const struct options *options);
 
-// Writes to `words` the words of the defaults that apply, and returns their number. Skips options that the command line
-// contains.
+// Stores the defaults that apply in `words`, as words of a command line, and returns the number of words. Skips options
+// that the command line contains.
 int sheet_defaults(const struct sheet *sheet, const struct options *options, const struct sheet_model *model,
                    const char *words[2 * SHEET_DEFAULTS_MAX]);
 
-// Adds the defaults of the other sheet for options without a default.
+// If an option has no default in `sheet`, but one in `other`, adds this default to `sheet`.
 void sheet_defaults_merge(struct sheet *sheet, const struct sheet *other);
 
 #endif

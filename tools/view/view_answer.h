@@ -23,7 +23,7 @@ enum MHD_Result view_answer_file(const struct view *view, struct MHD_Connection 
 // Answers a connection with the result of its task.
 enum MHD_Result view_answer_result(struct view_connection *connection);
 
-// Adds the headers of all answers to the caller's response.
+// Adds the headers that every answer contains to the caller's response.
 void view_answer_headers(const struct view *view, struct MHD_Response *response, const char *type);
 
 #endif

@@ -119,7 +119,7 @@ struct contract {
     unsigned supports;     // bits of reference_need
     unsigned terms;        // bits of contract_term
     unsigned demands;      // bits of contract_demand
-    lam_light_frame space; // the space of the lighting: CAMERA (eye space) or WORLD
+    lam_light_frame space; // the space in which lighting is computed: CAMERA (eye space) or WORLD
     // The space of the first light: OBJECT (the model-view matrix transforms the light like the vertices), WORLD or
     // CAMERA.
     lam_light_frame light_frame;

@@ -119,7 +119,7 @@ static void complete_defaults(struct contract *c)
 }
 
 // Returns the space of the first name that belongs to a light. If there is no such name, the result is the space of the
-// default light or, without a default light, the space of the lighting.
+// default light or, without a default light, the space in which lighting is computed.
 static lam_light_frame light_frame_of(const struct contract *c)
 {
     const struct contract_defaults *d = &c->defaults;

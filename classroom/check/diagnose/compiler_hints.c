@@ -1,4 +1,4 @@
-// compiler_hints.c: rules that explain a compiler's message by means of the shader's source.
+// compiler_hints.c: explains a compiler's messages with the help of the shader's source.
 #include "compiler_hints.h"
 
 #include <ctype.h>

@@ -43,8 +43,9 @@ bool check_is_vertex(const char *path);   // decided by the extension: .vert, .v
 bool check_is_fragment(const char *path); // decided by the extension: .frag, .fs, .fsh or .fragment, also followed by
                                           // .glsl
 
-// Pairs the files of a command line. A vertex shader belongs to the fragment shader with the same folder and name.
-// Fragment shaders without a matching vertex shader use `vertex`. Returns the number of submissions, or −1 on failure.
+// Pairs the shader files given on the command line. A vertex shader belongs to the fragment shader that has the same
+// name and is in the same folder. Fragment shaders without a matching vertex shader use `vertex`. Returns the number of
+// submissions, or −1 on failure.
 int check_pair(int count, char **files, const char *vertex, struct check_submission **submissions, lam_error *error);
 
 // Finds the submissions of a class in alphabetical order. Returns their number, or −1 on failure.
@@ -73,8 +74,8 @@ struct check_result {
 // and earns no points.
 const char *check_scene_word(const lam_check_scene *scene);
 
-// Returns the points of a scene: its weight, 0, or −1 if the scene earns no points because the exercise requires none
-// of its terms.
+// Returns a scene's points: the scene's weight if the scene passes, otherwise 0. Returns −1 if the scene does not
+// count, because the exercise requires none of the scene's terms.
 double check_scene_points(const lam_check_scene *scene);
 
 struct check_points {
@@ -89,7 +90,7 @@ struct check_points check_points_of(const lam_check_report *report);
 
 // --- output
 
-// Prints a sentence without a line end that states that no mistake was found.
+// Prints a sentence that states that no mistake was found, without a line end.
 void check_print_no_finding(FILE *file, const lam_check_report *report);
 void check_report_text(FILE *file, const lam_check_report *report, const char *shader, double tolerance);
 void check_report_line(FILE *file, const struct check_result *result); // prints a line of text for a class
@@ -105,14 +106,14 @@ const char *check_says(const lam_check_report *report);
 // Writes a CSV value, in quotes if necessary. Escapes names that a spreadsheet would evaluate as formulas.
 void check_csv_text(FILE *file, const char *text);
 
-// Write the rows of a CSV file and of Moodle's worksheet. The functions return 0, or the errno of a file that cannot be
-// written.
+// Write the rows of a CSV file and of Moodle's worksheet. The functions return 0 or, if the file cannot be written, the
+// errno.
 int check_csv_head(FILE *file);
 int check_csv_row(FILE *file, const struct check_result *result);
 int check_moodle_head(FILE *file);
 int check_moodle_row(FILE *file, const struct check_result *result);
 
-// Writes the result of one submission as a JSON file. Returns 0, or the errno of a file that cannot be written.
+// Writes the result of one submission as a JSON file. Returns 0 or, if the file cannot be written, the errno.
 int check_gradescope(FILE *file, const struct check_result *result);
 int check_submitty(FILE *file, const struct check_result *result);
 

@@ -1,7 +1,7 @@
 // check_batch.c: checks many shaders in parallel and prints the results in order.
 //
-// Each thread takes the next submission, draws it in a separate process and compares the pictures. When a thread
-// completes the result that is next in order, the thread prints it, together with all following results that are ready.
+// Each thread takes the next submission, draws it in a separate process and compares the pictures. If its result is the
+// next to be printed, the thread prints this result and all following results that are ready.
 #include "check.h"
 
 #include <errno.h>

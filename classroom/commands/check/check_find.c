@@ -3,8 +3,9 @@
 // A folder with one fragment shader is one submission, named after the folder. If the folder has a single vertex
 // shader, the submission uses it. In other folders, and in the class's folder, each fragment shader is a submission
 // named after the file. This submission uses the vertex shader with the same name in the same folder. If there is no
-// such shader, and exactly one vertex shader of the folder matches no fragment shader, the submission uses this vertex
-// shader. Hidden files and links are ignored. Folders nested more than MAX_DEPTH deep are reported as a problem.
+// such shader, but exactly one vertex shader in the folder has no fragment shader of the same name, the submission uses
+// this vertex shader. Hidden files and links are ignored. Folders nested more than MAX_DEPTH deep are reported as a
+// problem.
 #include "check.h"
 
 #include <dirent.h>
@@ -24,7 +25,8 @@ struct finding {
 
 static bool add(struct finding *f, char *name, const char *fragment, const char *vertex, const char *problem)
 {
-    if (name && (f->count & (f->count - 1)) == 0) { // the capacity doubles at each power of two
+    if (name &&
+        (f->count & (f->count - 1)) == 0) { // the list is full at each power of two; its capacity is then doubled
         void *more = realloc(f->items, (f->count ? 2 * (size_t)f->count : 1) * sizeof *f->items);
         if (more)
             f->items = more;

@@ -1,4 +1,4 @@
-// check_page.c: writes the page of a class: one HTML file without scripts. Its pictures are the sheets in the same
+// check_page.c: writes the page of a class: one HTML file without scripts. The page shows the sheets in the same
 // folder.
 #include "check.h"
 
@@ -53,7 +53,7 @@ static void put_address(FILE *file, const char *path)
     html_address(file, slash ? slash + 1 : path);
 }
 
-// Counts a name. Names of verdicts and mistakes are static.
+// Counts a name: a static string.
 static void count(struct counted *list, size_t capacity, const char *name)
 {
     for (size_t i = 0; i < capacity; i++) {

@@ -76,8 +76,9 @@ static uint64_t max_resident_bytes(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
 }
 
-// Exits as soon as the process exceeds its memory limit. The system's peak value also covers the time before exec(),
-// when the process was a copy of its parent. If the parent is larger than the limit, the limit is therefore raised.
+// Exits as soon as the process exceeds its memory limit. The system reports the largest amount of memory that the
+// process has ever used. This includes the time before exec(), when the process was a copy of the parent. If the parent
+// is larger than the limit, the limit is therefore raised.
 static void *watch_memory(void *unused)
 {
     const struct timespec pause = {.tv_nsec = 2000000};
@@ -88,8 +89,8 @@ static void *watch_memory(void *unused)
     return unused;
 }
 
-// Sets two limits: on the memory in use, which a thread watches, and on allocations. The second limit includes a margin
-// for the stacks of the driver's threads, which allocate more memory than they use.
+// Sets two limits: on the memory in use, which a thread watches, and on allocations. The second limit includes a
+// margin, because the stacks of the driver's threads need more allocated memory than they use.
 static void bound_memory(const char *bytes)
 {
     memory_limit = (rlim_t)strtoull(bytes, NULL, 10);
@@ -154,15 +155,15 @@ static double processor_time_s(pid_t pid)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Starts this program again, by `path` if /proc is missing.
+// Starts this program again, from `path` if /proc is missing.
 static void become_worker(const char *memory, const char *path)
 {
     execl("/proc/self/exe", "lambent", CHECK_WORKER, memory, (char *)NULL);
     execl(path, "lambent", CHECK_WORKER, memory, (char *)NULL);
 }
 
-// The arguments of the drawing process. The arguments are written before the process starts, because a copy of a
-// process with threads may only make system calls.
+// The arguments of the drawing process. The arguments are formatted before fork(). After fork() in a process with
+// threads, the child may only make system calls.
 struct worker {
     double time_limit_s;
     const char *path;

@@ -1,4 +1,4 @@
-// lanes.h: SIMD values of LANES numbers. Define LANES as 1, 4, 8 or 16 before including it.
+// lanes.h: SIMD values of LANES numbers. Define LANES as 1, 4, 8 or 16 before including this file.
 //
 //  num    LANES floats          inum   LANES 32-bit integers          mask   LANES truth values (from comparisons)
 //

@@ -1,6 +1,6 @@
 // number.c: parses numbers in text, correctly rounded, in any locale.
 //
-// There are three methods. Each method is used if the previous method cannot guarantee the last bit:
+// There are three methods. If a method cannot guarantee the last bit of the result, the next method is used:
 //  1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers
 //     Accurately", 1990); for floats, a product in double, unless the product is near the midpoint of two floats.
 //  2. One or two 64×64-bit products with a 128-bit power of five (Lemire, "Number Parsing at a Gigabyte per
@@ -22,10 +22,11 @@ struct decimal {
 // The floating-point format of the result.
 struct format {
     int mantissa_bits;         // stored bits
-    int min_exponent_field;    // the exponent that exponent field 0 would have: −bias
+    int min_exponent_field;    // −bias: the exponent that the field 0 would represent
     int infinite;              // the exponent field of infinity
     int even_first, even_last; // range of powers of ten for which a product can be a midpoint
-    int min_power, max_power;  // powers of ten: for any 19 digits, the result is 0 below and infinity above
+    // The limits of the power of ten: with a smaller power, any 19 digits give 0; with a larger power, infinity.
+    int min_power, max_power;
 };
 static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
 static const struct format format_float = {23, -127, 0xff, -17, 10, -65, 38};
@@ -169,7 +170,7 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
         }
         mantissa >>= 1 - field;
         mantissa = (mantissa + (mantissa & 1)) >> 1;
-        *bits = mantissa; // a carry may make it the smallest normal number
+        *bits = mantissa; // if rounding carries, the result is the smallest normal number, whose bits are correct too
         return true;
     }
     // If the number is exactly at the midpoint, round to even.
@@ -187,8 +188,8 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
 
 // --- method 3: big integers
 
-// Unsigned big integers, lowest limb first. These integers are large enough for 770 digits times 10^308, or 10^(342 +
-// 770) and its multiples by 2^64.
+// Unsigned big integers, lowest limb first. These integers are large enough for 770 digits times 10^308, and for
+// 10^(342 + 770) times up to 2^64.
 enum { LIMBS = 160, DIGITS_MAX = 770 };
 struct big {
     uint32_t limb[LIMBS];
@@ -281,8 +282,8 @@ static int64_t big_digits(const struct decimal *d, struct big *a)
     return power;
 }
 
-// Returns the quotient, by long division. `over` is `bits` (at least 0) bits longer than `under`. Multiplies `under` by
-// 2^bits; `over` receives the remainder times 2^bits.
+// Returns the quotient over / under, by long division. `bits`, at least 0, is the difference of their lengths in bits.
+// Multiplies `under` by 2^bits; `over` receives the remainder times 2^bits.
 static uint64_t divide(struct big *over, struct big *under, int bits)
 {
     uint64_t quotient = 0;
@@ -294,7 +295,7 @@ static uint64_t divide(struct big *over, struct big *under, int bits)
             quotient |= 1;
         }
         if (i > 0)
-            big_shift_left(over, 1); // instead of shifting the divisor down
+            big_shift_left(over, 1); // has the same effect as dividing `under` by 2
     }
     return quotient;
 }
@@ -329,7 +330,7 @@ static uint64_t round_exactly(const struct decimal *d, const struct format *form
     if (bits < 0) { // round up if the remainder is more than half of the last bit
         big_shift_left(&over, 1);
         int half = big_compare(&over, &under);
-        return half > 0; // exactly half rounds to the even 0
+        return half > 0; // a remainder of exactly half is rounded to even, that is, to 0
     }
     // The remainder and the divisor were both shifted up by `bits`, so compare twice the remainder with the divisor.
     uint64_t hidden = UINT64_C(1) << format->mantissa_bits;

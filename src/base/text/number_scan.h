@@ -1,5 +1,5 @@
-// number_scan.h: parses the digits of numbers eight at a time, with a fast path for the short numbers of model files.
-// number.c handles all others.
+// number_scan.h: parses the digits of numbers eight at a time, with a fast path for the short numbers in model files.
+// number.c parses all other numbers.
 #ifndef NUMBER_SCAN_H
 #define NUMBER_SCAN_H
 

@@ -56,7 +56,7 @@ const char *shown_file(const char *name, char out[SHOWN_NAME_SIZE])
     rest = write_characters(at, end, SHOWN_FILE_HEAD, &to);
     memcpy(to, "…", sizeof "…");
     to += sizeof "…" - 1;
-    const unsigned char *ahead = rest; // reaches `end` when `rest` is at the last characters
+    const unsigned char *ahead = rest; // `ahead` is ahead of `rest` by the number of characters to show at the end
     for (int i = SHOWN_FILE_HEAD; i < SHOWN_CHARACTERS; i++)
         ahead = next_character(ahead, end);
     for (; ahead < end; ahead = next_character(ahead, end))

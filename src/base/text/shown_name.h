@@ -9,8 +9,8 @@ enum {
     SHOWN_NAME_SIZE = 4 * SHOWN_CHARACTERS + 4, // bytes, including the "…" and the final 0
 };
 
-// Writes the name of a file like shown_name. In a longer name, "…" replaces the middle instead of the end: it follows
-// the first SHOWN_FILE_HEAD characters. Returns `out`.
+// Writes the name of a file like shown_name. In a longer name, "…" replaces the middle instead of the end. The first
+// SHOWN_FILE_HEAD characters precede the "…". Returns `out`.
 enum { SHOWN_FILE_HEAD = 12 };
 const char *shown_file(const char *name, char out[SHOWN_NAME_SIZE]);
 

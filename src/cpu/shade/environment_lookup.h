@@ -1,4 +1,4 @@
-// environment_lookup.h: looks up an environment in LANES directions. Define LANES before including it.
+// environment_lookup.h: looks up an environment in LANES directions. Define LANES before including this file.
 #ifndef ENVIRONMENT_LOOKUP_H
 #define ENVIRONMENT_LOOKUP_H
 

@@ -19,7 +19,7 @@ typedef uint32_t fan_row[FAN_POSITIONS];
 struct corner_fan_block {
     uint32_t count, positions;        // corners per position; the columns after the last position repeat that position
     bool by_vertex;                   // the corners in a column belong to one vertex
-    fan_row corners[FAN_CORNERS_MAX]; // after `make`, in ascending order at each position
+    fan_row corners[FAN_CORNERS_MAX]; // `make` sorts the corners of each position in ascending order
     fan_row open;                     // with by_vertex, nonzero if the vertex is not closed (normals.h)
     fan_row flat;                     // nonzero if a triangle is degenerate; the other fields are then invalid
     // The fans at each position, in the order of their first corners. For each fan, `members` contains its corners as
@@ -42,9 +42,9 @@ struct corner_fan_simd {
     int lanes; // floats in a register
     // Computes the fans from count, positions and corners.
     void (*make)(struct corner_fan_block *block, const lam_mesh *mesh, double min_cosine);
-    // Fills `elements`; must be called after `make`. Removes the members whose triangles are not in the set, in which
-    // the mesh's triangle 0 has the number `first`. Also removes corners of open vertices, and of vertices whose bits
-    // are set in `done` (may be NULL). Returns the number of fans that have members.
+    // Fills `elements`; must be called after `make`. Removes the members whose triangles are not in the set
+    // `triangles`. In this set, the mesh's triangle 0 has the number `first`. Also removes corners of open vertices,
+    // and of vertices whose bits are set in `done` (may be NULL). Returns the number of fans that have members.
     uint32_t (*locate)(struct corner_fan_block *block, const lam_mesh *mesh, const struct rank_bitset *triangles,
                        uint32_t first, const uint64_t *done);
 };

@@ -42,7 +42,7 @@ static void mark_first_corners(void *user, size_t index, int thread)
         rank_bitset_add(&n->first_corners, n->made.first_corners[e]);
 }
 
-// Replaces the first corner of each normal with the normal's number.
+// Computes the number of each normal, which replaces the normal's first corner in the array.
 static void number_normals(void *user, size_t index, int thread)
 {
     (void)thread;

@@ -16,7 +16,8 @@ struct rank_bitset {
 
 static inline size_t rank_bitset_words(size_t size) { return (size + 63) / 64; }
 
-// Adds the numbers of a word whose bits are set. Any thread may call this function.
+// Adds members: for each bit set in `bits`, the number with this bit in the word `word`. Any thread may call this
+// function.
 static inline void rank_bitset_add_bits(struct rank_bitset *set, size_t word, uint64_t bits)
 {
     if (bits & ~__atomic_load_n(&set->bits[word], __ATOMIC_RELAXED))

@@ -16,8 +16,8 @@ struct scratch_memory {
 // out. Any thread may call this function.
 void *scratch_take(struct scratch_memory *scratch, struct arena *arena, size_t count, size_t size);
 
-// Borrows the end of the scratch memory until scratch_return. Returns NULL if the scratch memory is too small. Until
-// then, no other thread may allocate from it.
+// Borrows the end of the scratch memory until scratch_return. No other thread may allocate from the scratch memory
+// before scratch_return. Returns NULL if the scratch memory is too small.
 void *scratch_borrow(struct scratch_memory *scratch, size_t bytes);
 void scratch_return(struct scratch_memory *scratch);
 

@@ -1,11 +1,11 @@
 // visible_normals.c: computes smooth normals for some or all triangles of a mesh.
 //
 // Closed vertices (normals.h) are processed first. Closed vertices need no search, because the corners that use each
-// vertex are simply collected. All other vertices are processed in three steps. First (shared_positions.c), every
-// vertex at one of their positions gets the number of the position. Second (position_bins.c), the corners at these
-// positions are sorted into bins, one for each range of positions. Third (corner_fan.c), the corners of each bin are
-// sorted by position, and the normals are computed. Positions with the same small number of corners are collected until
-// 32 of them can be computed in parallel lanes (corner_fan_simd.c).
+// vertex are simply collected. All other vertices are processed in three steps. First (shared_positions.c), the
+// positions of these vertices are numbered, and every vertex at such a position is found. Second (position_bins.c), the
+// corners at these positions are sorted into bins, one for each range of positions. Third (corner_fan.c), the corners
+// of each bin are sorted by position, and the normals are computed. Positions with the same small number of corners are
+// collected until 32 of them can be computed in parallel lanes (corner_fan_simd.c).
 #include "visible_normals.h"
 
 #include "corner_fan.h"
@@ -67,7 +67,7 @@ static bool make_fans(struct fan_loop *l, struct fan_worker *worker, const uint3
     memcpy(scratch->numbers, corners, count * sizeof *corners);
     sort_corners(scratch->numbers, count);
     uint32_t fans = corner_fan_normals(l->search->mesh, l->min_cosine, scratch, count);
-    uint32_t *element_of = scratch->numbers; // no longer needed as input
+    uint32_t *element_of = scratch->numbers; // reuses the array of numbers, which is no longer needed
     memset(element_of, 0xff, fans * sizeof *element_of);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t corner = scratch->corners[i].corner, fan = scratch->corners[i].fan;

@@ -36,7 +36,8 @@ static bool bmp_probe(const uint8_t *bytes, size_t size)
     if (size < FILE_HEADER + 4 || bytes[0] != 'B' || bytes[1] != 'M')
         return false;
     uint32_t header = u32_at(bytes + FILE_HEADER);
-    return header >= CORE_HEADER && header <= 4096; // text that begins with BM has larger values at this position
+    return header >= CORE_HEADER &&
+           header <= 4096; // excludes texts that begin with BM: as a number, their next bytes are larger
 }
 
 static bool fail_end(const struct bmp *bmp, const char *within, lam_error *error)

@@ -5,8 +5,8 @@
 // (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
 // (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_cameras.c). Materials (gltf_materials.c) request
 // textures, whose pictures are decoded together (gltf_textures.c). Before the nodes are placed, an animation sets their
-// transforms (gltf_animation.c). For morph targets and skins (gltf_deform.c, gltf_skins.c), a mesh has its own copy of
-// the positions.
+// transforms (gltf_animation.c). If a mesh has morph targets or a skin (gltf_deform.c, gltf_skins.c), its positions are
+// copied and changed.
 //
 // Every count and index is checked when it is read. Errors name the position in the file: "ship.gltf:
 // meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers refer to the specification,
@@ -28,7 +28,7 @@ struct gltf_buffer {
 // A bufferView: a range of a buffer's bytes.
 struct gltf_view {
     const uint8_t *data; // NULL if not read yet
-    size_t size, stride; // stride 0: the elements are contiguous
+    size_t size, stride; // a stride of 0 means that the elements are contiguous
     int buffer;          // −1 if the bytes were decoded into the scene's memory
 };
 
@@ -52,10 +52,11 @@ struct gltf_accessor {
     int sparse_component;
     const uint8_t *sparse_indices, *sparse_values;
     // These arrays are converted on first use, and are NULL until then.
-    const float *floats[2]; // `width` per element; [0]: kept until the load ends, [1]: kept as long as the scene exists
+    // `width` floats per element; floats[0] is kept until the load ends, floats[1] as long as the scene exists.
+    const float *floats[2];
     const uint32_t *indices; // one per element
     uint32_t max_index;
-    const void *colors[2]; // the colours in a format of lam_mesh; in the second array, alpha is 1
+    const void *colors[2]; // the colours in a format of lam_mesh: colors[0] with alpha, colors[1] with an alpha of 1
 };
 
 struct gltf {
@@ -75,9 +76,9 @@ struct gltf {
     void *meshopt;        // the library, opened when a bufferView needs it; NULL until then
     void *draco;          // the module, opened when a primitive needs it; NULL until then
     int first_material;   // index in the scene of the file's first material
-    int default_material; // index in the scene, for primitives that name no material; −1 if not created yet
+    int default_material; // index in the scene of the material for primitives without a material; −1 if not created yet
     int variant;          // the requested variant, or −1
-    // the number of clamped factors (gltf_take_factors); the next members describe the first clamped factor
+    // The number of clamped factors (gltf_take_factors), and the name and values of the first clamped factor.
     size_t cut_factors;
     char cut_factor[160];
     double cut_from, cut_to;
@@ -85,8 +86,8 @@ struct gltf {
     lam_file_image *file_images;   // one element for each image (gltf_file_info.h)
     struct gltf_picture *pictures; // gltf_textures.h: two for each image of the file
     struct gltf_map *maps;         // the maps of materials, latest first
-    // for each material, the file's texture coordinate sets that the material uses as its first and second set; −1 if
-    // unused
+    // For each material, the numbers of the one or two texture coordinate sets in the file that the material uses. −1
+    // means that there is no such set.
     int (*texcoord_sets)[2];
 
     struct gltf_node *nodes; // gltf_nodes.h
@@ -94,8 +95,8 @@ struct gltf {
     const int *node_order;    // parents before children, children in the file's order
     struct gltf_mesh *meshes; // gltf_primitives.h
 
-    // The numbers of skipped primitives: for one warning of each kind, and for the error if a file contains no other
-    // primitives.
+    // The numbers of skipped primitives, by the reason. Each reason causes one warning, or an error if the file
+    // contains no other primitives.
     size_t without_positions, flattened;
     uint64_t morphed; // morphed vertices, counted once per target
 };

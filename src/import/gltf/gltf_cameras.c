@@ -34,7 +34,8 @@ static bool read_orthographic(struct gltf *gltf, const struct place *place, cons
         !json_take_number(&gltf->json, place, object, "zfar", 0, 1e30, &far_plane))
         return false;
     if (ymag == 0)
-        return json_fail(&gltf->json, place, "ymag is missing or 0, expected half the height of the picture");
+        return json_fail(&gltf->json, place,
+                         "ymag is missing or 0; expected half the picture's height in the scene's units");
     if (far_plane <= near_plane)
         return json_fail(&gltf->json, KEY_OF(place, "zfar"), "found %.10g, expected more than znear, %.10g", far_plane,
                          near_plane);

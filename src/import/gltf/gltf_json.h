@@ -21,7 +21,7 @@ bool gltf_take_whole(struct gltf *gltf, const struct place *place, const json_t 
 // Gets an index into a top-level list of the file. *index is −1 if the key is missing.
 bool gltf_take_index(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                      const char *list, int *index);
-// Like gltf_take_index, for a value without a key.
+// Like gltf_take_index, but for a value that is not the value of a key.
 bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *value, const char *list, int *index);
 
 // Gets `count` numbers. *out is unchanged if the key is missing.
@@ -48,8 +48,8 @@ const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok);
 
 // Returns the index of the element of `list` (NULL means empty) whose name is `wanted`. If no name matches, `wanted`
-// may be an index. Returns −1 if there is no such element; the error then lists the elements. `what` is the noun for an
-// element.
+// may be an index. Returns −1 if there is no such element; the error then lists the elements, and calls an element
+// `what`.
 int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, const char *what);
 
 #endif

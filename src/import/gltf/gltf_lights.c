@@ -41,8 +41,8 @@ static bool read_light(struct gltf *gltf, const struct place *place, const json_
         !json_take_number(&gltf->json, place, object, "range", -1e30, 1e30, &range))
         return false;
     *light = lam_light_default((lam_light_type)type);
-    // glTF's intensities are in candela and lux, and a white Lambertian surface reflects 1/π of the light. In Lambent,
-    // such a surface reflects all of the light.
+    // The intensity in glTF (candela or lux) is π times Lambent's. In glTF, a white Lambertian surface reflects 1/π of
+    // the light. In Lambent, such a surface reflects all of the light.
     light->diffuse = (lam_rgb){channel(color[0] * intensity / PI), channel(color[1] * intensity / PI),
                                channel(color[2] * intensity / PI)};
     light->specular = light->diffuse;

@@ -4,8 +4,8 @@
 
 #include "gltf.h"
 
-// Adds objects for the scene's nodes with meshes: one for each primitive of each node, or of each instance of the node
-// (EXT_mesh_gpu_instancing).
+// Adds objects for the scene's nodes with meshes: one object for each primitive of the node's mesh. If the node has
+// instances (EXT_mesh_gpu_instancing), adds these objects for each instance.
 bool gltf_objects_add(struct gltf *gltf);
 
 #endif

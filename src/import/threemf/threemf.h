@@ -54,7 +54,7 @@ struct threemf_layers {
     int texture_count;
     int base;                    // the base material whose surface the mixed layers use, or −1
     uint32_t colors[LAYERS_MAX]; // colours of the first element: indices into the part's colours
-    // another element has different colours, or some textures use different coordinates than the first texture
+    // whether an element's colours differ from the first element's, or a texture's coordinates from the first texture's
     bool varies;
 };
 
@@ -90,8 +90,8 @@ struct threemf_object {
     struct threemf_component *components;
     size_t component_count;
     int mesh;      // index in the scene; −1 if not created yet, or if the object has no triangles
-    bool made;     // `mesh` has its final value
-    bool visiting; // set while the object is being placed; a component that refers to it then forms a cycle
+    bool made;     // whether `mesh` has been set
+    bool visiting; // the object is being placed; a component that refers to such an object would form a cycle
 };
 
 // A model part.

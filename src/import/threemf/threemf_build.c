@@ -81,7 +81,7 @@ static bool place(struct threemf *file, const struct instance *instance)
         if (ok && below.object->visiting)
             ok = fail_reference(file, instance->part, component, "an object that contains this one");
         if (ok && below.depth > DEPTH_MAX)
-            ok = fail_reference(file, instance->part, component, "at more than 100 components within one another");
+            ok = fail_reference(file, instance->part, component, "nested in more than 100 components");
         if (ok) {
             below.transform = mat4_mul(&instance->transform, &below.transform);
             ok = place(file, &below);

@@ -16,7 +16,7 @@ enum { PLAIN = -1 };     // material of triangles without a base material or a t
 struct surface {
     int material;
     uint32_t colors[3], texcoords[3];
-    bool colored, textured; // whether the triangle has its own colours, and its own texture coordinates
+    bool colored, textured; // whether the triangle has its own colours, and whether it has its own texture coordinates
 };
 
 struct mesh_maker {

@@ -83,7 +83,7 @@ struct display_wish {
     uint32_t id, index;
 };
 
-// Records that a base material uses the display properties that its element or its group names.
+// Records that a base material uses display properties, named in the material's element or in the element of its group.
 bool model_want_display(struct threemf_xml *xml, const char *const *attributes, int material, uint32_t index);
 
 // threemf_extensions.c: records a namespace, and checks the extensions that the model element requires.
@@ -103,8 +103,8 @@ threemf_end_fn end_multis;
 // may come after the materials in the file.
 threemf_begin_fn begin_display, begin_metallic, begin_specular;
 void display_finish(struct model_reader *reader);
-// Reports a fault in a property group, which does not stop the load: adds a warning "FILE: PART:LINE: sentence" and
-// marks the current group as faulty. Returns true.
+// Reports a fault in the current property group, and returns true, because the load can continue. Adds a warning "FILE:
+// PART:LINE: sentence" and marks the group as faulty.
 bool properties_fault(struct threemf_xml *xml, const char *format, ...) __attribute__((format(printf, 2, 3)));
 // Adds the first two colours of every part: white, and the colour of parts without a material.
 bool properties_start(struct threemf *file, struct threemf_part *part);

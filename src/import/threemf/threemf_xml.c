@@ -1,7 +1,7 @@
 // threemf_xml.c: parses XML parts with expat, which is loaded on demand.
 //
-// Limits: an element may be at most TOKEN_BYTES long and DEPTH_MAX deep. Document types, whose entities can expand to
-// any size, are rejected, as 3MF requires. Memory that expat allocates is charged to the call.
+// Limits: an element may be at most TOKEN_BYTES long and DEPTH_MAX deep. Document types are rejected, because 3MF
+// forbids them and their entities can expand to any size. Memory that expat allocates is charged to the call.
 #include "threemf_xml.h"
 
 #include "fail.h"

@@ -19,8 +19,8 @@ struct threemf_xml;
 typedef bool threemf_begin_fn(struct threemf_xml *xml, const char *const *attributes);
 typedef bool threemf_end_fn(struct threemf_xml *xml);
 
-// An element that the parser reads if its parent is the element in row `parent` of the same table (−1 means that the
-// element is the root). All other elements are skipped, including their content.
+// A row of the table of elements that the parser reads. `parent` is the row of the element's parent, or −1 for the root
+// element. All other elements are skipped, including their content.
 struct threemf_element {
     enum threemf_namespace space;
     const char *name;

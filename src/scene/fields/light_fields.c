@@ -20,7 +20,8 @@
 static const struct light_field rows[] = {
     {.field = {MEMBER(position), .type = LAM_FIELD_POINT, .min = -UNBOUNDED, .max = UNBOUNDED, .light_types = PLACED,
                .unit = "model units",
-               .summary = "position; a scene file also accepts x, y, z, w (w = 0: a directional light from x, y, z)"}},
+               .summary = "position; a scene file also accepts x, y, z, w, where w = 0 makes a directional light from "
+                          "the direction x, y, z"}},
     {.field = {MEMBER(direction), .type = LAM_FIELD_DIRECTION, .min = -UNBOUNDED, .max = UNBOUNDED,
                .standard = {0, 0, -1}, .light_types = AIMED, .summary = "direction in which the light travels"}},
     {.field = {MEMBER(ambient), .symbol = "La", .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.2f),
@@ -45,14 +46,16 @@ static const struct light_field rows[] = {
                .summary = "exponent of the cosine of the angle from the cone's axis"},
      .cone = HARD_CONE},
     {.field = {ANGLE(inner_rad, "inner"), .max = 90, .light_types = BIT(SPOT),
-               .summary = "half angle of full brightness; requires outer; not allowed with cutoff or exponent"},
+               .summary =
+                   "half angle of the fully lit inner cone; requires outer; not allowed with cutoff or exponent"},
      .cone = SOFT_CONE},
     {.field = {ANGLE(outer_rad, "outer"), .max = 90, .light_types = BIT(SPOT),
                .summary = "half angle beyond which the light is zero, as in glTF; larger than inner"},
      .cone = SOFT_CONE},
     {.field = {MEMBER(occluded), .max = 1, .light_types = REACHING,
-               .summary = "fraction of the light that ambient occlusion dims; a scene file also accepts true (1) and "
-                          "false (0)"},
+               .summary =
+                   "fraction of this light to which ambient occlusion applies; a scene file also accepts true (1) and "
+                   "false (0)"},
      .optional = true},
     {.field = {MEMBER(sky), .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(0.4f),
                .light_types = BIT(HEMISPHERE), .summary = "light from above"}},
@@ -68,7 +71,7 @@ static const struct light_field rows[] = {
                .max = 1,
                .standard = {1},
                .light_types = REACHING,
-               .summary = "whether this light casts shadows in pictures drawn with shadows"},
+               .summary = "whether this light casts shadows; requires shadows in the picture"},
      .optional = true},
     {.field = {MEMBER(radius), .max = UNBOUNDED, .light_types = PLACED, .unit = "world units",
                .summary = "radius of the ball that emits the light; a larger ball casts softer shadows; 0: a point"},

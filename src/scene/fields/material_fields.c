@@ -70,8 +70,10 @@ static const struct material_field rows[] = {
                .summary = "0 is a mirror, 1 is matt; values below 0.045 are drawn as 0.045"},
      .reader = FIELD_LOBE,
      .physical = true},
-    {.field = {MEMBER(unlit), .type = LAM_FIELD_FLAG, .max = 1,
-               .summary = "draw the diffuse colour without lighting, unless an option sets a reflection model"},
+    {.field =
+         {MEMBER(unlit), .type = LAM_FIELD_FLAG, .max = 1,
+          .summary =
+              "whether to draw the diffuse colour without lighting; an option for the reflection model overrides this"},
      .reader = FIELD_CHOICE,
      .optional = true},
     LAYER(ior, DIELECTRIC, .max = UNBOUNDED, .standard = {1.5},
@@ -80,13 +82,14 @@ static const struct material_field rows[] = {
     LAYER(f0_color, DIELECTRIC, .type = LAM_FIELD_RGB, .max = UNBOUNDED, .standard = GREY(1),
           .summary = "colour of a dielectric's reflection at normal incidence"),
     LAYER(specular_glossiness, DIELECTRIC, .max = 1,
-          .summary = "1: also multiply the diffuse term by 1 - max f0, as in specular-glossiness files"),
+          .summary =
+              "multiplies the diffuse term by 1 - specular_glossiness * max f0; 1 for specular-glossiness files"),
     LAYER(clearcoat, CLEARCOAT, .max = 1, .summary = "fraction of the surface that a clear coat covers"),
     LAYER(clearcoat_roughness, CLEARCOAT, .max = 1, .summary = "roughness of the clear coat"),
     LAYER(sheen_color, SHEEN, .type = LAM_FIELD_RGB, .max = 1,
           .summary = "colour of the sheen of fabrics such as velvet"),
     LAYER(sheen_roughness, SHEEN, .max = 1, .summary = "roughness of the sheen"),
-    LAYER(anisotropy, ANISOTROPY, .max = 1, .summary = "strength of the stretched highlight of brushed metal"),
+    LAYER(anisotropy, ANISOTROPY, .max = 1, .summary = "how much the highlight is stretched, as on brushed metal"),
     {.field = {.name = "anisotropy_rotation_rad",
                .key = "anisotropy_rotation",
                .unit = "degrees",
@@ -109,9 +112,9 @@ static const struct material_field rows[] = {
           .summary = "fraction of refracted light that passes through the surface, as in glass"),
     LAYER(thickness, VOLUME, .max = UNBOUNDED, .summary = "thickness of the volume behind the surface; 0: no volume"),
     LAYER(attenuation_distance, VOLUME, .max = UNBOUNDED,
-          .summary = "distance after which white light becomes attenuation_color; 0: infinite"),
+          .summary = "distance within the material that turns white light into attenuation_color; 0: infinite"),
     LAYER(attenuation_color, VOLUME, .type = LAM_FIELD_RGB, .max = 1, .standard = GREY(1),
-          .summary = "colour of white light after attenuation_distance"),
+          .summary = "colour that white light has after travelling attenuation_distance"),
 };
 enum { COUNT = sizeof rows / sizeof *rows };
 _Static_assert((int)COUNT <= LAM_FIELDS_MAX, "more fields than LAM_FIELDS_MAX");

@@ -48,8 +48,9 @@ char *hash_file_name(const char *path, const char *model);
 // Returns the path of the model for a name in the file `path`, allocated with malloc. Returns NULL if memory runs out.
 char *hash_file_model(const char *path, const char *name);
 
-// Returns whether the hash file `path` may name the model `file` (a path from hash_file_model). After all links are
-// resolved, `file` must be below the folder of `path` or below a folder of --allow-path. Fails with LAM_CANNOT_READ.
+// Returns whether the hash file `path` may refer to the model `file` (a path from hash_file_model). Links are resolved
+// first. `file` must then be below the folder of `path` or below a folder that --allow-path names. Fails with
+// LAM_CANNOT_READ.
 bool hash_file_may_name(const char *path, const char *file, const struct options *options, lam_error *error);
 
 #endif

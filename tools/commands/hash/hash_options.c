@@ -36,12 +36,11 @@ static int split(char *text, char **words)
     return count;
 }
 
-// The picture options that name files: `environment` names one or six files, `look` names one file. Both options also
-// accept built-in names.
+// The picture options whose values are files: one or six for `environment`, one for `look`. Both options also accept
+// built-in names.
 static const char *const of_files[] = {"environment", "look"};
 
-// Writes the value of an option of the list of_files, with each path replaced by the result of `map`. Frees the
-// results.
+// Writes the value of an option in of_files, but passes each path through `map` first.
 static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
                       char *(*map)(const char *file, const char *path))
 {
@@ -93,8 +92,8 @@ char *hash_options_text(const struct options *options, const char *path)
     return text;
 }
 
-// Returns whether the hash file `path` may name the files in the value of an option. The paths in the value are
-// relative to the current folder.
+// Returns whether the hash file `path` may refer to the files in an option's value. The paths in `value` are relative
+// to the current folder.
 static bool may_name(const char *path, const char *name, const char *value, const struct options *o, lam_error *error)
 {
     bool environment = strcmp(name, "environment") == 0, ok = true;
@@ -110,8 +109,8 @@ static bool may_name(const char *path, const char *name, const char *value, cons
     return ok;
 }
 
-// Makes the paths in the options relative to the current folder. Must be called before a look is read. Stores the new
-// paths in the buffer from `to` to `end`.
+// Makes the paths in the options relative to the current folder. Must be called before a look is read. The new paths
+// are stored in the buffer that begins at `to` and ends at `end`.
 static bool resolve(char **words, int count, const char *path, char *to, const char *end, const struct options *o,
                     lam_error *error)
 {

@@ -63,7 +63,7 @@ void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t reco
     lam_error error;
     const char *folder = run->options->hash.pictures;
     char *path = folder ? hash_picture_path(folder, name) : NULL;
-    // Ignores a kept picture whose hash differs from the recorded hash, because the picture is from another run.
+    // If the hash of the stored picture differs from the recorded hash, the picture is from another run and is ignored.
     if (path && lam_image_load(&old, path, NULL, &error) && old.format == LAM_RGBA8 && hash_of_pixels(&old) == recorded)
         keep(found, "old_picture", &old);
     keep(found, "new_picture", picture);
@@ -87,7 +87,7 @@ static bool load(const json_t *record, const char *key, lam_image *image)
     return size == 4 * (size_t)image->width * (size_t)image->height;
 }
 
-// Draws a model's pictures, beginning with column `first`: column 0 is the old picture, column 1 is the new picture.
+// Draws a model's old picture (column 0) and new picture (column 1). If `first` is 1, omits column 0.
 static bool draw_row(struct drawing *d, const json_t *record, const char *name, int first, int top, lam_error *error)
 {
     lam_image pictures[2] = {0}, difference = {0};
@@ -126,7 +126,8 @@ bool hash_sheet_write(const struct hash_run *run, json_t *const *records, int *r
     bool any_old = false;
     for (size_t i = 0; i < run->plan.count; i++)
         any_old |= json_object_get(records[i], "old_picture") != NULL;
-    int first = any_old ? 0 : 1, last = any_old ? 3 : 2; // without old pictures, only the column of new pictures
+    int first = any_old ? 0 : 1,
+        last = any_old ? 3 : 2; // without old pictures, the sheet has only the column of new pictures
     int width = GAP + (last - first) * (CELL + GAP), row = TITLE + CELL + GAP, drawn = 0;
     if (!drawing_open(&d, width, HEAD + *rows * row + GAP, false, true, NULL, error))
         return false;

@@ -64,7 +64,7 @@ static int print_one(const char *model, const struct options *given, bool first)
     bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error) &&
               info_names_list(job.scene, &names, &error);
     if (ok) {
-        error = (lam_error){0}; // discards the error of the first attempt
+        error = (lam_error){0}; // the model may have loaded only at the second attempt, with --lenient
         measure_drawing(&info, &job);
     } else
         say_error(error.text);

@@ -26,7 +26,7 @@ const char *info_texture_file(const struct info_texture *texture, const char *mo
 const char *info_texture_format(const struct info_texture *texture); // "png"; NULL if unknown
 const char *info_color_space(const struct info_texture *texture);    // "srgb" or "linear"; NULL if unused
 
-// A name of objects or parts, and the numbers of objects and parts with this name.
+// A name, and how many objects and parts have this name.
 struct info_name {
     const char *name;
     int objects, parts;
@@ -46,7 +46,7 @@ struct info {
     const struct info_textures *textures;
     const struct info_names *names;
     uint64_t
-        // the memory for drawing a picture of INFO_SIDE² pixels, including the picture; 0 if drawing failed
+        // the memory needed to draw a picture of INFO_SIDE² pixels, including the picture; 0 if drawing failed
         drawing_bytes;
     int drawing_threads;
 };
@@ -70,8 +70,7 @@ struct info_unit info_unit(const lam_scene *scene);
 // The surface of all objects, in the model's units.
 struct info_measure {
     double area;
-    // True if every edge belongs to the same number of triangles in each direction, so that the surface encloses a
-    // volume.
+    // True if, along every edge, equally many triangles run in each direction. The surface then encloses a volume.
     bool closed;
     double volume; // only valid if `closed`; volume shared by two objects is counted twice
 };

@@ -26,7 +26,7 @@ static void json_color(struct json *json, const char *key, lam_rgb c)
     json_close(json, ']');
 }
 
-// Writes a number, or null if the number is not known.
+// Writes `value`, or null if the value is unknown.
 static void json_number_if(struct json *json, const char *key, bool known, double value)
 {
     if (known)

@@ -1,5 +1,5 @@
-// info_text.c: prints a model as text on one screen. Prints only ROWS rows and the number of omitted rows if a list has
-// more than ROWS rows.
+// info_text.c: prints a model as text on one screen. If a list has more than ROWS + 1 rows, prints only the first ROWS
+// rows and the number of omitted rows.
 #include "info.h"
 
 #include <inttypes.h>
@@ -43,7 +43,8 @@ static const char *shown(const char *name, char out[NAME_BYTES + 12])
 
 static const char *label(const char *text, int index) { return index == 0 ? text : ""; }
 
-// Returns true if a row of a long list is omitted. For the first omitted row, prints the number of omitted rows.
+// Returns whether the row `index` of a long list is omitted. At the first omitted row, prints how many rows are
+// omitted.
 static bool omitted(int index, int count)
 {
     if (index == ROWS && count > ROWS + 1) {

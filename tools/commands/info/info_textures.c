@@ -14,7 +14,8 @@ static void add(struct info_textures *textures, const lam_texture *texture, cons
     textures->items[textures->count++] = (struct info_texture){.texture = texture, .image = image};
 }
 
-// Adds an entry for each texture that was made from the picture: one for colours and one for other values.
+// Adds the textures that were made from the picture: at most one that contains colours and one that contains other
+// values.
 static void add_image(struct info_textures *textures, const lam_file_image *image)
 {
     for (int values = 0; values < 2; values++)

@@ -141,7 +141,8 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
     return batch_plan_add(&job->plan, model ? model : name ? name : "model", NULL, error);
 }
 
-// Reads the name for the pictures. Pictures in an answer also need a name, because its extension selects their format.
+// Reads the name for the pictures. Pictures in an answer need a name too, because the name's extension selects the
+// format.
 static bool read_output(struct batch_job *job, const json_t *root, lam_error *error)
 {
     const char *output, *format;

@@ -48,8 +48,9 @@ static bool is_below(const struct job_roots *roots, const char *real)
     return below;
 }
 
-// Returns the real path of a path, or of its nearest existing parent folder. Returns NULL if there is no such folder,
-// or if the missing part of the path contains ".." or a broken link and therefore cannot be created.
+// Resolves a path or, if the file does not exist, its nearest existing parent folder. Returns NULL if there is no such
+// folder. Also returns NULL if the missing part of the path cannot be created, because it contains ".." or a broken
+// link.
 static char *resolve(const char *path, bool *exists)
 {
     char *real = realpath(path, NULL), *copy = real ? NULL : strdup(path);

@@ -74,8 +74,8 @@ static void print_value(FILE *out, const struct option *option, const struct opt
         fputs(o->values[option - option_table], out);
 }
 
-// Prints the names and the hashes of the environment's files, which are read once for all models. Omits their folder,
-// because its spelling does not matter.
+// Prints the names and the hashes of the environment's files, which are read once for all models. Omits the files'
+// folder, because the picture does not depend on the spelling of the folder.
 static bool print_environment(FILE *out, const struct options *o, lam_error *error)
 {
     const char *paths[LAM_FACE_COUNT] = {o->shading.environment};
@@ -205,8 +205,8 @@ uint64_t batch_key(const struct batch_key_parts *p)
     xxh64_add_text(&hash, lam_version());
     xxh64_add_text(&hash, lam_build_info());
     xxh64_add_text(&hash, p->options);
-    // A setting of a scene file applies only if the command line lacks this option, so the key includes the names of
-    // the typed options.
+    // An option on the command line overrides the setting in a scene file, so the key includes the names of the typed
+    // options.
     for (int i = 0; strcmp(p->format, "scene") == 0 && option_table[i].name; i++)
         if ((p->parsed->given[i] || p->parsed->by_key[i]) && option_is_in(&option_table[i], IN_KEY))
             xxh64_add_text(&hash, option_table[i].name);

@@ -19,12 +19,12 @@ void batch_options_difference(const char *then, const char *now, char text[300])
 
 // The inputs of one picture's key.
 struct batch_key_parts {
-    const char *options;          // batch_options_text
-    const struct options *parsed; // the same options, parsed; the key of a scene file includes the names of the given
-                                  // options
-    const char *model;            // the name of a built-in shape; used if no file was read
-    const char *format;           // the model's format: lam_scene_format
-    const char *picture;          // the extension of the picture's name
+    const char *options; // batch_options_text
+    // The same options, parsed; for a scene file, the key includes the names of the typed options.
+    const struct options *parsed;
+    const char *model;   // the name of a built-in shape; used if no file was read
+    const char *format;  // the model's format: lam_scene_format
+    const char *picture; // the extension of the picture's name
     int side, width, height;
     const char *const *files; // hashes of the files, or "absent"
     int file_count;

@@ -79,8 +79,8 @@ char *journal_path(const char *text)
     return out;
 }
 
-// Returns a hash that identifies a picture by its path. If `folder` is not NULL, it is a prefix that the hash ignores:
-// the folder of the pictures, which may be absolute in one run and relative in the next.
+// Returns a hash that identifies a picture by its path. If `folder` is not NULL, the path begins with `folder`, and the
+// hash ignores this prefix: the folder may be absolute in one run and relative in the next.
 static uint64_t hash_of(const char *folder, const char *output)
 {
     struct xxh64 hash;
@@ -147,7 +147,7 @@ char *journal_read(const char *path, size_t *size)
 // Returns the options of a line that begins a run, or NULL for other lines.
 static const char *options_of(const json_t *line) { return json_string_value(json_object_get(line, "options")); }
 
-// Parses the lines. Ignores a line that is not JSON, because the line was truncated, or was written after a truncated
+// Parses the lines. Ignores lines that are not JSON. Such a line was truncated, or it was written after a truncated
 // line.
 static bool read_lines(struct journal *j, size_t size, const char **options, json_t **last_run, lam_error *error)
 {
@@ -262,7 +262,7 @@ static bool wait_for_lock(int file, double until_ms)
 }
 
 // Locks FILE.running, so that only one run at a time writes the journal. The processes of a killed run keep the lock
-// until they end, so this function waits up to two seconds. If the other run removes the file at its end, a new file is
+// until they end, so this function waits up to two seconds. If the other run ends and removes the file, a new file is
 // created and locked.
 static bool lock_running(struct journal *j, lam_error *error)
 {
@@ -334,8 +334,8 @@ json_t *journal_find(const struct journal *j, const char *output)
 {
     char *clean = j->count ? journal_text(output) : NULL;
     const struct entry *entry = clean ? find_entry(j, hash_of(NULL, clean)) : NULL;
-    // With --skip-same, the line may be for the same picture in another folder, because the contents of all files are
-    // checked. --resume trusts the line, so the line must be for the same path.
+    // --skip-same checks the contents of all files, so it accepts a line for the same picture in another folder.
+    // --resume trusts the line, so the line must be for the same path.
     if (entry && !entry->line && j->way == JOURNAL_SAME && is_below(j->folder, clean))
         entry = find_entry(j, hash_of(j->folder, clean));
     json_t *record = entry && entry->line ? json_loads(entry->line, 0, NULL) : NULL;
@@ -396,7 +396,7 @@ void journal_begin(struct journal *j, int slot, int process, const char *model)
     else
         length = 0;
     host_name(text.host);
-    // A failed write is harmless: if the run is killed, --resume merely does not draw this model first.
+    // A failed write is harmless. If this run is killed, --resume draws this model with the others instead of first.
     if (pwrite(j->running, &text, offsetof(struct slot, model) + length + 1, (off_t)slot * SLOT) < 0)
         return;
 }

@@ -32,7 +32,7 @@ struct batch_jobs;
 struct batch_task {
     const struct batch_plan *plan; // the options, the views and the names
     size_t model;                  // the index in the plan
-    const char *options_text;      // the options as text for keys, or NULL
+    const char *options_text;      // the options as text, from which the pictures' keys are computed; or NULL
     struct batch_job *job;         // NULL if the plan belongs to the batch
 };
 

@@ -49,8 +49,8 @@ struct batch_texts {
     size_t count, next;
 };
 
-// Takes ownership of a model's messages, and prints the messages of all models before the first unfinished model. `ok`
-// means that all of the model's pictures are written.
+// Takes ownership of a model's messages, and then prints the messages of all models that come before the first
+// unfinished model in the batch. `ok` means that all of the model's pictures are written.
 void batch_print(struct batch_texts *texts, size_t model, char *out, char *err, bool ok, struct batch_tally *tally);
 // Prints the remaining messages and frees the list.
 void batch_print_rest(struct batch_texts *texts, struct batch_tally *tally);

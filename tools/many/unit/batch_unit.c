@@ -67,9 +67,9 @@ static bool is_untouched(const json_t *record, const char *output)
     return xxh64_parse(journal_value(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
 }
 
-// Returns the current path of a file that the record names, allocated with malloc. If the file was in the folder of the
-// record's model, the result is in the folder of the current model, since the record may come from a run in another
-// folder. Returns NULL if memory runs out.
+// Returns the current path of a file that the record names, allocated with malloc. The record may come from a run in
+// another folder. If the file was in the folder of its model in that run, the result is in the model's current folder.
+// Returns NULL if memory runs out.
 static char *path_now(const char *recorded, const char *recorded_model, const char *model)
 {
     char *path = journal_path(recorded), *then = journal_path(recorded_model), *now = NULL;
@@ -170,7 +170,8 @@ bool batch_unit_look(struct batch_unit *u, const struct batch *b)
 
 // --- drawing
 
-// Returns the open pictures of a unit as an item. Stores their indices in `which`.
+// Makes an item from the pictures of a unit that are not yet drawn or skipped. Stores the indices of these pictures in
+// `which`.
 static struct batch_item item_of(const struct batch_unit *u, const struct batch *b, const struct options *o,
                                  struct job_view *views, char **outputs, int *attempts, int *which)
 {

@@ -11,7 +11,7 @@ struct batch_unit {
     struct batch_picture *pictures; // the states of the pictures after the work
     char **outputs;                 // paths
     lam_bytes *contents;            // the encoded pictures for a job's answer; NULL if files are written
-    const char **classes;           // for failed pictures, the static name of the exit code
+    const char **classes;           // for failed pictures, the name of the exit code (a static string)
     json_t **records;               // new records for the journal, or old records for the page (see is_new)
     bool *is_new;
     char *out, *err; // the messages; NULL if the messages were printed directly
@@ -33,8 +33,8 @@ bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const struct options *options,
                      lam_device *device, const lam_cancel *cancel, bool capture);
 
-// Marks all open pictures as failed with an error class, if drawing ended before it could report the failure. The
-// message `text` must name the model.
+// Marks all open pictures as failed with an error class. Called if drawing ended without a report, for example in a
+// crash. The message `text` must name the model.
 void batch_unit_fail(struct batch_unit *unit, const struct batch *batch, const char *class, int exit, const char *text);
 
 #endif

@@ -1,5 +1,5 @@
-// batch_use.h: the interface for commands that draw many models for a purpose other than writing pictures, such as
-// hashes and comparisons.
+// batch_use.h: the interface for commands that draw many models but write no pictures, for example to compute hashes or
+// to compare models.
 //
 // These commands share the loop over the models, including its workers, processes, sandbox, messages and counts. The
 // results for each model are stored in its record.
@@ -20,8 +20,8 @@ struct batch_use {
     void (*reach)(void *user, size_t model, struct sandbox_paths *paths);
     // Decides which files may be written. NULL allows no files.
     writer_rule *right;
-    // Receives the records of all models after the last model, unless the run was interrupted. `failed` is the number
-    // of failed models. Returns the exit code. The loop owns the records.
+    // Called after the last model, unless the run was interrupted. Receives the records of all models; `failed` is the
+    // number of failed models. Returns the exit code. The loop owns the records.
     int (*finish)(void *user, json_t *const *records, size_t failed);
     void *user;
 };

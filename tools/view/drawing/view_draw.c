@@ -74,7 +74,7 @@ static void answer_error(const struct drawer *d, const lam_error *error)
 
 static uint64_t mix(uint64_t hash, uint64_t number) { return (hash ^ number) * 0x100000001b3u; } // one step of FNV-1a
 
-// Returns a value that changes if one of the model's files changes its inode, size or modification time.
+// Returns a value that changes if the inode, size or modification time of one of the model's files changes.
 static uint64_t stamp_of(const lam_scene *scene)
 {
     uint64_t hash = 0xcbf29ce484222325u;
@@ -164,8 +164,7 @@ static uint64_t put_files(struct json *json, const struct page_model *model, con
     return bytes;
 }
 
-// Writes to `text` why the page itself cannot draw the model, and returns `text`. Returns NULL if the page can draw the
-// model.
+// Returns NULL if the page itself can draw the model. Otherwise, writes the reason to `text` and returns `text`.
 enum { REASON_SIZE = 700 };
 static const char *reason_of(const struct job *job, const struct page_model *model, bool listed, const char *why,
                              uint64_t bytes, char text[REASON_SIZE])

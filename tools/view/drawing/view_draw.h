@@ -33,12 +33,12 @@ struct view_reply {
     uint64_t data;  // the size of the pixel data or of the file, in bytes
 };
 
-// The largest model that the page draws itself: the number of triangles, lines and points. PAGE_FILES_MAX limits its
-// files.
+// The largest model that the page draws itself: the number of triangles, lines and points. PAGE_FILES_MAX limits the
+// size of the model's files.
 enum { VIEW_TRIANGLES_MAX = 2000000 };
 
-// Reads requests from `from` until its end, and writes the answers to `to`. SIGUSR1 cancels the current request. Does
-// not return. `options` contains the limits from the command line.
+// Reads requests from the file handle `from` until the end of the file, and writes the answers to `to`. SIGUSR1 cancels
+// the current request. Does not return. `options` contains the limits from the command line.
 _Noreturn void view_draw_serve(const struct view_files *files, const struct options *options, int from, int to);
 
 #endif

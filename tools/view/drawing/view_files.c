@@ -1,5 +1,5 @@
-// view_files.c: opens the files that the viewer serves. The kernel resolves their paths below the folder's handle
-// (openat2), so that neither ".." nor links lead outside, even if somebody moves links at the same time.
+// view_files.c: opens the files that the viewer serves. The kernel (openat2) ensures that a path stays below the
+// folder: ".." and links cannot lead outside, even if somebody moves links at the same time.
 #include "view_files.h"
 
 #include <errno.h>
@@ -85,8 +85,8 @@ static int open_below(const struct view_files *files, const char *path, int flag
     if (file >= 0 || errno != ENOSYS)
         return file;
 #endif
-    // Before Linux 5.6, a link that leads outside may replace the file between the check and open(); then only an
-    // active sandbox prevents access.
+    // Linux before 5.6 has no openat2. Between the check and open(), somebody could replace the file by a link that
+    // leads outside. Only an active sandbox then prevents access.
     char *whole = view_files_path(files, path);
     int found = whole && path_is_below(whole, *files->prefix ? files->prefix : "/", false) ? open(whole, flags) : -1;
     free(whole);

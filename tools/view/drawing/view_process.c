@@ -14,11 +14,11 @@
 
 enum {
     CANCEL_MS = 2000,
-    FILES_MAX = 4096, // larger than any file handle of the server, which limits its connections
+    FILES_MAX = 4096, // larger than any file handle of the server, because the server limits its number of connections
 };
 static const uint64_t data_max = (uint64_t)1 << 33; // the maximum size of an answer
 
-// Closes other handles, because a connection stays open as long as any process has a handle to it.
+// Closes all other handles. A network connection would otherwise stay open until this process ends.
 static void close_others(int first, int second)
 {
     for (int file = 3; file < FILES_MAX; file++) {
@@ -38,8 +38,8 @@ static void run(void *user, int from, int to)
 {
     const struct start *start = user;
     close_others(from, to);
-    // The server's filter allows connections and processes, which a drawing process does not need. Landlock already
-    // restricts its folders.
+    // The server's filter allows connections and new processes. A drawing process needs neither, so it installs a
+    // stricter filter. Landlock already restricts the folders of both.
     if (sandbox_active()->filter && !sandbox_filter_install(SANDBOX_DRAWS))
         _exit(1);
     view_draw_serve(start->files, start->options, from, to);

@@ -16,10 +16,10 @@ struct view_result {
 
 struct view_task {
     struct view_request request;
-    char *words;  // allocated with malloc
-    char *client; // identifies the page, whose newer request cancels an older one; allocated with malloc; NULL for a
-                  // thumbnail
-    void *user;   // NULL if nobody waits for the result any more
+    char *words; // allocated with malloc
+    // Identifies the page: a newer request of the same page cancels this one. Allocated with malloc; NULL for a thumbnail.
+    char *client;
+    void *user; // NULL if nobody waits for the result any more
     bool running;
     bool superseded; // replaced by a newer task
     struct view_task *next;

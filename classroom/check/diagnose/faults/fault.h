@@ -74,15 +74,14 @@ enum fault_where {
     WHERE_FRAGMENT = 1,      // lighting in the fragment shader
     WHERE_VERTEX = 2,        // lighting in the vertex shader
     WHERE_OBJECT_LIGHT = 4,  // lights in object space
-    WHERE_EYE_LIGHT = 8,     // lights in the space of the lighting, eye or world space
+    WHERE_EYE_LIGHT = 8,     // lights in the space in which lighting is computed (eye or world space)
     WHERE_PHONG = 16,        // a Phong highlight is expected
     WHERE_BLINN = 32,        // a Blinn–Phong highlight is expected
     WHERE_REFLECT = 64,      // reflect() occurs in the shaders
     WHERE_WORLD = 128,       // lighting in world space
     WHERE_WORLD_LIGHT = 256, // lights in world space, lighting in eye space
     WHERE_STRENGTHS = 1024,  // colours and their strengths are separate
-    WHERE_FOUR = 512,        // vectors of the lighting may have four components, because a varying is a vec4 or the
-                             // vertices are lit
+    WHERE_FOUR = 512,        // vectors may have four components: a varying is a vec4, or the vertices are lit
     WHERE_CLASSIC = 2048,    // highlights with an exponent
     WHERE_PHYSICAL = 4096,   // metalness and roughness
     WHERE_SCHLICK = 8192,    // the contract uses Schlick's masking
@@ -92,7 +91,7 @@ enum fault_where {
     WHERE_UNTONED = 131072,  // the contract's shaders have no tone curve
     WHERE_ENCODED = 262144,  // the contract's shaders encode their colours
     WHERE_LINEAR = 524288,   // the contract's shaders do not encode their colours
-    WHERE_OF_MIX = 1048576,  // in the contract, F of the mixed F0 also applies to the diffuse part
+    WHERE_OF_MIX = 1048576,  // the contract computes the diffuse part's Fresnel factor from the mixed F0
     WHERE_NOT_OF_MIX = 2097152,
     WHERE_FLAT = 4194304, // `flat` occurs in the fragment shader
 };
@@ -131,14 +130,14 @@ struct fault {
     const char *id;
     uint8_t bits[MAX_FAULT_BITS]; // values of fault_bit, ends with BIT_NONE
     unsigned where;               // bits of fault_where
-    unsigned needs;               // a reference_need that one of the scenes in use must have
+    unsigned needs;               // a reference_need: the fault can occur only if one of the used scenes has it
     const char *explanation;      // a clause for the report, expanded like the correction
     const char *correction;       // one line; {place} is replaced by the shader's own name (fault_text)
     unsigned maps;                // bits of fault_maps
     float factor;                 // the factor of the exponent, or 0
     enum fault_fit fit;
-    bool rare;  // rarer than other faults with the same pictures; the report does not mention this fault beside them
-    bool style; // not a mistake: a form that is as correct as the reference
+    bool rare;       // a rare fault: the report omits this fault if a more common fault produces the same pictures
+    bool style;      // not a mistake: a form that is as correct as the reference
     bool whole_term; // one or more terms are missing completely
     unsigned demand; // bits of contract_demand: the fault is a mistake only if the contract requires one of these
                      // forms; otherwise it is a style

@@ -5,7 +5,7 @@
 
 enum { IDLE_SCENES = 4 };
 
-// the least improvement, in at least one scene, that the last fault of a set must bring
+// the last fault of a set must improve at least one scene by this much
 static const double min_idle_gain = 0.001;
 
 // Returns whether faults cause a difference in a scene that passes without faults.

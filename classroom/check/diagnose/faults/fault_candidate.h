@@ -15,7 +15,8 @@ struct candidate {
     int count;
     fault_set set;
     double mean; // over all scenes
-    // the mean remaining fraction of the scenes' differences (1 means all), so that small highlights also count
+    // the fraction of a scene's difference that remains (1 means all), as a mean over the scenes; small highlights
+    // count too
     double score;
     bool fits;
     double parts[MAX_SCENES]; // the contribution of each scene to the score
@@ -26,7 +27,7 @@ struct outcome {
     struct found_fault fault;
     double mean, score;       // as in struct candidate
     double parts[MAX_SCENES]; // the contribution of each differing scene to the score
-    int order[MAX_SCENES];    // scene indices: differing scenes first, the most affected scene at the beginning
+    int order[MAX_SCENES];    // scene indices: first the differing scenes, in descending order of the fault's effect
     int changed_count;        // number of differing scenes that the fault changes
     uint32_t explained;       // the differing scenes that the fault explains
     uint32_t exactly;         // number of scenes explained up to rounding
@@ -49,8 +50,8 @@ struct state {
 // Returns whether the search has reached its limit of pictures.
 bool search_is_spent(struct state *t);
 
-// Returns the contribution of one scene to a candidate's score. A scene that gets worse is treated as unchanged,
-// because one of several faults may spoil the scene if it is applied alone.
+// Returns the contribution of one scene to a candidate's score. A scene that gets worse is treated as unchanged: a
+// single fault may spoil a scene that the complete set of faults explains.
 double candidate_score_of(const struct state *t, int index, const struct difference *d);
 
 // Measures a candidate in all scenes. Stops when the mean exceeds its limit.
@@ -64,7 +65,8 @@ bool candidate_try_child(struct state *t, const struct candidate *parent, const 
 // Recomputes the set from its members.
 void candidate_rebuild(struct candidate *c);
 
-// Completes a member to be added to a set. Returns false on error. Sets `possible` to whether the member can be added.
+// Makes the member that adds the fault `row` to the set `base`. Sets `possible` to false if this fault cannot be added.
+// Returns false on error.
 bool candidate_prepare(struct state *t, const fault_set *base, const struct fault *row, struct found_fault *out,
                        bool *possible, lam_error *error);
 

@@ -51,7 +51,7 @@ static void order_scenes(struct fault_measure *t)
 
 bool fault_measure_open(struct fault_measure *t, struct fault_search *s, lam_error *error)
 {
-    // In large pictures, every second or third pixel of every second or third row is enough: 35² to 48² of them. If a
+    // In large pictures, every second or third pixel of every second or third row is enough (35² to 48² pixels). If a
     // GPU may round corners to 1/16 of a pixel, all pixels are measured, because this error is larger in a smaller
     // picture.
     int stride = s->size >= 96 ? (s->size + 20) / 43 : s->size >= 70 ? 2 : 1;
@@ -94,7 +94,7 @@ bool fault_measure_draw(struct fault_measure *t, int index, const fault_set *set
     return true;
 }
 
-// Returns the samples of a scene drawn with faults, or NULL and fills `error`.
+// Returns the samples of a scene drawn with faults. On failure, fills `error` and returns NULL.
 static const float *render_faults(struct fault_measure *t, int index, const fault_set *set, lam_error *error)
 {
     struct fault_search *s = t->s;
@@ -167,7 +167,7 @@ static double plain_number(double x)
     return is_near(whole, x) ? whole : is_near(tenth, x) ? tenth : x;
 }
 
-// Gets the range of exponents, or of factors, as powers of 2.
+// Gets the range of x that the fit tries: the highlight's exponent is multiplied by 2^x, or replaced by 2^x.
 static void range_of(const struct fault *row, double *from, double *to)
 {
     static const double ranges[][2] = {

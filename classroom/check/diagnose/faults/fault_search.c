@@ -15,7 +15,8 @@
 
 #include "fail.h"
 
-// Mean differences: the maximum for an exact explanation in one scene, and the maximum between equal pictures.
+// An explanation is exact in a scene if the mean difference is at most max_exact_scene. Two pictures are equal if their
+// mean difference is at most same_mean.
 static const double max_exact_scene = 1e-4, same_mean = 1e-5;
 // A fault changes a scene if, applied alone, it changes the scene's mean difference by at least this much.
 static const double min_change = 1e-6;

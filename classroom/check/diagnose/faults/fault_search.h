@@ -26,9 +26,9 @@ struct fault_search {
     struct scene_comparison *scenes;
     int scene_count, size;
     int light_capacity;   // the number of lights in the tested shaders
-    unsigned expectation; // distinguishes the expected appearance of scenes (render_key)
+    unsigned expectation; // identifies the expected appearance of the scenes in the cache (render_key)
     double tolerance;
-    unsigned needs; // the needs of all scenes together
+    unsigned needs; // the union of the scenes' needs
     // If some names have no value, only a single fault that explains everything is accepted.
     bool has_unset_names;
     uint64_t max_pictures; // after this many pictures, no further sets are tried

@@ -12,10 +12,10 @@ enum { BEAM = 6 };
 // remains.
 static const double max_score_for_a_third = 0.75;
 static const double min_gain = 0.03; // the smallest fraction that each further fault must explain
-// another fault is a rival if the difference that it leaves over all scenes is at most this many times as large
+// another fault is a rival if its remaining difference, over all scenes, is at most this many times the fault's
 static const double max_rival = 1.25;
 static const double max_exact =
-    2e-4; // the rounding error of an exact explanation, as a mean difference over all scenes
+    2e-4; // an explanation is exact if its mean difference over all scenes is at most this rounding error
 
 // --- several faults
 

@@ -75,7 +75,7 @@ const struct fault faults[] = {
         "the normal is in eye space, while the light and the vertex are in world space",
         "N = normalize({normal_matrix} * {normal}); // the inverse transpose of {model_view}'s 3x3"),
     ROW("normal-clip-space", BITS(NORMAL_BY_MODEL, NORMAL_CLIP), 0, 0,
-        "the normal is multiplied by the projection; angles are distorted in clip space",
+        "the normal is multiplied by the projection, which does not preserve angles",
         "N = normalize({normal_matrix} * {normal}); // no projection"),
     ROW("normal-with-w", BITS(NORMAL_WITH_W, LONG_NORMAL), 0, 0,
         "the normal is normalized with four components; the translation changes w, so the normal becomes too short",
@@ -111,7 +111,7 @@ const struct fault faults[] = {
     ROW("eye-backwards", BITS(EYE_BACKWARDS), WHERE_BLINN, 0, "v points from the eye to the surface",
         "vec3 V = {v}; // from the point to the eye"),
     ROW("clip-space", BITS(NORMAL_BY_MODEL, NORMAL_CLIP, LIGHT_CLIP, POINT_CLIP, EYE_CLIP), 0, 0,
-        "the lighting is computed after the projection; angles and distances are distorted in clip space",
+        "the lighting is computed after the projection, which does not preserve angles and distances",
         "vec3 P = ({model_view} * {position}).xyz; // light in {space} space; {clip} only in gl_Position"),
     ROW("clip-space-vectors", BITS(LIGHT_CLIP, POINT_CLIP, EYE_CLIP), 0, 0,
         "l, v and the distance are computed after the projection",
@@ -710,8 +710,8 @@ const struct fault faults[] = {
     ROW("upside-down", BITS(UPSIDE_DOWN), 0, 0, "the picture is upside down",
         "gl_Position = {clip} * {model_view} * {position};"),
     ROW("clip-space-four", BITS(NORMAL_BY_MODEL, NORMAL_CLIP, LIGHT_CLIP, POINT_CLIP, EYE_CLIP, FOUR), WHERE_FOUR, 0,
-        "the lighting is computed after the projection, with four-component vectors; angles and distances are "
-        "distorted in clip space",
+        "the lighting is computed with four-component vectors after the projection, which does not preserve angles and "
+        "distances",
         "vec3 P = ({model_view} * {position}).xyz; // light in {space} space, three components; {clip} "
         "only in gl_Position",
         .rare = true),

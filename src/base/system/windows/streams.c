@@ -1,7 +1,7 @@
 // streams.c: memory streams, reading of lines, and waiting for pipes.
 //
 // A Windows stream cannot call functions of the program, so a memory stream is a temporary file. Windows keeps the file
-// in its cache and removes it when it is closed. fflush and fclose copy its bytes.
+// in its cache, and removes the file when the stream is closed. fflush and fclose copy the file's bytes.
 #include "names.h"
 
 #include <errno.h>
@@ -24,7 +24,7 @@ static struct memory_stream {
     FILE *file;
     char **text;
     size_t *size;
-    char *fixed; // fmemopen's memory of `capacity` bytes, which replaces the text; otherwise NULL
+    char *fixed; // for fmemopen: the caller's memory of `capacity` bytes, used instead of `text`; otherwise NULL
     size_t capacity;
     struct memory_stream *next;
 } *streams;

@@ -46,8 +46,8 @@ void position_hash_place(struct position_hash *table, void *memory)
     table->filter.words = (uint32_t *)(table->lines + position_hash_parts(table) * (size_t)table->part_lines);
 }
 
-// Returns the cache line that contains a position, or else the first cache line with a free slot for the position.
-// *same and *unused receive the line's matching and free slots as bits.
+// Returns the cache line that contains a position. If there is none, returns the first cache line with a free slot for
+// the position. *same and *unused receive the matching and the free slots of this line as bits.
 static inline struct position_slots *seek(const struct position_hash *table, const uint32_t bits[3], uint32_t hash,
                                           unsigned *same, unsigned *unused, size_t *probes)
 {

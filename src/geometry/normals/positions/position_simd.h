@@ -1,5 +1,5 @@
-// position_simd.h: the long loops over vertices and corners that find shared positions, and the bits and the hash of a
-// position. The loops are compiled once for each instruction set (meson.build).
+// position_simd.h: finds shared positions with long loops over vertices and corners, and computes the bits and the hash
+// of a position. The loops are compiled once for each instruction set (meson.build).
 #ifndef POSITION_SIMD_H
 #define POSITION_SIMD_H
 
@@ -49,7 +49,7 @@ struct position_simd {
     uint64_t (*test)(const float *points, uint32_t count, const struct position_filter *filter, uint32_t hashes[WORD]);
     // Numbers the members in one word of a set, starting with `first`. All other items get UINT32_MAX.
     void (*number)(uint64_t members, uint32_t first, uint32_t numbers[WORD]);
-    // Among `count` corners, starting with number `first`, lists the corners whose vertices (`indices`) have a
+    // Examines `count` corners, from number `first` on, and lists those whose vertices (`indices`) are at a listed
     // position. Each list needs capacity for `count` entries plus one register.
     uint32_t (*list)(const uint32_t *indices, const uint32_t *position_of, uint32_t first, uint32_t count,
                      uint32_t *corners, uint32_t *positions);

@@ -15,10 +15,10 @@ enum {
     AHEAD = 16,          // distance in words at which the positions of triangles are prefetched
     TOGETHER = 8,        // words whose vertices are looked up together, after prefetching
     SLAB = 2 << 20,      // size in bytes of the blocks that are allocated together
-    CACHE_MAX = 1 << 13, // positions in a thread's cache, which fits the second-level cache
+    CACHE_MAX = 1 << 13, // positions in a thread's cache, which then fits into the processor's second-level cache
 };
 
-// Allocates memory that is no longer used when the first fan is computed, so it may overlap the memory for normals.
+// Allocates memory that is used only until the first fan is computed. It may therefore overlap the memory for normals.
 static void *alloc_until_fans(struct position_search *s, size_t count, size_t size)
 {
     for (int i = 0; i < 2; i++) {
@@ -190,7 +190,7 @@ void position_search_free(struct position_search *s)
     arena_free(&s->arena);
 }
 
-// Clears the cache entries to bits that are all ones, which no valid position has.
+// Clears the cache entries: sets all their bits to one. No valid position has these bits.
 static void clear_caches(struct position_search *s)
 {
     for (int i = 0; i < pool_threads(s->pool); i++)
@@ -252,8 +252,8 @@ static bool fill_table(struct position_search *s)
 
 // --- the other vertices of indexed meshes
 
-// In words [word, end) of the set, looks up the few vertices that are not wanted but pass the filter. Returns the
-// number of probes.
+// Looks up the vertices in the words [word, end) of the set that are not wanted but pass the filter; they are few.
+// Returns the number of probes.
 static size_t place_some(const struct position_search *s, size_t word, size_t end)
 {
     uint32_t looked_up[WORD * TOGETHER], hash[WORD * TOGETHER], lookups = 0;

@@ -40,7 +40,7 @@ struct position_search {
     // Output. The number of a position is the rank of its representative vertex among `wanted`. In meshes without
     // indices, it is the rank of the representative corner among the corners of the set's triangles.
     struct rank_bitset wanted; // vertices of the set's triangles, for indexed meshes
-    // the position of each vertex, or NONE; a NULL pointer if corners are looked up in the table
+    // For each vertex, the number of its position, or NONE. NULL if corners are looked up in the table instead.
     uint32_t *position_of;
     struct cached_position **caches; // the cache of each thread
     uint32_t caches_mask;
@@ -80,8 +80,8 @@ void position_search_free(struct position_search *s);
 // bounded for every file.
 bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
-// Returns how many of the mesh's triangles before `triangle` are in the set. For the triangle count, the result is the
-// total.
+// Returns how many of the mesh's triangles before `triangle` are in the set. If `triangle` is the mesh's number of
+// triangles, this counts all of them.
 static inline uint32_t triangles_before(const struct position_search *s, size_t triangle)
 {
     size_t number = s->first + triangle;

@@ -19,8 +19,8 @@ enum { DRACO_REASON_SIZE = 160 };
 // thousands of vertices, so the sizes in the header give no useful bound.
 struct draco_memory {
     size_t granted; // bytes
-    // Requests more memory and adds the bytes to `granted`. Returns 0 if no more memory is granted; decoding then fails
-    // as if memory had run out.
+    // Requests more memory and adds the bytes to `granted`. Returns 0 if the request is refused; decoding then fails as
+    // if memory had run out.
     int (*grant)(struct draco_memory *memory, size_t bytes);
     void *user;
 };
@@ -28,11 +28,11 @@ struct draco_memory {
 struct draco_functions {
     int version;
     // Decodes a mesh. Returns 1 if *mesh and its numbers of vertices and triangles are set. Returns 0 if the bytes are
-    // damaged; `reason` then says why. Returns −1 if memory or the granted memory ran out.
+    // damaged, and explains this in `reason`. Returns −1 if memory or the granted memory ran out.
     int (*decode)(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
                   uint32_t *triangles, char reason[DRACO_REASON_SIZE]);
     // Writes the attribute with this unique id to `out`: `width` numbers of a glTF component type for each vertex,
-    // without gaps. Returns the same values as `decode`.
+    // without gaps. Returns 1, 0 or −1, like `decode`.
     int (*attribute)(const void *mesh, uint32_t id, int component, int width, void *out,
                      char reason[DRACO_REASON_SIZE]);
     // Writes the indices of three vertices for each triangle.
@@ -40,7 +40,8 @@ struct draco_functions {
     void (*free)(void *mesh);
 };
 
-// The only symbol that the shared object exports, except the C++ operators new and delete, which count Draco's memory.
+// The only exported function of the shared object. It also exports the C++ operators new and delete, which count the
+// memory that Draco allocates.
 const struct draco_functions *lambent_draco_functions(void);
 
 #ifdef __cplusplus

@@ -4,7 +4,8 @@
 
 #include "gltf.h"
 
-// Reads the layers of material `index`, the JSON object `object`, into `material`, and requests their maps.
+// Reads the layers of a material into `material`, and requests the maps of these layers. The material has the index
+// `index` and the JSON object `object`.
 bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t *object, int index,
                       lam_material *material);
 

@@ -9,15 +9,16 @@
 
 #include <string.h>
 
-#define FACTOR_MAX 1e30 // for factors without an upper bound in the standard
+#define FACTOR_MAX 1e30 // the upper limit for factors that the standard does not limit
 
 // The values of a material in the file, with the defaults of the specification.
 struct factors {
-    double base[4];               // colour and alpha
-    double metallic, roughness;   // 0…1
-    double specular[3];           // for KHR_materials_pbrSpecularGlossiness
-    double glossiness;            // for KHR_materials_pbrSpecularGlossiness, 0…1
-    bool has_specular;            // the material is specular-glossiness instead of metallic-roughness
+    double base[4];             // colour and alpha
+    double metallic, roughness; // 0…1
+    double specular[3];         // for KHR_materials_pbrSpecularGlossiness
+    double glossiness;          // for KHR_materials_pbrSpecularGlossiness, 0…1
+    // The material uses the specular-glossiness model instead of the metallic-roughness model.
+    bool has_specular;
     double emission[3], strength; // emissiveFactor; KHR_materials_emissive_strength
     double cutoff;
     int alpha; // lam_alpha_mode
@@ -191,7 +192,8 @@ bool gltf_materials_read(struct gltf *gltf)
     return find_variant(gltf);
 }
 
-// Gets the material of a primitive in the requested variant. *index is −1 if the variant does not change the material.
+// Gets the material of a primitive in the requested variant. *index is −1 if the variant assigns no material to this
+// primitive.
 static bool take_variant(struct gltf *gltf, const struct place *place, const json_t *primitive, int *index)
 {
     bool ok = true;

@@ -10,7 +10,7 @@ typedef struct windows_folder DIR;
 DIR *opendir(const char *path);
 struct dirent *readdir(DIR *folder);
 int closedir(DIR *folder);
-// Removes a file from an open folder.
+// Removes the file `name`, which is in the open folder `folder`.
 int windows_remove_in(DIR *folder, const char *name);
 #define dirfd(folder)                 (folder)
 #define unlinkat(folder, name, flags) windows_remove_in(folder, name)

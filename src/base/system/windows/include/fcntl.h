@@ -13,7 +13,7 @@
 
 #define POSIX_FADV_WILLNEED 3
 
-// Ignores the advice and returns ENOSYS, as for an unsupported call.
+// Does nothing and returns ENOSYS, because Windows has no such function.
 static inline int posix_fadvise(int file, long long at, long long size, int advice)
 {
     (void)file, (void)at, (void)size, (void)advice;

@@ -1,5 +1,5 @@
-// pthread.h: extends the header of winpthreads. The timed waits of winpthreads use only the time of day; here the
-// deadline is a time of CLOCK_MONOTONIC.
+// pthread.h: extends the header of winpthreads. The timed waits of winpthreads compare the deadline with the time of
+// day. These functions compare the deadline with CLOCK_MONOTONIC.
 #ifndef WINDOWS_PTHREAD_H
 #define WINDOWS_PTHREAD_H
 

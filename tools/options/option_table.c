@@ -58,8 +58,8 @@ static const struct choice shard_by_words[] = {
     {NULL, 0, NULL}};
 static const struct choice light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT,
-     "object space; the model-view matrix transforms the position in the same way as the vertices"},
-    {"camera", LAM_FRAME_CAMERA, "eye space; Lambent does not transform the position"},
+     "object space; Lambent transforms light positions and vertices by the same model-view matrix"},
+    {"camera", LAM_FRAME_CAMERA, "eye space; Lambent does not transform light positions"},
     {NULL, 0, NULL}};
 
 static const struct choice highlight_words[] = {
@@ -126,7 +126,7 @@ static const struct choice show_words[] = {
 
 static const struct choice glsl_words[] = {
     {"330", LAM_GLSL_330, "OpenGL 3.3"},
-    {"120", LAM_GLSL_120, "OpenGL 2.1: with attribute and varying, without uniform blocks or flat inputs"},
+    {"120", LAM_GLSL_120, "OpenGL 2.1: uses `attribute` and `varying`; has no uniform blocks and no `flat` inputs"},
     {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
     {NULL, 0, NULL}};
 
@@ -237,16 +237,17 @@ static const struct choice normals_words[] = {
 
 static const struct choice sheet_words[] = {
     {"summary", SHEET_SUMMARY,
-     "flat, Gouraud and Phong shading, a reflection of the environment (--environment, or the sky), and an anisotropic "
-     "highlight"},
+     "flat, Gouraud and Phong shading, a reflection of the environment (the sky, unless you give --environment), and "
+     "an anisotropic highlight"},
     {"terms", SHEET_TERMS,
-     "ambient, diffuse and specular alone; all terms at shininess 50, at 1000, and at 1000 with flat shading"},
+     "ambient, diffuse and specular alone; all terms together at shininess 50, at shininess 1000, and at shininess "
+     "1000 with flat shading"},
     {"stages", SHEET_STAGES, "lighting per vertex and per fragment, with the brightest highlight enlarged"},
     {"light", SHEET_LIGHT, "the model in its own colours and in orange, each under white light and under green light"},
     {"ambient", SHEET_AMBIENT,
      "white ambient and white diffuse light; red ambient and white diffuse light; red ambient and red diffuse light"},
     {"frames", SHEET_FRAMES,
-     "one light in the frames of the world, the camera and the model, before and after a rotation"},
+     "one light in the world frame, the camera frame and the model frame, each before and after a rotation"},
     {"surfaces", SHEET_SURFACES, "a specular, a diffuse and a translucent surface"},
     {NULL, 0, NULL}};
 
@@ -936,13 +937,14 @@ struct option option_table[OPTIONS_MAX] = {
      "the device and the options on the command line. With `--json`, the report contains `planned` instead of `image`. "
      "Errors and exit codes are the same as without `--dry-run`.",
      .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(report.dry_run)},
-    {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print the files read and the duration of each step to standard error.",
-     NULL, .store = store_switch, FIELD(report.verbose)},
+    {"verbose", 'v', GROUP_REPORT, NULL, NULL,
+     "Print the name of each file that Lambent reads, and the duration of each step, to standard error.", NULL,
+     .store = store_switch, FIELD(report.verbose)},
     {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print only errors.", NULL, .store = store_switch, .others = "silent",
      FIELD(report.quiet), .single = TAKES_QUIET},
 
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
-     "The largest allowed difference of a channel, in steps of 1/255; if a difference is larger, the exit code is 6.",
+     "The largest allowed difference per channel, in steps of 1/255. If a difference is larger, the exit code is 6.",
      NULL, .store = store_number, .others = "threshold epsilon", FIELD(diff.tolerance), .min = 0, .max = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "Amplify the difference picture by this factor.", NULL,
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
@@ -982,10 +984,12 @@ struct option option_table[OPTIONS_MAX] = {
      "The default font covers Latin, Greek and Cyrillic. For Chinese, Japanese and Korean, give a font that covers "
      "these scripts (`--font`). For scripts that run from right to left or join letters, write an SVG file.",
      .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(captions.title)},
-    {"caption", 0, GROUP_SHEET, "TEXT", NULL, "The caption of a sheet's next picture, in any language; repeatable.",
-     NULL, .store = store_texts, .others = "captions label labels", FIELD(captions.texts)},
+    {"caption", 0, GROUP_SHEET, "TEXT", NULL,
+     "The caption of the next picture on the sheet, in any language; repeatable.", NULL, .store = store_texts,
+     .others = "captions label labels", FIELD(captions.texts)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
-     "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across makes a grid.",
+     "Draw a row with one picture per value of an option (shading, or shininess=10,50,1000). A second --across makes a "
+     "grid.",
      "OPTION is the name of an option for pictures, without the leading dashes. Separate the values by commas. If the "
      "values themselves contain commas, as for `light` and `material`, separate the values by semicolons "
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
@@ -1047,8 +1051,8 @@ struct option option_table[OPTIONS_MAX] = {
      "Submitty reads this file as validation_results.json.", .kind = VALUE_FILE, .store = store_text,
      FIELD(check.submitty)},
     {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
-     "If Lambent recognises a contract, the file contains that contract. Otherwise, the file contains the role of each "
-     "input, which Lambent infers from its use in the shader. Correct the file, then check with `--contract FILE` "
+     "If Lambent recognises a contract, the file contains that contract. Otherwise, Lambent infers the role of each "
+     "input from the shader and writes these roles to the file. Correct the file, then check with `--contract FILE` "
      "(`docs/check/contract-file.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
@@ -1057,19 +1061,20 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent also accepts \"300 es\", as in the first line of a shader.", glsl_words, .store = store_glsl,
      .others = "glsl-version shader-version", FIELD(shader.glsl)},
     {"host", 0, GROUP_SHADER, "LANGUAGE", NULL,
-     "Also print code that sets all inputs of the shaders, in this language: c.",
+     "Also print code, in this language, that sets all inputs of the shaders: c.",
      "The code compiles the sources, describes the vertex layout to OpenGL and sets every uniform to its value in this "
      "picture. The code calls only OpenGL. `-o NAME` writes the code to `NAME.c`.",
      host_words, .store = store_word, FIELD(shader.host)},
     {"products", 0, GROUP_SHADER, NULL, NULL,
-     "Pass the products ka La, kd Ld and ks Ls as uniforms, as in many lectures.", NULL, .store = store_switch,
+     "Pass the products ka La, kd Ld and ks Ls as uniforms. This is common in lectures.", NULL, .store = store_switch,
      FIELD(shader.products)},
     {"lights-in", 0, GROUP_SHADER, "STORAGE", "auto", "How the shaders store the lights: array, block or texture.",
      "Lambent sets no maximum number of lights. OpenGL's limit is lowest for an array, higher for a block, and highest "
      "for a texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
-     "The lecture style uses the symbols of lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, `blinn-phong` "
+     "The lecture style uses symbols that are common in lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
+     "`blinn-phong` "
      "and `kajiya-kay`, with any lights and any shading, the uniforms and the picture are the same as in the full "
      "style. Lambent rejects textures and other reflection models in this style. With `--stage application`, Lambent "
      "also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
@@ -1101,8 +1106,8 @@ struct option option_table[OPTIONS_MAX] = {
      .loads = true},
     {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface",
      "The range of x in which Lambent draws an implicit surface.",
-     "Give two constant expressions. By default, Lambent searches for the surface in -4..4. If the surface is not "
-     "closed in this range but is closed in -16..16, Lambent uses the larger range.",
+     "Give two constant expressions. By default, Lambent searches for the surface in -4..4. If the surface is closed "
+     "only in -16..16, Lambent uses that range.",
      .store = store_text, .others = "x-range box bounds", FIELD(shape.x_range), .loads = true},
     {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y, as for `--x`.", NULL, .store = store_text,
      .others = "y-range", FIELD(shape.y_range), .loads = true},
@@ -1129,16 +1134,16 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
      "By default, Lambent uses the font that the environment variable `LAMBENT_FONT` names. If this variable is not "
-     "set, Lambent uses the first of these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, "
+     "set, Lambent uses the first of these fonts that it finds in Debian's font folders: DejaVu Sans, Liberation Sans, "
      "Noto Sans, FreeSans, Roboto. FreeType draws the letters. With another version of FreeType, the letters may look "
      "slightly different. The pictures on the sheet are always identical. An SVG file requests DejaVu Sans, but the "
      "viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
-    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw no text, so that no font is needed.", NULL,
+    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Omit all text. Lambent then needs no font.", NULL,
      .store = store_switch, .others = "no-text no-labels", FIELD(captions.no_captions)},
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
-     "The settings file, with keys of scene files that replace the default picture settings.",
+     "The settings file. It uses the keys of scene files and replaces the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if this file exists "
      "and the environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks "
      "and options on the command line override settings. Lambent does not apply settings to scene files. `lambent "

@@ -13,7 +13,8 @@ enum {
     THREADS_MAX = 1024,
     WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would depend on
                             // `ulimit -s`.
-    SPIN_NS = 50000,        // how long a thread waits before it sleeps: about as long as waking a thread takes
+    SPIN_NS = 50000,        // the time that a thread waits before it sleeps, which is about the time for waking a
+                            // thread
 };
 
 struct pool {
@@ -59,7 +60,7 @@ static void take_work(struct pool *pool, int thread)
     }
 }
 
-// Waits a short time for another thread to change *round, which it does while it holds the lock.
+// Waits a short time for another thread to change *round. The other thread holds the lock when it changes *round.
 static void spin_while(const struct pool *pool, const unsigned *round, unsigned value)
 {
     const uint64_t start = now_ns();

@@ -130,7 +130,7 @@ static bool search_tiles(struct cpu_frame *cpu, struct visible_buffers *buffers,
     return true;
 }
 
-// Frees the bins, which are no longer needed, if they are large.
+// Frees the bins if they are large, because they are no longer needed.
 static void release_bins(struct cpu_frame *cpu)
 {
     size_t tiles = tile_count(cpu);

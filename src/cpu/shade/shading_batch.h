@@ -109,7 +109,7 @@ struct shading {
     struct light_list lights;
     uint64_t points_lit, lights_evaluated, rays;
     struct work *work;  // the frame's work
-    uint64_t uncounted; // units of work that have not been added yet
+    uint64_t uncounted; // units of work that have not been added to `work` yet
 };
 
 #endif

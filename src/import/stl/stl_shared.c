@@ -30,8 +30,8 @@ struct recent_vertex {
     uint32_t z, number;
 };
 
-// The two most recent vertices with a given hash. With one vertex, many vertices of large models would be forgotten
-// before the next row of facets uses them.
+// The two most recent vertices with a given hash. If only one vertex were stored, many vertices of large models would
+// be overwritten before the next row of facets uses them.
 typedef struct recent_vertex recent_vertices[2];
 
 // Returns the index of a position's pair in the table. The position 0 has index 0.
@@ -70,9 +70,9 @@ struct sharing {
     uint32_t vertices;  // number of vertices in the windows before next_window
 };
 
-// Finds the vertices of some facets. `count` is the number of vertices so far. Returns the new number. Nearly all corners
-// are at the position of the most recent vertex with their hash, and need one comparison. No address that is read depends
-// on an earlier comparison, so the processor does not wait for the comparison.
+// Finds the vertices of some facets. `count` is the number of vertices so far. Returns the new number. Nearly all
+// corners are at the position of the most recent vertex with their hash, and need one comparison. No address that is
+// read depends on an earlier comparison, so the processor does not wait for the comparison.
 static uint32_t share_facets(const struct share_worker *worker, const uint8_t *facet, size_t facets, uint32_t count,
                              uint32_t *restrict indices, struct stl_words *words)
 {
@@ -129,8 +129,8 @@ static bool share_chunk(struct sharing *s, struct share_worker *worker, size_t i
     return all_finite(worker->positions + before, *count - before);
 }
 
-// An empty entry has a position of another pair, so that no corner is found there: the position 0, and in pair 0 a
-// position of NaN.
+// Fills empty entries with a position that belongs to another pair, so that no corner is found there. Pair 0 is filled
+// with NaN, and all other pairs are filled with the position 0.
 static void start_window(struct share_worker *worker)
 {
     memset(worker->table, 0, sizeof *worker->table << TABLE_BITS);

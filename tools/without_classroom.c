@@ -45,7 +45,7 @@ const char *plot_kind(int index)
 
 void generate_contract_schema(void)
 {
-    say_error("generate: no contracts in this program, which was built with -Dclassroom=false");
+    say_error("generate: this program contains no contracts, because it was built with -Dclassroom=false");
 }
 
 void explain_figure_size(const struct explain_figure *figure, int *width, int *height)

@@ -10,7 +10,7 @@ enum { MAX_EXPONENTS = 6, MAX_FORMS = 3, MAX_INTERPRETATIONS = 400, MAX_FAULTS =
 
 struct interpretation {
     lam_reflection reflection;
-    bool has_highlight, decoded; // whether pow(x, 1/2.2) is undone first
+    bool has_highlight, decoded; // decoded: pow(x, 1/2.2) at the end of the shader is undone before the comparison
     fault_set set;
     const struct fault *forms[MAX_FORMS];
     int form_count;
@@ -21,7 +21,7 @@ struct interpretation {
     bool fits;
 };
 
-// Lists all interpretations of the source as a correct shader. Returns their number.
+// Lists all interpretations under which the source is a correct shader. Returns their number.
 int interpretations_list(const struct run *run, struct interpretation out[MAX_INTERPRETATIONS]);
 
 // Returns whether a fault of the table is visible in a shader with its own strengths and colours. Faults of colours and

@@ -64,7 +64,7 @@ static void add_helpers(struct text *text, const char *body)
 
 // --- values of the scene
 
-// Appends a number with the fewest digits from which a program reads the same float.
+// Appends a number with the fewest digits that parse to the same float.
 static void add_number(struct text *text, float value)
 {
     char number[32];

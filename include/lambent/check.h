@@ -207,16 +207,16 @@ typedef struct lam_check_painter {
     // The caller can cache contexts: a context is put to rest after a check and woken for the next check, perhaps on
     // another thread.
     void (*rest)(void *place);
-    // Returns false and fills `error` on failure; the context stays at rest. The check then forgets its programs and
-    // closes it without waking it again, so these calls must free memory and device objects in this state too.
+    // Returns false and fills `error` on failure; the context then stays released. The check then forgets its programs
+    // and closes it without waking it again, so these calls must free memory and device objects in this state too.
     bool (*wake)(void *place, lam_error *error);
     // Compiles both shaders, so that the messages of both are available at once, and links them. A program that does
     // not compile is not an error. Returns false, fills `error` and keeps nothing on failure.
     bool (*compile)(void *place, const char *vertex, const char *fragment, lam_check_program *program,
                     lam_error *error);
     void (*forget)(void *place, lam_check_program *program); // frees the result of compile
-    // Draws to size² RGBA pixels, rows top-down. The pixels are floats as the program wrote them. If the device has no
-    // float targets, they are bytes / 255; colours are then clamped, and NaN is not found.
+    // Draws to size² RGBA pixels, with the top row first. The pixels are floats as the program wrote them. If the
+    // device has no float targets, they are bytes / 255; colours are then clamped, and NaN is not found.
     bool (*draw)(void *place, const lam_check_drawing *drawing, float *pixels, lam_error *error);
     // true: the painter compiles only GLSL ES. The check then translates desktop GLSL to GLSL ES, line by line, as far
     // as the two languages agree (docs/check.md). Pixels are not compared where the surface normal changes by more than

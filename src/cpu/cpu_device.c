@@ -189,7 +189,7 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
-// For the work limit, a smaller picture is treated like a picture of this size, because a small picture takes little
+// The work limit of a smaller picture is the same as for a picture of this size, because a small picture takes little
 // time with any number of layers.
 enum { WORK_PIXELS = 256 * 256 };
 
@@ -201,7 +201,7 @@ static uint64_t work_limit(const lam_image *image, const struct call_control *ca
     return none ? UINT64_MAX : units;
 }
 
-// Builds the hierarchy if rays need it, and the pattern of shadow rays.
+// Builds the hierarchy if rays need a hierarchy, and fills the pattern of shadow rays.
 static bool set_up_rays(struct cpu_device *device, struct cpu_frame *cpu, lam_error *error)
 {
     struct lam_device *base = &device->base;
@@ -218,7 +218,8 @@ static bool set_up_rays(struct cpu_device *device, struct cpu_frame *cpu, lam_er
     return true;
 }
 
-// Finds the visible triangles before lighting, if normals are made for them or ambient occlusion is computed from them.
+// Finds the visible triangles before lighting, if Lambent computes normals only for visible triangles, or computes
+// ambient occlusion from the visible surfaces.
 static bool search_before_lighting(struct cpu_device *device, struct cpu_frame *cpu, uint64_t *clock, lam_error *error)
 {
     lam_frame_report *report = &device->base.report;

@@ -19,7 +19,8 @@ static void shade(struct cpu_frame *cpu, struct thread_state *thread, const stru
 }
 
 // Draws the layers over the pixels of `area`. A thread stores at most LAYERS_MAX fragments. An area with more fragments
-// is divided in halves, if necessary down to single pixels. The fragments of a single pixel must not exceed this limit.
+// is divided into halves, if necessary down to single pixels. The fragments of a single pixel must not exceed this
+// limit.
 static void draw_layers(struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile,
                         const struct rectangle *area)
 {

@@ -39,8 +39,8 @@ struct kernels {
     void (*vertex_transform)(const struct raster_frame *raster, const struct chunk *chunk);
 
     // Appends the task's triangles to the bins of the tiles that they touch, and clips triangles if necessary. Drops
-    // triangles that are outside the window, have no area, are culled, or whose bounding box contains no sample. If the
-    // mesh is indexed, all vertices of the draw must have been transformed.
+    // triangles that are outside the window or culled, and triangles without an area or without a sample in their
+    // bounding box. If the mesh is indexed, all vertices of the draw must have been transformed.
     void (*bin_triangles)(const struct raster_frame *raster, struct thread_bins *bins, const struct chunk *chunk);
 
     // Clears the tile's samples, then draws the opaque triangles of all threads' bins. Each sample keeps the triangle
@@ -61,8 +61,8 @@ struct kernels {
                            struct shading *shading, const struct tile *tile);
 
     // Lists the opaque fragments of the tile's pixels inside the picture, and fills in the rows id, pixel, weight and
-    // sample. The fragments of a pixel are consecutive, in the order of the nearest sample that shows them. Returns the
-    // number of pixels with fragments.
+    // sample. The fragments of a pixel are consecutive. The order is given by one sample of each fragment: the nearest
+    // to the pixel's centre among the samples that show the fragment. Returns the number of pixels with fragments.
     uint64_t (*visibility_resolve)(const struct sample_pattern *pattern, const struct tile_samples *samples,
                                    struct fragments *fragments, const struct tile *tile);
 
@@ -87,7 +87,8 @@ struct kernels {
     const struct occlusion_kernels *occlusion;
 
     // Sums the fragments' colours in their pixels, weighted by samples, and writes the tile to the picture. If the tile
-    // has translucent layers, they are blended over these sums. Pixels without fragments get target->empty_pixel.
+    // has translucent layers, they are blended over these sums. Pixels without fragments are set to
+    // target->empty_pixel.
     void (*resolve)(const struct resolve_target *target, const struct fragments *fragments,
                     const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
 

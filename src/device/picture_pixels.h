@@ -57,7 +57,7 @@ LANE_FN inum to_rgba8(const struct frame *frame, struct pixel_lanes p)
     return r | shift_left(g, 8) | shift_left(b, 16) | shift_left(a, 24);
 }
 
-// Does the same as to_rgba8 for opaque pixels, which hide the background. The results are equal, because dividing by an
+// Works like to_rgba8, for opaque pixels, which hide the background. The results are equal, because dividing by an
 // alpha of 1 is exact.
 LANE_FN inum opaque_to_rgba8(const struct frame *frame, struct pixel_lanes p)
 {

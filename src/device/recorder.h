@@ -34,7 +34,7 @@ lam_explained_fragment *recorder_add(struct recorder *recorder);
 void recorder_layer(struct recorder *recorder, int pixel, uint32_t fragment, int sample, float transmittance,
                     float share);
 
-// Records the light behind a sample's translucent layers, which comes from the picture behind them or from the
+// Records the light that arrives from behind a sample's translucent layers: from the picture behind glass, or from the
 // background. The light has the units of the sum.
 void recorder_behind(struct recorder *recorder, int pixel, const float light[3]);
 

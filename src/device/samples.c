@@ -1,5 +1,5 @@
-// samples.c: the sample positions in a pixel: Direct3D's standard multisample patterns (D3D11 functional specification,
-// "Multisample patterns"), which graphics processors use.
+// samples.c: the sample positions in a pixel. These are the standard multisample patterns of Direct3D (D3D11 functional
+// specification, "Multisample patterns"), which graphics processors also use.
 #include "samples.h"
 
 // by_distance lists the sample indices by their distance from the centre, the nearest first. Samples at equal distances

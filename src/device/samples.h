@@ -6,7 +6,8 @@
 
 enum { SAMPLES_MAX = 16 };
 
-// Sample positions in 1/16 pixel from the pixel's centre (y down), and their order by distance from the centre.
+// The sample positions relative to the pixel's centre, in units of 1/16 pixel (y down), and the order of the samples by
+// distance from the centre.
 struct sample_pattern {
     int count;
     int8_t x[SAMPLES_MAX], y[SAMPLES_MAX];

@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-enum { CHECK_INTERVAL = 1 << 14, TOGETHER_MAX = 16 }; // at most this many ends at one corner are compared in pairs
+enum { CHECK_INTERVAL = 1 << 14, TOGETHER_MAX = 16 }; // if more ends meet at a corner, they are not linked
 
 // An end of a line at a corner of the mesh.
 struct end {

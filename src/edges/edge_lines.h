@@ -1,4 +1,4 @@
-// edge_lines.h: the data of the steps from the edges of a mesh to strokes in the picture.
+// edge_lines.h: data for the steps that convert the edges of a mesh to strokes in the picture.
 #ifndef EDGE_LINES_H
 #define EDGE_LINES_H
 
@@ -11,7 +11,8 @@ struct edge_view {
     const struct frame *frame;
     const struct hierarchy *hierarchy;
     double eye[3];    // in the hierarchy's space: the eye or, with an orthographic camera, the direction to the eye
-    double near_[4];  // (a, b): for a point p in that space, a p + b is > 0 beyond the near plane
+    double near_[4];  // vector a and number b: a·p + b > 0 if a point p in the hierarchy's space is beyond the near
+                      // plane
     bool every_hides; // every triangle hides edges: no triangle is culled or transparent
     double window[2]; // pixels
     struct loop_status *loop;

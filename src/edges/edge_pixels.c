@@ -1,7 +1,7 @@
 // edge_pixels.c: converts strokes to coverage, and blends their colour over the picture.
 //
-// The coverage of a pixel is the area of its square that a strip of the stroke's width covers. Projected across the
-// strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
+// The coverage of a pixel is the area of the pixel's square that a strip of the stroke's width covers. Projected across
+// the strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
 // strip's angle. Therefore, in any row or column that crosses a line, the line's coverage adds up to the width of the
 // line in that direction. The sum does not depend on the line's position. If several strokes cover a pixel, the largest
 // coverage is used, so that corners and edges shared by two triangles are not darker than other edges.
@@ -29,7 +29,8 @@ struct cover_job {
 
 static double absolute_of(double x) { return x < 0 ? -x : x; }
 
-// Returns the share of a pixel that is below x along an axis with the direction (ux, uy) from its centre.
+// Returns the share of a pixel whose coordinate is below x on an axis through the pixel's centre, in the direction (ux,
+// uy).
 static double share_below(double x, double ux, double uy)
 {
     double a = absolute_of(ux), b = absolute_of(uy), size = absolute_of(x), share = 1;
@@ -61,7 +62,8 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
 
 static int clamped(double x, int limit) { return x <= 0 ? 0 : x >= limit ? limit : (int)x; }
 
-// Finds the columns of a row that a stroke may touch. They are within `reach` of the stroke's line, and inside its box.
+// Finds the columns of a row that a stroke may touch: the columns within `reach` of the stroke's line and inside the
+// stroke's box.
 static void columns(const struct edge_stroke *s, double y, double ux, double uy, double reach, int width, int *first,
                     int *last)
 {
@@ -178,7 +180,7 @@ struct blend_job {
     const struct edge_memory *memory;
     const struct frame *frame;
     lam_image *image;
-    float decoded[256]; // linear light of a byte
+    float decoded[256]; // the linear light of each byte value
 };
 
 // Blends a colour over a pixel. Both are linear, and the pixel is premultiplied.

@@ -1,4 +1,4 @@
-// edge_tasks.h: a task that draws some edges of one draw, from the mesh to strokes.
+// edge_tasks.h: a task that converts some edges of one draw to strokes.
 #ifndef EDGE_TASKS_H
 #define EDGE_TASKS_H
 
@@ -20,9 +20,9 @@ struct edge_measure {
 
 enum { EDGES_PER_TASK = 2048 };
 
-// The weight of a feature edge (edge_specks.c): its length in the picture, in fractions of a pixel. A crease beside a
-// face that is narrower than a pixel, or beside a sliver, has a proportionally smaller weight. An edge that continues
-// outside the picture has the largest weight.
+// The weight of a feature edge (edge_specks.c): the length of the edge in the picture, in units of 1/EDGE_WEIGHT_PIXEL
+// pixels. A crease beside a face that is narrower than a pixel, or beside a sliver, has a proportionally smaller
+// weight. An edge that continues outside the picture has the largest weight.
 enum {
     EDGE_WEIGHT_PIXEL = 1024, // the unit
     EDGE_WEIGHT_MAX = 0xfffd,
@@ -48,7 +48,7 @@ size_t edge_scratch_bytes(void);
 // Returns false if memory runs out or the call is stopped.
 bool edge_task_draw(struct edge_task *task, void *scratch);
 
-// Fills the measures of a task, except their chains.
+// Fills the array `measures` of a task, except the data about chains.
 void edge_task_measure(struct edge_task *task);
 
 // Fills the weights of a task.

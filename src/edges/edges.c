@@ -174,7 +174,7 @@ static size_t edge_count(const struct edge_memory *memory, const struct frame *f
     return count;
 }
 
-// Weighs all feature edges, and drops specks.
+// Computes the weights of all feature edges, and drops specks.
 static bool drop_specks(struct search *search, size_t task_count, struct pool *pool, struct call_control *call,
                         lam_error *error)
 {
@@ -229,7 +229,7 @@ bool edges_find(struct edge_memory *memory, const struct frame *frame, const str
 {
     struct loop_status loop = {.call = call};
     struct search search = {.memory = memory};
-    // All versions give the same results.
+    // The functions for all instruction sets compute identical results.
     search.rays_of = CPU_WIDEST(lanes, edge_rays_scalar, edge_rays_avx2, edge_rays_avx512);
     if (!is_listed(memory, frame) && !list(memory, frame, call, error))
         return false;

@@ -18,13 +18,14 @@ struct edge_strokes {
 
 // The memory kept from frame to frame.
 struct edge_memory {
-    // The edges of the meshes of all draws, in the order of the draws, and the meshes to which the edges belong.
+    // `edges` contains the mesh edges of all draws, in the order of the draws. `sources` describes the mesh of each
+    // draw.
     struct buffer edges, sources;
     int source_count;
     struct scene_token *token; // the scene of the list; NULL if nothing is listed
     struct edge_strokes *strokes;
     struct buffer scratch;  // temporary memory of the threads
-    struct buffer measures; // measures of the edges, if hidden lines are dashed
+    struct buffer measures; // a struct edge_measure for each edge, if hidden lines are dashed
     struct buffer weights;  // weights of the edges, if there are feature edges
     int thread_count;
     struct buffer bands;                 // the strokes of each band of rows
@@ -36,8 +37,8 @@ struct edge_counts {
     uint64_t drawn, rays;
 };
 
-// Finds the lines of a frame whose draws_edges is set, and how much of each pixel they cover. `hierarchy` belongs to
-// the frame. `lanes` is the maximum number of rays traced at a time.
+// Finds the lines of a frame, and computes the fraction of each pixel that the lines cover. draws_edges of the frame
+// must be set. `hierarchy` belongs to the frame. `lanes` is the maximum number of rays traced at a time.
 bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
                 struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error);
 

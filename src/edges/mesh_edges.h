@@ -1,4 +1,5 @@
-// mesh_edges.h: lists the edges of a mesh's triangles, each once. The edges depend only on the mesh, not on the view.
+// mesh_edges.h: lists the edges of a mesh's triangles, and lists each shared edge only once. The edges depend only on
+// the mesh, not on the view.
 #ifndef MESH_EDGES_H
 #define MESH_EDGES_H
 

@@ -24,7 +24,7 @@ struct positions {
     float across[LANES][2];     // the weights of the left and the right texels
 };
 
-// Finds the texels of LANES directions; `weight` multiplies their light.
+// Finds the texels of LANES directions. The light of these texels is multiplied by `weight`.
 LANE_FN void find_positions(struct positions *out, const struct lam_environment *cube, num x, num y, num z,
                             float weight)
 {
@@ -49,7 +49,8 @@ LANE_FN void find_positions(struct positions *out, const struct lam_environment 
     }
 }
 
-// Repeats the weight of the left texel and the weight of the right texel. Both are loaded in one step.
+// Repeats the weight of the left texel and the weight of the right texel for each channel. Both weights are loaded in
+// one step.
 static inline texel_pair beside(const float weights[2])
 {
     double both_weights;
@@ -58,8 +59,8 @@ static inline texel_pair beside(const float weights[2])
     return __builtin_shufflevector(repeated, repeated, 0, 0, 0, 1, 5, 5, 6, 7);
 }
 
-// Adds the bilinearly interpolated light of `count` directions for each of LANES points. The sums of the left and the
-// right texels are kept separate; they are added together at the end.
+// Adds the bilinearly interpolated light of `count` directions for each of LANES points. The sums of the left texels
+// and of the right texels are separate until the end, and are then added.
 static inline void add_light(texel_pair sums[LANES], const struct positions *positions, int count)
 {
     for (int i = 0; i < LANES; i++) {

@@ -41,8 +41,8 @@ struct environment_kernels {
 extern const struct environment_kernels environment_kernels_scalar, environment_kernels_avx2,
     environment_kernels_avx512;
 
-// Returns the texel in the opposite direction of a texel of LAM_FACE_PX, LAM_FACE_PY or LAM_FACE_PZ. The rows of the
-// opposite face are in the opposite direction. On LAM_FACE_NY, instead, the columns are in the opposite direction
+// Returns the texel whose direction is opposite to the direction of a texel of LAM_FACE_PX, LAM_FACE_PY or LAM_FACE_PZ.
+// On the opposite face, the order of the rows is reversed. On LAM_FACE_NY, the order of the columns is reversed instead
 // (cube_direction).
 static inline float *cube_opposite(const struct lam_environment *cube, int face, int s, int t)
 {

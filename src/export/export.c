@@ -89,7 +89,7 @@ lam_export *lam_scene_export(const lam_scene *scene, const char *format, const l
                           .error = error};
     bool ok = export_is_whole(&e) && (!exporter->flat || export_flatten(&e)) && exporter->write(&e) &&
               export_is_whole(&e) && finish(&e, format);
-    out->arena.call = NULL; // the call ends here, but the arena outlives it
+    out->arena.call = NULL; // the arena is used after the call ends
     free(e.text.bytes);
     if (ok)
         return out;

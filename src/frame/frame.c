@@ -178,7 +178,7 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
-    // Ordered by alignment: only ranges contain neither a pointer nor a double.
+    // In descending order of alignment: ranges are last, because all other elements contain a pointer or a double.
     frame->materials = (void *)at;
     at += materials * sizeof *frame->materials;
     frame->converted = (void *)at;
@@ -208,8 +208,8 @@ static bool uses_physical(const struct frame *frame)
     return frame->settings.reflection == LAM_REFLECTION_AUTO || frame_is_physical(frame->settings.reflection);
 }
 
-// Returns the built-in studio. The first scene makes it, and the frame keeps it for later scenes, because preparing its
-// light takes longer than a small picture.
+// Returns the built-in studio. The frame keeps the studio of the first scene for later scenes, because preparing the
+// studio's light takes longer than drawing a small picture.
 static const lam_environment *studio_of(struct frame *frame, const lam_scene *scene, lam_error *error)
 {
     if (!frame->studio)
@@ -241,7 +241,7 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     return true;
 }
 
-// Decides whether facet normals can be computed at each point: they need no computation before lighting if each normal
+// Decides which draws compute facet normals at each point instead of before lighting. This is possible if each normal
 // is used only for points of its own triangle.
 static void leave_facets(struct frame *frame)
 {
@@ -258,13 +258,13 @@ static void leave_facets(struct frame *frame)
 
 // The radius of cavity shading, relative to half the diagonal of the scene's box.
 #define CAVITY_RADIUS 0.05
-// The radius with the tone curve LAM_TONE_CONTRAST, which shows narrow valleys if the frame has at least FINE triangles.
-// With fewer triangles, dark lines would appear between them.
+// The radius with the tone curve LAM_TONE_CONTRAST, which shows narrow valleys if the frame has at least FINE
+// triangles. With fewer triangles, dark lines would appear between the triangles.
 #define CONTRAST_CAVITY_RADIUS 0.02
 enum { FINE = 16384 };
 
-// Returns whether cavity shading lightens ridges. It does not if a texture colours the drawn surfaces, or if a classic
-// material is white, because lighter ridges would be broad white stripes on it.
+// Returns whether cavity shading lightens ridges. Returns false if a texture colours a drawn surface. Also returns
+// false if a classic material is white, because its ridges would become broad white stripes.
 static bool lightens_ridges(const struct frame *frame)
 {
     for (int i = 0; i < frame->range_count; i++) {

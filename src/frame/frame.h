@@ -33,8 +33,8 @@ struct frame_draw {
     // The mesh consists of rectangles for lines or points (frame_strokes.h), built for this frame in eye space. These
     // rectangles are not surfaces: flat shading uses their vertex normals, and they cast no shadows.
     bool strokes;
-    // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. It casts no
-    // shadows.
+    // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. The ground casts
+    // no shadows.
     bool ground;
     bool clear; // all triangles let light through unchanged (colourless glass, for example), so rays ignore them
     lam_cull cull;
@@ -102,10 +102,10 @@ struct frame_ground {
     lam_vec3 middle, right, up, front;
     double whole, end;                          // distances from `middle` at which fading begins and ends
     double square;                              // the side of a square
-    float eye_middle[3], eye_up[3], eye_height; // eye space: the plane's points p have p·eye_up = eye_height
+    float eye_middle[3], eye_up[3], eye_height; // eye space: p·eye_up = eye_height for each point p of the plane
     lam_mesh mesh;
     lam_material material;
-    uint32_t first_id; // the number of its first triangle; its triangles are the last of the frame
+    uint32_t first_id; // the number of the ground's first triangle; the ground's triangles are the last of the frame
     struct buffer memory;
 };
 
@@ -119,7 +119,7 @@ struct frame_edges {
 };
 
 struct frame {
-    struct scene_token *token; // the scene's token, without a reference
+    struct scene_token *token; // the scene's token; the frame does not own a reference to it
     int width, height;
     // The draw parameters with defaults resolved. samples, tone, stage and occlusion are never AUTO. `shadows` is set
     // if a light casts shadows and the output shows it. `reflection` may be AUTO, the material's own model
@@ -142,9 +142,9 @@ struct frame {
     bool deep_valleys;      // cavity shading makes valleys darker
     bool widens_highlights; // whether highlights of physical materials are widened (lam_specular_aa)
     bool translucent;       // whether any range is translucent
-    bool passes_rays;       // whether any range has passes_rays
+    bool passes_rays;       // whether passes_rays is set in any range
     bool masked;            // whether any range has a material of LAM_ALPHA_MASK
-    // whether the material of any range transmits light and colours it, whatever the output shows
+    // whether the material of any range transmits coloured light, for every output
     bool tints_rays;
     bool transmits; // whether any range transmits, so that layers need a transmittance per channel
     // whether any range is rough or thick glass, which blurs and refracts the picture behind it
@@ -153,7 +153,7 @@ struct frame {
     bool makes_normals; // whether a draw has a crease_rad, and the output needs its normals
     // The background of transmitting layers without a surface behind them: colour times alpha divided by the exposure,
     // and alpha. If the background is transparent and the output is the picture, this background is white. Glass then
-    // has the colour that it shows over white, and its alpha is 1 − its smallest transmittance.
+    // has the same colour as over white, and its alpha is 1 minus its smallest transmittance.
     float glass_background[4];
     float eye_pixel[3][4]; // eye space to pixels: rows X·w, Y·w, w
     // The depth key of a point: 1/w in perspective; (1 − z/w)/2 if orthographic. Larger keys are nearer. The key is an
@@ -168,9 +168,10 @@ struct frame {
     struct frame_draw_range *ranges; // sorted by first_id, without gaps
     int range_count;
     uint32_t triangle_count;
-    // The default material, then material i of the scene at 1 + i. The list repeats all materials if one kind of model
-    // lights the front of a surface and the other kind lights its back. The list repeats them once more if unlit lines
-    // or points have emission. Each copy is converted to the kind of material that its model lights.
+    // The default material, then material i of the scene at 1 + i. A model lights either classic or physical materials.
+    // If a surface's front and back need different kinds, the list repeats all materials. If unlit lines or points have
+    // emission, the list repeats all materials again. Each copy is converted to the kind of material that its model
+    // lights.
     const lam_material **materials;
     int material_count, scene_material_count; // number of all materials, and number without the copies
     lam_material *converted;                  // materials converted to the other kind
@@ -189,7 +190,7 @@ struct frame {
     float to_environment[3][3]; // from eye space to the environment's axes
 
     // The environment's brightest lamp is a separate light that casts shadows: rig[rig_count]. The environment's
-    // diffuse light excludes it.
+    // diffuse light excludes this lamp.
     bool separate_lamp;
 
     lam_light rig[LAM_RIG_LIGHTS_MAX + 1];
@@ -247,13 +248,13 @@ int frame_layers(const struct frame *frame, const lam_material *material);
 // Adds the ranges of a draw to the frame, and sets draw->clear. Each range has one material on each side.
 void frame_ranges_build(struct frame *frame, const lam_scene *scene, int draw_index);
 
-// Returns the index of material `back`, or of a converted copy of it if the model that lights `front` lights only the
-// other kind of material.
+// Returns the index of material `back`. If the model that lights `front` cannot light `back`, returns the index of a
+// converted copy of `back`.
 int frame_back_material(struct frame *frame, int front, int back);
 
 // Returns the index of the material for unlit lines and points, whose emission is added to the diffuse colour. If the
-// file sets a colour for neither the material nor the vertices (`colored`), the result is a visible grey or, on a dark
-// background, the material itself.
+// file sets no colour for the material or the vertices (`colored`), and the background is not dark, the material is a
+// visible grey.
 int frame_stroke_material(struct frame *frame, int front, bool colored);
 
 // Returns the maps that shading uses: a bit 1 << LAM_MAP_… for each. If colours of vertices or triangles are
@@ -284,7 +285,7 @@ float frame_lobe_max(const lam_material *material);
 // Returns the highlight exponent of a material, after match_highlights and gl1.
 float frame_shininess(const struct frame *frame, const lam_material *material);
 
-// Returns whether the output shows a single light; the frame then has only that light.
+// Returns whether the output shows a single light; the frame then contains only that light.
 static inline bool output_is_one_light(lam_output output)
 {
     return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;

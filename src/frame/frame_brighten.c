@@ -11,8 +11,8 @@
 #include <string.h>
 
 // A model is dark if three quarters of its surface have a base colour with a luminance below BRIGHT. If the 75th
-// percentile of the luminance is m stops below BRIGHT, the exposure increases by root(RATE m) stops. It increases by at
-// most MOST stops, and only as long as at most 5 % of the surface exceeds WHITE.
+// percentile of the luminance is m stops below BRIGHT, the exposure increases by root(RATE m) stops. The exposure
+// increases by at most MOST stops, and only as long as at most 5 % of the surface exceeds WHITE.
 #define BRIGHT 0.35
 #define RATE   0.8
 #define MOST   2.5
@@ -24,14 +24,14 @@
 #define PAPER 0.9
 #define DIM   (5.0 / 6)
 
-// The colours of textures are rarely white. Textured models of classic materials with flat faces are brightened until
-// 98 % of the surface has at most this luminance, so that the lightest texels look nearly white on faces that the key
+// The colours of textures are rarely white. Models with flat faces and textured classic materials are brightened until
+// 98 % of the surface has at most this luminance. The lightest texels then look nearly white on faces that the key
 // light reaches.
 #define LIGHTEST 1.7
 
 enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // the number of sampled triangles, of bins, and of steps per stop
 
-// A histogram of triangle area by the luminance of the base colour: bin b is for sqrt(luminance) = b / BINS.
+// A histogram: area[b] is the area of the triangles whose base colour has sqrt(luminance) ≈ b / BINS.
 struct luminances {
     double area[BINS], all;
 };
@@ -117,7 +117,7 @@ static double percentile(const struct luminances *sum, double share)
 
 static bool is_dark(const lam_rgb *c) { return c->r == 0 && c->g == 0 && c->b == 0; }
 
-// Returns whether the studio is the model's only light, and the model has colours of its own.
+// Returns true if only the studio lights the model, and if the model has its own colours.
 static bool applies(const struct frame *frame, const lam_scene *scene)
 {
     const lam_draw_params *settings = &frame->settings;
@@ -136,7 +136,7 @@ static bool applies(const struct frame *frame, const lam_scene *scene)
     return lam_output_is_light(settings->output) || settings->output == LAM_OUTPUT_CLIPPED;
 }
 
-// Returns whether no surface can be dark, so that none has to be sampled.
+// Returns whether no surface can be dark. In this case, no surface has to be sampled.
 static bool is_bright(const struct frame *frame)
 {
     for (int i = 0; i < frame->range_count; i++) {
@@ -169,7 +169,7 @@ static bool is_white(const struct frame *frame)
     return surfaces > 0;
 }
 
-// Returns whether the model is drawn with textures of classic materials, in the light for flat faces.
+// Returns whether the model has textured classic materials and is lit by the rig for flat faces.
 static bool is_painted(const struct frame *frame, const lam_scene *scene)
 {
     bool textured = false;

@@ -18,10 +18,10 @@
 // file are kept.
 #define ORIGIN_RATIO 16.0
 
-// Computes the origin from the box of all coordinates, which must be finite. On an axis that needs no origin, it is 0.
-// On other axes, it is the box's centre, rounded so that it has few digits: to a multiple of the largest power of two
-// that does not exceed the model's size. Returns whether any axis needs an origin. Float coordinates are precise enough
-// for this decision; for the origin itself, call the function again with doubles.
+// Computes the origin from the box of all coordinates, which must be finite. If an axis needs no origin, origin[axis]
+// is 0. Otherwise, origin[axis] is the box's centre, rounded to a multiple of the largest power of two that does not
+// exceed the model's size. Returns whether any axis needs an origin. Float coordinates are precise enough for this
+// decision; for the origin itself, call the function again with doubles.
 static inline bool origin_choose(const double minimum[3], const double maximum[3], double origin[3])
 {
     // The size is halved, so that it does not overflow for a box from −1e308 to 1e308.
@@ -48,8 +48,8 @@ static inline bool origin_choose(const double minimum[3], const double maximum[3
         bits &= UINT64_C(0x7ff0000000000000);
         memcpy(&step, &bits, sizeof step);
         // Adding and subtracting 1.5 · 2⁵² rounds numbers below 2⁵¹ to integers. Larger numbers are already integers.
-        // For models without a size, or with a size below the smallest normal double, the quotient is set to such a
-        // number.
+        // `step` is 0 if the model's size is below the smallest normal double. `steps` is then set to a large number,
+        // so that nothing is rounded.
         double steps = step > 0.0 ? middle / step : 0x1p52;
         if (steps > -0x1p51 && steps < 0x1p51)
             middle = ((steps + 0x1.8p52) - 0x1.8p52) * step;

@@ -15,8 +15,7 @@
 enum {
     NONE = UINT32_MAX,
     LEAF = 8,      // points per leaf of the tree
-    STEP_RATE = 4, // maximum visits of nodes and points, divided by count·√count; simple polygons need at most a third
-                   // of it
+    STEP_RATE = 4, // maximum of visited nodes and points, divided by count·√count; simple polygons need a third
     CHECK_INTERVAL = 65536,
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };
@@ -275,7 +274,7 @@ static int32_t max_int(int32_t a, int32_t b) { return a > b ? a : b; }
 static bool point_inside(const struct corner *const triangle[3], const struct corner *p, bool touching)
 {
     for (int k = 0; k < 3; k++) {
-        // The bridge to a hole returns to the same point, and a point does not block its own ear.
+        // A point does not block its own ear, even if a bridge to a hole repeats the point.
         if (same_place(p, triangle[k]))
             return false;
         int64_t side = turn(triangle[k], triangle[k == 2 ? 0 : k + 1], p);

@@ -28,8 +28,8 @@ void triangulator_stop(struct triangulator *scratch);
 
 // Splits a polygon into triangles. Corner i of the polygon is at positions[3·corners[i] …], which must be finite, and
 // `count` is at least 3. Writes count − 2 triples of corner numbers to `triples`, with the same winding as the polygon.
-// The numbers are 0 … count − 1, so they can be used for every attribute. Returns false if memory runs out or the call
-// must stop (call_should_continue says which). The function never fails for at most four corners.
+// The numbers are 0 … count − 1, so they can be used for every attribute. Returns false if memory runs out, or if
+// call_should_continue returns false. The function never fails for at most four corners.
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);
 

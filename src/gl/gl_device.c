@@ -1,4 +1,4 @@
-// gl_device.c: the OpenGL device: creation, the sequence of a frame, memory use, destruction.
+// gl_device.c: creates and frees the OpenGL device, runs the steps of a frame, and reports the memory use.
 #include "gl_device.h"
 
 #include "cube_map.h"
@@ -454,7 +454,7 @@ lam_device *lam_device_gl(const lam_gl_params *params, lam_error *error)
     int mistake = mistake_find(params->mistake);
     if (params->mistake && (!params->lecture || !mistake)) {
         fail(error, LAM_BAD_ARGUMENT, "OpenGL: mistake '%.60s': %s", params->mistake,
-             mistake ? "it requires the lecture style" : "no such mistake");
+             mistake ? "mistakes require the lecture style" : "no such mistake");
         return NULL;
     }
     struct gl_device *device = calloc(1, sizeof *device);

@@ -68,7 +68,7 @@ struct mesh_run {
 };
 
 struct gl_mesh {
-    struct scene_token *token; // referenced; NULL means the entry is free
+    struct scene_token *token; // a counted reference; NULL means the entry is free
     lam_mesh mesh;             // the arrays from which the buffers were made
     enum vertex_form form;
     bool passing; // the arrays belong to one frame only
@@ -84,8 +84,8 @@ struct gl_mesh {
 // --- textures
 
 struct gl_texture {
-    struct lam_texture *texture; // shared; NULL means the entry is free
-    struct scene_token *token;   // referenced: the scene that was drawn when the texture was uploaded
+    struct lam_texture *texture; // shared texture; NULL means the entry is free
+    struct scene_token *token;   // a counted reference: the scene that was drawn when the texture was uploaded
     GLuint name;
     uint64_t bytes;
     uint64_t last_frame; // number of the last frame that used the texture
@@ -101,11 +101,11 @@ enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_
 // Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
     uint64_t key; // hash of all inputs of the colours in the buffer (gl_key_add); 0 means none
-    // Referenced, because the key contains its address.
+    // A counted reference, because the key contains the environment's address.
     struct lam_environment *environment;
     GLuint colors, array;
     bool
-        // each vertex has four colours: front, back, and the remainder of each (glsl_facts.separate_texture_terms)
+        // each vertex has four colours: two for the front and two for the back (glsl_facts.separate_texture_terms)
         separate_texture_terms;
     GLuint of_vertices; // the mesh buffer with the positions for `array`
     uint64_t bytes;
@@ -171,8 +171,8 @@ enum gl_blending {
     BLENDING_MULTIPLY,
 };
 
-// A copy of the context's current state, so that a state is set only if it changes. In the caller's context, the state
-// is unknown at the start of a frame.
+// A copy of the context's current state. The device uses this copy to skip calls that would not change the state. In
+// the caller's context, the state is unknown at the start of a frame.
 struct gl_current_state {
     GLuint program, array, framebuffer;
     int unit; // active texture unit; −1 if unknown
@@ -189,9 +189,11 @@ struct gl_current_state {
     int width, height;         // viewport
 };
 
-// The surfaces that transmit light, stored after the hierarchy in its texture (gl_surfaces.c).
+// The surfaces that transmit light. The texture of the hierarchy also stores these surfaces, after the hierarchy
+// (gl_surfaces.c).
 struct gl_surfaces {
-    // hashes of all inputs: of the texels in the texture, and of this frame's texels; 0 means none
+    // hashes of all inputs: `key` for the texels in the texture, `next_key` for the texels of this frame; 0 means no
+    // texels
     uint64_t key, next_key;
     // for the current frame: the first record of each range, and the positions of the textures
     struct buffer records, pixels;
@@ -206,7 +208,7 @@ struct gl_device {
     bool hardware_filter; // lam_gl_params
     GLint block_size_max, block_alignment, texture_size_max;
     GLint unit_count; // number of texture units that fragment shaders may use, up to UNIT_COUNT
-    bool has_norm16;  // the driver supports textures with 16-bit numbers for 0…1
+    bool has_norm16;  // the driver supports textures with 16 bits per channel for values from 0 to 1
     // the format of the targets: GL_RGBA32F, or GL_RGBA16F if the driver does not support GL_RGBA32F
     GLenum float_format;
 
@@ -240,7 +242,8 @@ struct gl_device {
     struct hierarchy_memory hierarchy;
     GLuint shadow_texture;   // contains the hierarchy
     float shadow_offsets[2]; // first texel of the triangles, and of their positions
-    bool shadows_sent;       // whether the texture contains the current hierarchy, and the surfaces of surfaces.key
+    bool shadows_sent;       // whether the texture contains the current hierarchy, and the surfaces with the hash
+                             // surfaces.key
     struct gl_surfaces surfaces;
     uint64_t environment_bytes, target_bytes, shadow_bytes;
     struct gl_current_state current;
@@ -299,15 +302,16 @@ static inline bool range_blends(const struct frame *frame, const struct frame_dr
 
 // --- gl_state.c
 
-// Charges the growth of a GL object from `*held` to `bytes` to the frame's memory limit, and updates `*held`.
+// Charges the difference between the new size of a GL object, `bytes`, and its previous size, `*held`, to the frame's
+// memory limit. Updates `*held`.
 bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *error);
 
 // Allocates new contents of a vertex buffer and maps them for writing; the caller writes all bytes and unmaps
 // GL_ARRAY_BUFFER. Returns NULL on failure.
 void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
 
-// Sets an attribute of the vertex array to `size` floats, starting with float number `at`, of each vertex in the bound
-// buffer.
+// Makes an attribute of the vertex array read `size` floats of each vertex in the bound buffer. `at` is the index of
+// the first float in the vertex.
 void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at);
 
 // Adds bytes to a key, a 64-bit hash of the inputs of uploaded data. The data are uploaded again if the key has
@@ -317,15 +321,16 @@ void gl_key_add(uint64_t *key, const void *bytes, size_t count);
 // Returns the list with space for another row, or NULL on failure.
 void *gl_grown(void *list, int count, int *capacity, size_t size, lam_error *error);
 
-// Each function sets a state unless it is already current.
+// Each function sets a state, but makes no OpenGL call if the state is already current.
 void gl_use_program(struct gl_device *device, GLuint program);
 void gl_use_array(struct gl_device *device, GLuint array);
 void gl_use_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
 // Binds a sampler to a texture unit; 0 selects the texture's own sampler.
 void gl_use_sampler(struct gl_device *device, enum texture_unit unit, GLuint sampler);
-// Does the same as gl_use_texture, and makes the unit active, which uploads need.
+// Does the same as gl_use_texture, and makes the unit active. Uploads require an active unit.
 void gl_edit_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint texture);
-// Does the same as gl_edit_texture, and makes the texture if *name is 0: one level, the nearest texel, no repetition.
+// Does the same as gl_edit_texture. If *name is 0, first makes a texture with one level, nearest filtering and no
+// repetition.
 void gl_edit_plain_texture(struct gl_device *device, enum texture_unit unit, GLenum target, GLuint *name);
 void gl_use_framebuffer(struct gl_device *device, GLuint framebuffer);
 void gl_use_blending(struct gl_device *device, enum gl_blending blending);
@@ -356,7 +361,7 @@ bool textures_upload(struct gl_frame *f, const struct gl_program *program, const
                      lam_error *error);
 // Binds the textures of the maps.
 void textures_use(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range);
-// Does the same as meshes_evict for textures.
+// Frees the textures of scenes that no longer exist, and textures that the frame's scene no longer uses.
 void textures_evict(struct gl_frame *f);
 void textures_free(struct gl_device *device);
 
@@ -381,7 +386,8 @@ bool occlusion_send(struct gl_frame *f, lam_error *error);
 // --- gl_programs.c
 // Returns the program of the choices, compiled on first use. Returns NULL on failure.
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
-// Set a uniform of a program, unless the uniform already has this value: an int, or 16, 9, 4 or one float.
+// Set a uniform of a program, unless the uniform already has this value. The value is an int, or 1, 4, 9 or 16 floats
+// (`count`).
 void program_set_int(struct gl_frame *f, struct gl_program *program, int uniform, GLint value);
 void program_set(struct gl_frame *f, struct gl_program *program, int uniform, const float *values, int count);
 bool program_copy_make(struct gl_device *device, lam_error *error);
@@ -395,10 +401,9 @@ bool environment_send(struct gl_frame *f, lam_error *error);
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
-// --- gl_surfaces.c
-// Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
-// has `most` texels. Sets *same to whether the texels and the hierarchy are the same as in the last packing. Fails with
-// LAM_LIMIT.
+// --- gl_surfaces.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
+// has `most` texels. Sets *same to true if the texels and the hierarchy are the same as in the last packing, otherwise
+// to false. Fails with LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
 // Writes the counted texels into zeroed memory.
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);

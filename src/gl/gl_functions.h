@@ -116,8 +116,9 @@
     X(VertexAttribPointer)                                                                                             \
     X(Viewport)
 
-// Part of some versions only; NULL if the driver does not provide the function. Call such a function only after a check
-// of the context's version and extensions: a pointer alone does not mean support.
+// Part of some versions only; NULL if the driver does not provide the function. Check the context's version and
+// extensions before you call such a function, because a driver may provide a pointer for a function that it does not
+// support.
 #define GL_OPTIONAL_FUNCTIONS(X)                                                                                       \
     X(DebugMessageCallback) /* KHR_debug */                                                                            \
     X(DebugMessageControl)                                                                                             \

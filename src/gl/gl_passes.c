@@ -1,9 +1,8 @@
 // gl_passes.c: draws one part of the picture. Each sample is a separate pass, with the projection shifted by the
 // sample's offset. A pass draws the opaque surfaces, then peels the translucent surfaces layer by layer, nearest first.
 //
-// A depth id is the depth and the triangle number of a fragment. Layers are ordered by depth id, so that surfaces of
-// equal depth have the same order as on the CPU device, with the lower triangle number in front, and no surface is
-// lost.
+// A depth id is the depth and the triangle number of a fragment. Layers are ordered by depth id. If surfaces have the
+// same depth, the lower triangle number is in front, as on the CPU device, and no surface is lost.
 //
 // The target's rows are top-down, like the picture: the projection flips y, which reverses the winding.
 #include "gl_device.h"
@@ -15,8 +14,8 @@
 
 // --- one draw call
 
-// Computes the matrix to the part's clip space from the frame's rows in pixels, with the sample at the pixel's centre:
-// x = 2 (X − left − sample) / width − 1.
+// Computes the matrix from object space to the clip space of the part. The draw's matrix produces pixels. The current
+// sample must be at the centre of a pixel, so x = 2 (X − left − sample) / width − 1.
 static void to_clip(const struct gl_frame *f, const struct frame_draw *draw, float out[16])
 {
     const float(*m)[4] = draw->pixel;
@@ -175,7 +174,7 @@ static void copy_target(struct gl_frame *f, const struct gl_target *from, const 
     copy_texture(f, from->color, to, how, factor);
 }
 
-// Adds a target's colours times the tint to the sum. With `last`, it adds the opaque surfaces behind all layers, and
+// Adds a target's colours times the tint to the sum. With `last`, also adds the opaque surfaces behind all layers, and
 // the alpha.
 static void add_tinted(struct gl_frame *f, const struct gl_target *from, bool last)
 {

@@ -1,4 +1,4 @@
-// equations.c: splits the files of src/lighting into definitions, selects those that a shader calls, and writes them.
+// equations.c: splits the files of src/lighting into definitions, and writes the definitions that a shader calls.
 #include "equations.h"
 
 #include "fail.h"
@@ -32,8 +32,9 @@ static char *next_line(const char *at)
 
 static bool begins(const char *at, const char *with) { return strncmp(at, with, strlen(with)) == 0; }
 
-// Returns the end of a definition. If its first line contains a semicolon, the definition ends with that line.
-// Otherwise the definition ends with the line that begins with the closing brace or, for a table, with a parenthesis.
+// Returns the end of a definition. If the first line of the definition contains a semicolon, the definition ends with
+// that line. Otherwise the definition ends with the line that begins with the closing brace or, for a table, with a
+// parenthesis.
 static char *definition_end(char *at)
 {
     bool table = begins(at, "const ");

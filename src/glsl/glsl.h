@@ -7,7 +7,7 @@
 // Names in the source. Attributes, with their locations (GLSL 120: bound by name):
 //    0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,
 //    8 second_texcoord.
-// glsl_rows.c contains the table of uniforms. All colours are vec4, so that arrays of them have the same layout in
+// glsl_rows.c contains the table of uniforms. All colours are vec4, so that arrays of colours have the same layout in
 // std140 blocks, in texels and for glUniform4fv.
 #ifndef GLSL_H
 #define GLSL_H
@@ -56,7 +56,7 @@ enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FA
 // A map of one side's material.
 struct glsl_map {
     uint8_t used;
-    uint8_t texels; // maps of a range with equal numbers have the same texels everywhere
+    uint8_t texels; // equal numbers mean that two maps of a range have the same texels everywhere
     uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
 };
 
@@ -89,12 +89,12 @@ struct glsl_choices {
     lam_tone tone;    // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
     bool exposes;     // the fragment multiplies its light by the uniform `exposure`
     const struct glsl_style *style; // writes the sources; NULL means the full style
-    int mistake;                    // number of a change that the style makes, or 0
+    int mistake;                    // the number of a deliberate mistake (glsl_style); 0 means no mistake
     bool products;                  // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;                 // the back is lit with −n
     bool back_material;             // the back has its own material
     bool colors;                    // attribute color
-    bool tangents;                  // attribute tangent; otherwise the direction field, if the model needs a tangent
+    bool tangents;                  // attribute tangent; otherwise the shader computes a tangent if necessary
     bool converted[2];              // front, back: a metallic-roughness material with maps, lit by a classic model
     uint8_t alpha[2];               // front, back: lam_alpha_mode
     uint8_t anisotropy;             // the maximum number of probes per texture lookup
@@ -115,8 +115,8 @@ struct glsl_choices {
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 
-// Returns whether an output is a value of the geometry, which the fragment shader evaluates without lighting, whatever
-// the shading method.
+// Returns whether an output is a value of the geometry. The fragment shader computes such outputs without lighting, for
+// every shading method.
 static inline bool glsl_output_is_geometry(lam_output output)
 {
     return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||
@@ -139,8 +139,8 @@ struct glsl_style {
     bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
     // Appends the code of a stage, without its version and its uniforms.
     void (*add_stage)(struct text *text, const struct glsl_facts *stage);
-    // Makes the change choices->mistake in one of the sources `texts`. On success, all sources are freed and replaced
-    // by copies. Returns false on failure.
+    // Inserts the mistake choices->mistake into one of the sources `texts`. On success, all sources are freed and
+    // replaced by copies. Returns false on failure.
     bool (*change)(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 };
 
@@ -155,9 +155,9 @@ void glsl_free(struct glsl_text *text);
 // A light, with the layout of struct Light. With products the struct ends after `cone`; without gl1 it ends before
 // `ambient`.
 struct glsl_light {
-    // In eye space; w is 1. In shaders with shadows, w is the radius, or negative if the light casts no shadows. For a
-    // directional light, the position is then the world axis along which the light's direction has its smallest
-    // component.
+    // In eye space; w is 1. In shaders with shadows, w is the radius, or negative if the light casts no shadows. In
+    // these shaders, the position of a directional light is the world axis along which the light's direction has its
+    // smallest component.
     float position[4];
     // the unit direction of travel in eye space; w is 0 or, with `occlusion`, the share that occlusion dims
     float direction[4];
@@ -167,8 +167,8 @@ struct glsl_light {
 };
 
 // The fields of struct Material or, with products, the head of the block Products: colours as vec4, then numbers. In
-// the block the head is followed by diffuse_product[lights], specular_product[lights], with gl1
-// light_ambient_product[lights], sky_product[hemispheres] and ground_product[hemispheres], 4 floats each.
+// the block, these arrays follow, with 4 floats per element: diffuse_product[lights], specular_product[lights],
+// light_ambient_product[lights] (only with gl1), sky_product[hemispheres] and ground_product[hemispheres].
 struct glsl_material_layout {
     int count;
     const struct material_field *fields[LAM_FIELDS_MAX];
@@ -178,16 +178,16 @@ struct glsl_material_layout {
 struct glsl_material_layout glsl_material_layout(bool products, int field_layers);
 enum { GLSL_MATERIAL_MAX = 4 * LAM_FIELDS_MAX };
 
-// Returns the size in bytes, at least 16, of the block Lights (without products first ambient_light, then lights and
-// hemispheres) or of the texels of light_list (lights, hemispheres). glsl_pack_lights writes this data, in the order of
-// the groups.
+// Returns the size in bytes (at least 16) of the block Lights or of the texels of light_list. glsl_pack_lights writes
+// this data: lights and hemispheres, in the order of the groups. Without products, ambient_light comes first in the
+// block.
 size_t glsl_lights_bytes(const struct glsl_choices *choices);
 void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *frame, float *out);
 
-// Return the size of, and write, the products of one material: the block Products or BackProducts, or the material's
-// texels of product_list. The products are, for each light, the diffuse, the specular and (with gl1) the ambient
-// product, then, for each hemisphere, the products of sky and ground. The uniforms first_product and back_first_product
-// contain the index of the first texel.
+// glsl_products_bytes returns the size of one material's products: the block Products or BackProducts, or the
+// material's texels in product_list. glsl_pack_products writes the products. The products are, for each light, the
+// diffuse, the specular and (with gl1) the ambient product, then, for each hemisphere, the products of sky and ground.
+// The uniforms first_product and back_first_product contain the index of the first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);

@@ -1,4 +1,4 @@
-// glsl_known.c: the conditions and names in a shader's sources that its choices determine.
+// glsl_known.c: the conditions and names in a shader's sources that the choices determine.
 #include "glsl_known.h"
 
 #include <stdlib.h>

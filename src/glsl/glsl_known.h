@@ -1,4 +1,4 @@
-// glsl_known.h: the conditions and names in a shader's sources that its choices determine.
+// glsl_known.h: the conditions and names in a shader's sources that the choices determine.
 #ifndef GLSL_KNOWN_H
 #define GLSL_KNOWN_H
 
@@ -17,7 +17,7 @@ struct known_table {
 void known_flag(struct known_table *table, const char *name, bool holds);
 void known_text(struct known_table *table, const char *name, const char *text);
 void known_number(struct known_table *table, const char *name, int number);
-// Adds a row with an empty replacement for a name, and returns the replacement, to which the caller then appends.
+// Adds a row with an empty replacement for a name. Returns the replacement; the caller appends the text to it.
 struct text *known_made(struct known_table *table, const char *name);
 // Specialises a source with the table, appends the result, and frees the table.
 void known_specialize(struct text *text, const char *source, struct known_table *table);

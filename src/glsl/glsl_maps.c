@@ -1,5 +1,5 @@
-// glsl_maps.c: sets the choices about a shader's maps, finds the maps that the shader reads, and writes the GLSL that
-// replaces the names in maps.glsl.
+// glsl_maps.c: sets the choices for a shader's maps, finds the maps that the shader reads, and writes the replacements
+// for the names in maps.glsl.
 #include "fail.h"
 #include "glsl_rows.h"
 #include "maps.inc"
@@ -135,7 +135,7 @@ void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_ran
 
 bool glsl_is_physical(const struct glsl_facts *f) { return frame_is_physical(f->choices->reflection); }
 
-// Returns the map of which the level of detail is shown on a side, or LAM_MAP_COUNT if there is none.
+// Returns the map whose level of detail LAM_OUTPUT_LOD shows on a side, or LAM_MAP_COUNT if the side has no such map.
 static lam_map lod_map(const struct glsl_facts *f, int side)
 {
     for (int i = 0; i < LOD_MAPS; i++)

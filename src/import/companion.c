@@ -164,8 +164,8 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     return file_read_named(out->real, length, out->shown, fresh, source->pool, source->call, &out->file, error);
 }
 
-// Adds to the error that the name of a missing file was cut to its last component, because the file may exist under the
-// full name.
+// States in the error that the name of a missing file was shortened to the last component, because the file may exist
+// under the full name.
 static void explain_cut(const char *name, lam_error *error)
 {
     char shown[SHOWN_NAME_SIZE];

@@ -4,7 +4,7 @@
 
 #include "importer.h"
 
-// The state of import_source.open and .open_of_scene, which defines the locations in which they look for files.
+// The state of import_source.open and import_source.open_of_scene. It defines where these functions look for files.
 struct file_list;
 struct companions {
     // the folder of the model or scene file, with its '/' ("" is the current folder); NULL if that file is not on disk
@@ -43,8 +43,9 @@ bool companions_of_model(const struct import_source *scene, const char *name, co
 // Converts the name of a file that a model refers to. The name is confined to the model's folder: backslashes become
 // slashes, "." and empty components are removed, and ".." removes the component before it. A name that begins with a
 // root or a drive, or refers to a file outside the folder, is cut to its last component, unless params->allowed_paths
-// contains the file. All spellings of a file in the folder are therefore converted to the same name. Sets *cut to
-// whether the name was cut. Returns false if no component is left, or if COMPANION_NAME_SIZE is too small.
+// contains the file. All spellings of a file in the folder are therefore converted to the same name. Sets *cut to true
+// if the name was cut, otherwise to false. Returns false if no component is left, or if COMPANION_NAME_SIZE is too
+// small.
 enum { COMPANION_NAME_SIZE = 4096 };
 bool companion_name(const struct import_source *source, const char *name, char out[COMPANION_NAME_SIZE], bool *cut);
 

@@ -8,7 +8,7 @@ struct run {
     parallel_bytes_task *bytes_task; // set by parallel_rows_read
     void *user;
     const struct row_bytes *rows;
-    uint8_t *buffers;    // PARALLEL_ROWS rows per thread, for a file that is read in parts
+    uint8_t *buffers;    // if the file is read in parts, each thread has a buffer of PARALLEL_ROWS rows
     size_t first_failed; // atomic; the index of the first chunk that failed, or `count`
     int stopped;         // atomic; the call was cancelled or ran out of time
 };
@@ -55,8 +55,8 @@ static bool run_all(struct run *run, size_t count, lam_error *error)
     pool_run(run->source->pool, count, run_one, run);
     if (run->stopped)
         return call_error(run->source->call, error);
-    // Chunks after the first failed chunk may have been skipped. If the failed chunk succeeds now, because memory is
-    // available again, the skipped chunks must still run.
+    // Chunks after the first failed chunk may have been skipped. If the failed chunk succeeds now (for example, because
+    // memory is available again), the skipped chunks must also be processed.
     for (size_t index = run->first_failed; index < count; index++) {
         if (!run_task(run, index, 0, error))
             return false;

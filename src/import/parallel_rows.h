@@ -38,7 +38,7 @@ struct row_bytes {
 // of the thread.
 typedef bool parallel_bytes_task(void *user, size_t index, const uint8_t *rows, lam_error *error);
 
-// Runs the task for each chunk of the rows. The rows must lie within the file.
+// Runs the task for each chunk of the rows. The rows must be inside the file.
 bool parallel_rows_read(const struct import_source *source, const struct row_bytes *rows, parallel_bytes_task *task,
                         void *user, lam_error *error);
 

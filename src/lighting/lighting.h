@@ -1,6 +1,7 @@
 // lighting.h: the equations in C. Define LANES as 1, 4, 8 or 16 before including this file (src/base/math/lanes.h).
 //
-// In GLSL the files of the equations are concatenated in this order after prelude.glsl; therefore they have no guards.
+// In GLSL, prelude.glsl and the files of the equations are concatenated in this order. These files therefore have no
+// include guards.
 #ifndef LIGHTING_H
 #define LIGHTING_H
 

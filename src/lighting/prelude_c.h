@@ -1,4 +1,4 @@
-// prelude_c.h: defines the vocabulary of the equations in C: one pixel with LANES 1, or 4, 8, 16 at a time.
+// prelude_c.h: defines the vocabulary of the equations in C, for LANES pixels at a time (1, 4, 8 or 16).
 //
 // The equations (lobes.h, lights.h, sum.h, point.h, layers.h) are one source for C and GLSL. They use only + − * / and
 // comparisons on num, the functions below, and the functions of lanes.h and functions.h that prelude.glsl lists.
@@ -37,7 +37,7 @@ FN num albedo_texel(num index) { return num_of_bits(igather((const int32_t *)alb
 FN num bias_texel(num index) { return num_of_bits(igather((const int32_t *)bias_table, int_of(index))); }
 FN num sheen_texel(num index) { return num_of_bits(igather((const int32_t *)sheen_table, int_of(index))); }
 
-// Rounds a number from 0 to 2^31 down.
+// Rounds down a number between 0 and 2^31.
 FN num whole(num x) { return num_of_int(int_of(x)); }
 
 // Normalises vectors of lengths from 1e-15 to 1e15; the zero vector stays zero.

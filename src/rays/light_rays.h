@@ -24,8 +24,8 @@ struct light_rays {
 };
 
 // A ray through an edge intersects both triangles that share this edge. This does not matter for opaque surfaces. If
-// both triangles are translucent, only one of them may count: the triangle on a fixed side of the edge, seen along the
-// ray, as in rasterization.
+// both triangles are translucent, only one of them may dim the light. As in rasterization, this is the triangle on a
+// fixed side of the edge, seen along the ray.
 static bool owns_edges(const struct ray_triangle *triangle, const double origin[3], const double d[3],
                        const double weights[3])
 {
@@ -46,14 +46,14 @@ static bool owns_edges(const struct ray_triangle *triangle, const double origin[
     return true;
 }
 
-// The light that one side of a triangle lets through, if it is the same at all points.
+// The light that passes through a triangle from one side, if this light is the same at all points.
 struct side_share {
     bool known, constant;
     float passed[3];
 };
 
-// Gets the light that passes through a point of a triangle, for each of passed_channels. If that light is the same at
-// all points of a side, `share` stores it.
+// Gets the light that passes through a point of a triangle, for each of passed_channels. If all points of the side pass
+// the same light, stores the light in `share`.
 static void share_at(const struct frame *frame, uint32_t number, bool back, float b1, float b2,
                      struct side_share *share)
 {

@@ -8,9 +8,9 @@
 // are read at level 0. The opacity of a masked surface is 0 or 1. `back` selects the triangle's back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
-// Gets the light (red, green, blue) that passes through such a point: 1 − opacity, plus the light that continues behind
-// a transmitting surface, which is opacity · transmission · (1 − metallic) · base. The boundary of a volume colours
-// light only where the light enters the volume.
+// Gets the light (red, green, blue) that passes through such a point: 1 − opacity, plus opacity · transmission · (1 −
+// metallic) · base. The second term is the light that a transmitting surface lets through. The boundary of a volume
+// colours light only where the light enters the volume.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
 // Returns whether opacity and transmitted light are the same at all points of a triangle.
@@ -20,15 +20,15 @@ bool ray_share_is_constant(const struct frame *frame, uint32_t number, bool back
 struct ray_layers {
     struct ray_layer {
         uint32_t lane, number; // the ray, and the index of the triangle in the frame
-        float passed[3];       // share of the light; only the first channel if nothing tints it
+        float passed[3];       // share of the light; only the first channel is set if nothing tints the light
     } *list;                   // a growing array, which its owner frees
     int count, capacity;
     bool failed; // out of memory
 };
 
-// These functions get the linear colour with alpha of a corner of a mesh with colours, and a corner's texture
-// coordinates in a map's set. The second function returns false if the mesh has no such coordinates. Corners are
-// numbered over all triangles.
+// The first function gets the linear colour, with alpha, of a corner. The mesh must have colours. The second function
+// gets the texture coordinates of a corner in the set `set`, or returns false if the mesh has no such coordinates.
+// Corners are numbered over all triangles.
 void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4]);
 bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2]);
 

@@ -50,7 +50,8 @@ struct range {
     uint32_t node;         // index of the first of ray_nodes_below(count) nodes reserved for it
     int depth;
     bool sorted;                     // whether all centres are equal, and the primitives are in the order of sort_group
-    uint32_t first_cell, cell_count; // the cells that contain the triangles; 0 if builder.primitives contains them
+    uint32_t first_cell, cell_count; // the cells that contain the triangles; 0 if the triangles are in
+                                     // builder.primitives
     struct box box, middles;         // the box of the primitives or cells, and the box of twice their centres
     float area;                      // half of the box's surface area
     uint32_t *child, *child_count;   // receive the range's node or leaf; NULL for the root
@@ -212,7 +213,7 @@ bool range_halve(struct builder *builder, struct range *range, struct range *rig
 // nodes.
 void range_enter_node(struct builder *builder, const struct range *range, struct range *parts, int count);
 
-// Makes the nodes of a range, or a leaf if it is not divided. The root is always a node.
+// Makes the nodes of a range, or a leaf if the range is not divided. The root is always a node.
 void range_divide(struct builder *builder, const struct range *range);
 
 #endif

@@ -7,10 +7,10 @@
 //
 // The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013). Seen along the ray, with
 // the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
-// passes. Rounding is monotonic, so that such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for
-// both triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles
-// around a point do not block its rays. A triangle whose plane contains the start point of the ray (through_points)
-// does not block the ray either, because t is then 0 except for rounding.
+// passes. Rounding is monotonic, so such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for both
+// triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles around a
+// point do not block its rays. A triangle whose plane contains the start point of the ray (through_points) does not
+// block the ray either, because t is then 0 except for rounding.
 //
 // Rays with nearly the same direction form a bundle and traverse the hierarchy together. At a node, the intervals of
 // their origins and directions are tested against the boxes of all children of the node at once (Boulos, Wald and
@@ -23,8 +23,8 @@
 #include "eights.h"
 #include "hierarchy.h"
 
-// The rays of a bundle differ from the first of them by at most this distance, summed over coordinates. This limit
-// applies to the starts of the rays, and to their ends at full length (at most 1).
+// The maximum distance of a bundle's rays from the first ray, as a sum over the coordinates. This limit applies to the
+// start points of the rays, and to the end points at full length (at most 1).
 #define BUNDLE_SPREAD 0.2f
 
 struct ray_lanes {
@@ -36,9 +36,10 @@ struct ray_lanes {
     double point[3][LANES]; // the start point: the origin, unless the origin was moved off the surface
 };
 
-// Rays seen along their directions d, with k the largest component: x = p_i − (d_i/d_k) p_k, y = p_j − (d_j/d_k) p_k
-// and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one is 0, both exact. Rays with
-// different k can therefore use the same operations. Rays with a common k need fewer operations, with the same results.
+// Rays seen along their directions d, where k is the index of the largest component of d: x = p_i − (d_i/d_k) p_k, y =
+// p_j − (d_j/d_k) p_k and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one is 0, both
+// exact. Rays with different k can therefore use the same operations. Rays with a common k need fewer operations, with
+// the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // the rays with each k
@@ -62,7 +63,7 @@ LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
         dnum to_x = -(dpick(on_x, d[1], dpick(on_y, d[2], d[0])) * inverse);
         dnum to_y = -(dpick(on_x, d[2], dpick(on_y, d[0], d[1])) * inverse);
         for (int k = 0; k < 3; k++) {
-            int before = (k + 2) % 3, after = (k + 1) % 3; // i is after, j is before k
+            int before = (k + 2) % 3, after = (k + 1) % 3; // in cyclic order, i follows k, and j precedes k
             v->of_k[k] |= dmask_bits(on[k]) << at;
             dnum_store(v->x[k] + at, dpick(on[k], to_x, dpick(on[before], one, zero)));
             dnum_store(v->y[k] + at, dpick(on[k], to_y, dpick(on[after], one, zero)));
@@ -113,7 +114,7 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
                 dnum depth = triangle->p[c][k] - of_k;
                 x[c] = (triangle->p[c][i] - of_i) + to_x * depth;
                 y[c] = (triangle->p[c][j] - of_j) + to_y * depth;
-                z[c] = depth; // scaled below, only for the few rays that need it
+                z[c] = depth; // scaled below, after most rays have been rejected
             }
         }
         w[0] = x[1] * y[2] - y[1] * x[2];
@@ -144,9 +145,9 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
 // The rays of `lanes` cross a triangle. Returns the lanes whose start point is in the triangle's plane, within the
 // rounding error:
 //    |N·(p_0 − point)| ≤ 2 Σ_i |N_i| rounding_i + 2⁻⁵⁰ Σ_i (|a_j b_k| + |a_k b_j|) |p_0 − point|_i    N = a × b
-// where a and b are the vectors from corner p_0 to the other corners. Both triangle and point are rounded
-// (hierarchy.rounding); the last term is the error of this determinant (Shewchuk, "Adaptive precision floating-point
-// arithmetic and fast robust geometric predicates", 1997, has 7 · 2⁻⁵³ instead of 8 · 2⁻⁵³).
+// where a and b are the vectors from corner p_0 to the other corners. The triangle and the point are both rounded
+// (hierarchy.rounding). The last term is the error of this determinant. (Shewchuk, "Adaptive precision floating-point
+// arithmetic and fast robust geometric predicates", 1997, uses 7 · 2⁻⁵³ instead of 8 · 2⁻⁵³.)
 LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_triangle *triangle,
                                 const struct ray_lanes *ray, unsigned lanes)
 {
@@ -180,7 +181,7 @@ struct box_rays {
     _Alignas(64) float low[3][LANES], high[3][LANES]; // the origin, to be subtracted from a box's low and high planes
     float direction[3][LANES], inverse[3][LANES], end[LANES];
     unsigned down[3]; // the rays that meet the high plane of an axis first
-    unsigned proper;  // rays with a direction; a ray from a light to itself has none, and meets nothing
+    unsigned proper;  // rays with a direction; a ray from a light to the same point has no direction, and meets nothing
 };
 
 LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
@@ -221,8 +222,8 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
 
 // --- bundles
 
-// Rays that are traced together, and the intervals that contain them: the bundle meets every box that one of them
-// meets. Rounding is monotonic, so the same is true of the computed numbers.
+// Rays that are traced together, and the intervals that contain these rays. If one of the rays meets a box, the bundle
+// meets the box. This is also true of the rounded numbers, because rounding is monotonic.
 struct ray_bundle {
     unsigned lanes;
     int first[3], last[3];           // the planes that the rays meet first and last, as indices into a node's floats

@@ -45,8 +45,8 @@ static bool same_box(const struct primitive *p, const struct primitive *q)
     return (mask_bits((a.low == b.low) & (a.high == b.high)) & 7) == 7;
 }
 
-// Makes a leaf. Triangles with the same positions have the same box, and are therefore in one leaf, or in one group,
-// whose twins sort_group has already found.
+// Makes a leaf. Triangles with the same positions have the same box, and are therefore in the same leaf or in the same
+// group. sort_group has already found the twins in groups.
 static void make_leaf(struct builder *b, const struct range *r, struct placement *place)
 {
     const struct primitive *p = b->primitives + r->first;
@@ -186,8 +186,8 @@ static void sort_corners(double p[3][3])
     }
 }
 
-// Sorts the triangles of a range with equal centres and too many triangles for a leaf, and finds twins. The range can
-// then be divided at any position.
+// Sorts the triangles of a range, and finds twins. All triangles have the same centre, and a leaf cannot contain all of
+// them. The range can then be divided at any position.
 static bool sort_group(struct builder *b, const struct range *r)
 {
     struct placement place = {0};
@@ -279,7 +279,7 @@ bool range_halve(struct builder *b, struct range *r, struct range *right)
     return true;
 }
 
-// Makes the nodes of a range, or a leaf if it is not divided. The root is always a node.
+// Makes the nodes of a range, or a leaf if the range is not divided. The root is always a node.
 static void divide(struct builder *b, const struct range *r, struct placement *place)
 {
     struct range parts[NODE_CHILDREN];

@@ -38,7 +38,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// For each lit pixel, takes the ratio of its luminance to the luminance of its surface, and returns the value that a
+// For each lit pixel, divides the luminance of the pixel by the luminance of the surface. Returns the value that a
 // quarter of these ratios exceed. Returns 0 if no pixel is lit. The pixels of `lit` are overwritten.
 static double lit_ratio(const lam_image *lit, const lam_image *surfaces)
 {
@@ -133,9 +133,9 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
     lam_environment_free(studio);
     if (!ok)
         return false;
-    // Without the measured share, so that pictures of several views repeat no warning.
-    lam_scene_add_warning(scene, "the file's own lights leave much of the picture black; a dim studio lights it too "
-                                 "(rig file: only its own lights)");
+    // The warning does not contain the measured share, so pictures of several views do not repeat the warning.
+    lam_scene_add_warning(scene, "the file's own lights leave much of the picture black, so a dim studio also lights "
+                                 "the model (the rig 'file' uses only the file's lights)");
     params->exposure = LAM_STUDIO_FILL_EXPOSURE;
     *light_scale = scale;
     return true;

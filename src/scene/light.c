@@ -45,7 +45,7 @@ static bool check_cone(const lam_light *light, lam_error *error)
     if ((outer > 0 || inner > 0) && inner >= outer)
         return fail_field(error, light, "inner_rad", inner, "less than outer_rad");
     if (cutoff > PI / 2 + 1e-6 && cutoff <= PI - 1e-6)
-        return fail_field(error, light, "cutoff_rad", cutoff, "a half angle in 0 to π/2, or π");
+        return fail_field(error, light, "cutoff_rad", cutoff, "a half angle from 0 to π/2, or π (no cone)");
     return true;
 }
 
@@ -124,8 +124,8 @@ static int headlight(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 1;
 }
 
-// Returns three lights as in portrait photography. The sum of all lights is at most 0.8 + 0.4·cos 73° + 0.05, below 1;
-// the ratio of key to fill is 2 to 1.
+// Returns three lights as in portrait photography. The sum of all lights is at most 0.8 + 0.4·cos 73° + 0.05, which is
+// below 1. The key light is twice as strong as the fill light.
 static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
 {
     lights[0] = camera_light("key", v3(-1.0, 1.0, 1.0), 0.8f, 0.8f);

@@ -29,8 +29,8 @@ static bool indices_below(const uint32_t *indices, size_t count, uint32_t limit)
     return true;
 }
 
-// Checks the values of a mesh's attribute, and its indices `own`. If `own` is NULL, the attribute uses the indices of
-// the positions.
+// Checks the values and the indices of a mesh's attribute. If `own` is NULL, the attribute uses the indices of the
+// positions.
 static bool check_attribute(const char *name, const float *values, uint32_t count, int width, const uint32_t *own,
                             const lam_mesh *mesh, lam_error *error)
 {
@@ -44,7 +44,7 @@ static bool check_attribute(const char *name, const float *values, uint32_t coun
     return true;
 }
 
-// Returns the noun for the items of a mesh in messages.
+// Returns the noun that messages use for the items of a mesh.
 static const char *items_word(const lam_mesh *mesh)
 {
     return mesh->line_count ? "lines" : mesh->point_count ? "points" : "triangles";

@@ -30,8 +30,8 @@ bool scene_keep_meshes(struct lam_scene *scene, lam_error *error)
     return true;
 }
 
-// A new mesh may get the addresses of freed arrays. A new token prevents device caches from confusing the new mesh with
-// the old mesh.
+// The arrays of a new mesh may be at the addresses of freed arrays. A new token prevents device caches from confusing
+// the new mesh with the old mesh.
 static void change_token(struct lam_scene *scene, struct scene_token *token)
 {
     __atomic_store_n(&scene->token->gone, 1, __ATOMIC_RELEASE);

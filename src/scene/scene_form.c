@@ -7,14 +7,14 @@
 #include <lambent/material.h>
 
 // A scene is a terrain if it is open and its area faces up: the vertical component of the sum of all area vectors must
-// be more than FACING times the whole area. A closed surface faces all sides equally, so its sum is 0. A level plane is
-// not a terrain, because light from the side would show nothing on it.
+// be more than FACING times the whole area. A closed surface faces all sides equally, so the sum is 0. A level plane is
+// not a terrain, because light from the side would reveal no detail on the plane.
 #define FACING 0.6
 #define LEVEL  0.98
 
 // Other scenes are curved if their normals differ: each normal falls into a cell of a cube around all directions, and
-// the six fullest cells contain less than FLAT times the whole area. A box fills six cells completely. In scans and
-// figures, the six cells contain 0.05 to 0.3 of the area, in machine parts and low-poly models 0.43 to 1.
+// the six fullest cells contain less than FLAT times the whole area. A box fills six cells completely. The six cells
+// contain 0.05 to 0.3 of the area of scans and figures, and 0.43 to 1 of the area of machine parts and low-poly models.
 #define FLAT 0.36
 
 enum {
@@ -63,7 +63,7 @@ void mesh_add_areas(const lam_mesh *mesh, lam_vec3 axis, double *all, double *fa
     }
 }
 
-// Returns the index of the cell along one edge of the cube for −1 ≤ x ≤ 1.
+// Returns the index of the cell for a coordinate −1 ≤ x ≤ 1 along one edge of the cube.
 static int cell_along(double x)
 {
     int cell = (int)((x + 1) * (0.5 * SIDE));
@@ -81,8 +81,8 @@ static int cell_of(lam_vec3 direction)
     return ((2 * axis + (c[axis] < 0)) * SIDE + row) * SIDE + column;
 }
 
-// Adds one triangle. Uses its normal in mesh coordinates, so that equal parts in different positions have the same
-// normals, and a rotation of the model has no effect.
+// Adds one triangle. Uses the triangle's normal in mesh coordinates, so that equal parts in different positions have
+// the same normals, and a rotation of the model has no effect.
 static void add_triangle(struct areas *sum, const lam_mesh *mesh, size_t triangle, const lam_mat4 *transform,
                          lam_vec3 up)
 {

@@ -56,7 +56,7 @@ struct scene_origin {
 // enough, because a later scene may reuse it.
 struct scene_token {
     int references; // atomic
-    int gone;       // atomic; whether the scene was freed
+    int gone;       // whether the scene was freed; atomic
 };
 
 // A camera of the model's file.
@@ -109,7 +109,8 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
 // Returns whether a scene contains no lights, at least one lit physical material, and no lit classic material. Such a
-// scene is lit by its environment, or by the built-in studio environment if it has none, instead of a rig.
+// scene is lit by its environment instead of a rig. If the scene has no environment, the built-in studio environment
+// lights the scene.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 
 struct scene_token *scene_token_make(lam_error *error); // NULL if memory runs out
@@ -172,7 +173,7 @@ bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control 
 // Checks a mesh, copies it to the scene's arena and computes its missing normals. Fails with LAM_BAD_ARGUMENT or
 // LAM_LIMIT.
 bool scene_copy_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_mesh *copy, lam_error *error);
-// Computes the extent of one mesh. If the mesh is far from zero, this also moves its positions relative to an origin.
+// Computes the extent of one mesh. If the mesh is far from zero, also makes the positions relative to an origin.
 bool scene_measure_mesh(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                         lam_error *error);
 // Makes the scene keep the memory of all meshes until the scene is freed, because lam_scene_reset may restore them.
@@ -193,7 +194,7 @@ void mesh_add_areas(const lam_mesh *mesh, lam_vec3 axis, double *all, double *fa
 
 // The form of a scene, which determines the lights of the studio.
 enum scene_form {
-    FORM_FLAT,    // most of the area is in few flat faces, as in machine parts; also every scene with few triangles
+    FORM_FLAT,    // a few flat faces contain most of the area, as in machine parts; or the scene has few triangles
     FORM_CURVED,  // the normals differ everywhere, as in scans
     FORM_TERRAIN, // an open surface with slopes; most of its area faces up
 };

@@ -62,8 +62,8 @@ static json_t *color(struct scene_writer *w, const float *parts, int count)
     return list;
 }
 
-// Makes an angle in degrees that converts back to the same radians: with few decimals if possible, otherwise the
-// nearest double that converts back.
+// Converts an angle to degrees. The result converts back to the same value in radians, and has few decimals if
+// possible.
 static json_t *degrees(double radians)
 {
     double plain = math_degrees(radians), power = 1, best = plain, error = 1e300;
@@ -106,7 +106,7 @@ static void put_name(struct scene_writer *w, json_t *object, const char *key, co
 
 // --- paths
 
-// Makes the path from `folder` to `file`, both absolute and without links.
+// Makes the relative path from `folder` to `file`. Both arguments must be absolute paths without links.
 static bool relative_path(const char *folder, const char *file, char *out, size_t capacity)
 {
     size_t common = 0, i = 0, used = 0;
@@ -204,7 +204,7 @@ static bool same_material(const lam_material *a, const lam_material *b)
     return true;
 }
 
-// Returns whether at most one material has this name, so that the name identifies it.
+// Returns true if at most one material has this name, so that the name identifies this material.
 static bool is_only_name(const struct scene_origin *origin, const char *name)
 {
     int count = 0;
@@ -238,8 +238,8 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
     return true;
 }
 
-// Writes the materials of all parts if some part's material differs from the model file. Parts with unchanged materials
-// are written as null.
+// Writes the materials of all parts if the material of any part differs from its material in the model file. Parts with
+// unchanged materials are written as null.
 static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *list = json_array();
@@ -575,7 +575,7 @@ static bool put_environment(struct scene_writer *w, json_t *root, const lam_pict
     return true;
 }
 
-// Makes an angle in degrees with the fewest decimals that converts back to the same float of radians.
+// Converts an angle to degrees, with the fewest decimals from which a reader obtains the same float in radians.
 static json_t *angle_float(float radians)
 {
     double plain = math_degrees((double)radians), power = 1;
@@ -689,7 +689,7 @@ bool lam_scene_encode(const lam_scene *scene, const lam_picture_settings *settin
         return fail(error, LAM_BAD_ARGUMENT, "a scene file: the %s missing",
                     !scene ? "scene is"
                     : out  ? "path is"
-                           : "a pointer for its bytes is");
+                           : "pointer for the bytes is");
     *out = (lam_bytes){0};
     if (settings && (!check_reserved("lam_picture_settings", settings, error) ||
                      !check_reserved("lam_picture_settings.camera", &settings->camera, error) ||

@@ -59,7 +59,7 @@ enum formula_op {
 struct formula_node {
     enum formula_op op;
     int a, b;     // operands: earlier nodes
-    double value; // the value of a NUMBER; during evaluation, of every node
+    double value; // the value of a NUMBER; evaluation also stores the value of each other node here
 };
 
 struct formula_graph {

@@ -230,7 +230,7 @@ static int rule(struct formula_graph *g, int f, int da, int db)
         return CHAIN(DIV(NUMBER(1.0 / 3), MUL(f, f)), da);
     case OP_ABS:
         return CHAIN(UNARY(OP_SIGN, a), da);
-    default: // numbers; SIGN, FLOOR and LESS, whose derivative is 0 except at steps
+    default: // numbers, and SIGN, FLOOR and LESS: the derivative is 0 except at steps
         return NUMBER(0);
     }
 }

@@ -21,7 +21,7 @@ static const double search_sides[] = {4, 16};
 struct implicit {
     struct formula formula;
     struct call_control *call;
-    int value_cost, gradient_cost; // cost of one evaluation, in operations such as a sum
+    int value_cost, gradient_cost; // cost of one evaluation; a sum costs 1
     int operations;                // operations since the last check of the call's limits
     bool ended;                    // the call is stopped: from now on f is NaN, which means outside
     double from[3], to[3];
@@ -78,7 +78,7 @@ static lam_vec3 gradient_at(void *user, lam_vec3 p)
 
 static double step_of(double from, double to, int i) { return from + (to - from) * ((double)i / SEARCH_CELLS); }
 
-// Finds the edges of a coarse lattice that the surface crosses, and gets the first and the last of their ends along
+// Searches a coarse lattice for edges that the surface crosses. Gets the first and the last end of these edges along
 // each axis. Returns false if the surface crosses no edge.
 static bool find_crossings(struct implicit *s, bool *inside, int first[3], int last[3])
 {

@@ -10,7 +10,7 @@
 //  power     = primary [ "^" { "-" | "+" } power ]          from the right: 2^3^2 is 2^9, -2^2 is -4
 //  primary   = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
 //
-// After "/" and "^", a number with a factor after it is an error, because 1/2pi is ambiguous.
+// After "/" or "^", a number must not be followed by a factor without "*": 1/2pi would be ambiguous.
 #include "formula.h"
 
 #include "fail.h"

@@ -61,8 +61,8 @@ static lam_surface_point evaluate(struct surface *s, double u, double v)
     return point;
 }
 
-// Returns a derivative at the end of a part, where the formula's own derivative may belong to the other side of a
-// crease or not exist.
+// Returns a derivative at the end of a part. At this end, the formula's own derivative may not exist, or may belong to
+// the other side of a crease.
 static lam_vec3 one_sided(const struct surface *s, lam_vec3 own, lam_vec3 inner, int axis)
 {
     double unit = s->size / (s->to[axis] - s->from[axis]);
@@ -124,7 +124,7 @@ static bool fail_undefined(const struct surface *s, lam_error *error)
                 s -> from[1], s -> to[1]);
 }
 
-// Returns the point at step i of n along `axis`, on line j of the probes across it.
+// Returns the point at the position `along` on the probe line j of `lines`. Probe lines run along `axis`.
 static lam_surface_point probe(struct surface *s, int axis, double along, int j, int lines)
 {
     double across = step_of(s->from[!axis], s->to[!axis], j, lines - 1);

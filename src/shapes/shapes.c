@@ -344,8 +344,8 @@ static bool build_implicit(const struct shape_request *request, double (*value)(
     if (request->slices > 1024)
         return fail(request->error, LAM_BAD_ARGUMENT,
                     "shape: slices is %d, expected at most 1024 for an implicit surface", request->slices);
-    // The box is slightly larger than the surface, so that it is not clipped and its symmetric points do not fall on
-    // the lattice.
+    // The box is slightly larger than the surface. The surface is therefore not clipped, and its symmetric points do
+    // not fall on the lattice.
     const double side = 1.03;
     lam_implicit one = {.value = value,
                         .gradient = gradient,

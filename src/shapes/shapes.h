@@ -20,13 +20,14 @@ struct shape_request {
     int threads; // number of threads that compute the surface; 0: one for each processor
 };
 
-// Tessellates parametric surfaces into one mesh: positions, welded within each surface, and normals, tangents and
-// texture coordinates (0…1 over each domain) with their own indices. shapes_parametric.c explains seams and poles. With
+// Tessellates parametric surfaces into one mesh. Positions are welded within each surface. Normals, tangents and
+// texture coordinates (0…1 over each domain) have their own indices. shapes_parametric.c explains seams and poles. With
 // several threads, all threads call the functions of the surfaces.
 bool tessellate_parametric(const lam_parametric *surfaces, int count, const struct shape_request *request,
                            lam_mesh *mesh);
 
-// Does the same with one thread, and writes a byte for each vertex to `scratch`: 1 at a border of its surface.
+// Works like tessellate_parametric, but with one thread. Allocates `border` in `scratch`: one byte per vertex, 1 at a
+// border of the vertex's surface.
 bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                          lam_mesh *mesh, struct arena *scratch, uint8_t **border, lam_error *error);
 

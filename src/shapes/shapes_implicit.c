@@ -5,12 +5,12 @@
 // cells at the edge share. Root finding along the edge places the vertex on the surface, up to rounding. The vertex's
 // normal is computed from ∇f.
 //
-// The table connects the vertices of a cell. Going around a face of the cell counter-clockwise, seen from outside the
-// cell, each run of inside corners begins after one crossed edge and ends before another. The surface intersects the
-// face in a line from the first of these edges to the second. A face with two opposite inside corners contains two such
-// lines, each of which cuts off one of these corners. This rule depends only on the face, so both cells at the face
-// agree and the mesh has no holes. A crossed edge starts a line in one of its two faces and ends a line in the other,
-// so the lines form closed loops. Seen from outside the surface, the loops are counter-clockwise. Loops are
+// The table connects the vertices of a cell. Visit the edges of a face counter-clockwise, as seen from outside the
+// cell. Each run of inside corners then begins after one crossed edge and ends before another. The surface intersects
+// the face in a line from the first of these edges to the second. A face with two opposite inside corners contains two
+// such lines, each of which cuts off one of these corners. This rule depends only on the face, so both cells at the
+// face agree and the mesh has no holes. A crossed edge starts a line in one of its two faces and ends a line in the
+// other, so the lines form closed loops. Seen from outside the surface, the loops are counter-clockwise. Loops are
 // triangulated with diagonals that are not in a face, because the neighbouring cell might have the same diagonal. Among
 // these triangulations, the one whose triangles agree best with the normals at their corners is chosen.
 #include "shapes.h"
@@ -21,7 +21,8 @@
 
 #include <string.h>
 
-// Corner numbers of a cell: x + 2y + 4z. Edge numbers: 4·axis + a + 2b, with the other coordinates a and b in order.
+// Corner numbers of a cell: x + 2y + 4z. Edge numbers: 4·axis + a + 2b. a and b are the coordinates on the other two
+// axes, in the order x, y, z.
 enum { CORNERS = 8, EDGES = 12, LOOPS_MAX = EDGES / 3 };
 
 // The loops of one of the 256 cases, with their edges concatenated.
@@ -186,7 +187,8 @@ static double find_root(const struct march *m, lam_vec3 a, lam_vec3 b, double fa
     return before;
 }
 
-// Returns the unit ∇f or, if it is zero or not finite, central differences of f over a hundredth of a cell.
+// Returns the normalized gradient of f. If the gradient is zero or not finite, uses central differences of f over a
+// hundredth of a cell instead.
 static lam_vec3 normal_at(const struct march *m, lam_vec3 p)
 {
     const lam_implicit *s = m->surface;

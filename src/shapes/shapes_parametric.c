@@ -11,8 +11,8 @@
 // coordinate, tangent and normal of the centre of its cell. If these normals agree, the pole is smooth and all corners
 // have the mean normal. Otherwise the pole is a tip, like the tip of a cone, and each corner keeps its normal.
 //
-// A zero derivative does not determine the tangent plane. The code then uses the derivative at a nearby point, which is
-// further inside by INSET of the domain. This derivative approximates the one-sided limit.
+// A zero derivative does not determine the tangent plane. The code then uses the derivative at a nearby point in the
+// interior, at a distance of INSET times the domain's length. This derivative approximates the one-sided limit.
 #include "shapes.h"
 
 #include "fail.h"
@@ -23,9 +23,10 @@
 
 #include <string.h>
 
-// Points closer than this fraction of the surface's size coincide; floats cannot represent the difference.
+// Two points coincide if their distance is below this fraction of the surface's size, because floats cannot represent
+// the difference.
 #define COINCIDENT 1e-9
-// A derivative below this fraction of size per domain length is treated as zero.
+// A derivative is treated as zero if it is below this fraction of the surface's size divided by the domain's length.
 #define VANISHED 1e-9
 // The distance from the boundary at which the one-sided limit is approximated, as a fraction of the domain.
 #define INSET 1e-4
@@ -39,11 +40,11 @@ enum {
 
 // A row of vertices, numbered from left to right. A vertex belongs to the first row and column that contain it.
 struct row {
-    uint32_t first, middle, last; // the vertices of column 0, 1 and u_segments
+    uint32_t first, middle, last; // the vertices of columns 0, 1 and u_segments
     bool single;                  // all columns have the vertex `first`
     bool owns_first, owns_middle, owns_last;
     bool pole;     // the points of the row coincide
-    size_t corner; // the first corner of its cells, which are between the previous row and this one
+    size_t corner; // the first corner of the cells between the previous row and this row
 };
 
 struct tessellation {
@@ -93,7 +94,7 @@ static bool coincide(const struct tessellation *t, lam_vec3 a, lam_vec3 b)
     return shorter(v3_sub(a, b), COINCIDENT * t->size);
 }
 
-// Returns x, moved by INSET of the domain towards its centre.
+// Returns x, moved towards the centre of the domain by INSET times the domain's length.
 static double inside(double x, double low, double high)
 {
     double step = INSET * (high - low);
@@ -315,8 +316,8 @@ static void set_cells(const struct tessellation *t, int j)
     }
 }
 
-// Counts the corners of the cells between row j − 1 and row j. Without poles, all cells have two triangles, except in
-// surfaces with one segment, whose ends may be joined.
+// Counts the corners of the cells between row j − 1 and row j. If there are no poles, each cell has two triangles.
+// Surfaces with only one segment are an exception, because their ends may be joined.
 static size_t count_corners(const struct tessellation *t, int j)
 {
     const lam_parametric *s = t->surface;
@@ -332,7 +333,7 @@ static size_t count_corners(const struct tessellation *t, int j)
     return 3 * triangles;
 }
 
-// Numbers the vertices and corners of all rows, so that they can be computed in any order.
+// Numbers the vertices and corners of all rows, so that the rows can be computed in any order.
 static void number_rows(struct tessellation *t)
 {
     const lam_parametric *s = t->surface;

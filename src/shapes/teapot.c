@@ -1,10 +1,10 @@
 // teapot.c: the Utah teapot from its Bézier patches.
 //
-// Adjacent patches form one parametric surface. u runs around: over 4 patches for the body and the lid, and over 2 for
-// the handle and the spout. On the body, v runs from the centre of the bottom to the rim. On the lid, it runs from the
-// edge to the top. On the handle and the spout, it runs away from the body. All joints are smooth in the data and share
-// positions and normals. As published, the pot is open: the lid is inside the rim without touching it, and the handle
-// and the spout end inside the body's wall.
+// Adjacent patches form one parametric surface. u runs around the cross-section: over 4 patches on the body and the
+// lid, and over 2 patches on the handle and the spout. On the body, v runs from the centre of the bottom to the rim. On
+// the lid, v runs from the edge to the top. On the handle and the spout, v runs away from the body. All joints are
+// smooth in the data and share positions and normals. As published, the pot is open: the lid is inside the rim without
+// touching it, and the handle and the spout end inside the body's wall.
 #include "shapes.h"
 
 #include "fail.h"
@@ -44,8 +44,8 @@ static void bernstein(double t, double b[4], double d[4])
     d[3] = 3 * t * t;
 }
 
-// Returns the index of the patch for a parameter, and the parameter within it. A parameter at a joint belongs to the
-// next patch.
+// Returns the index of the patch that contains a parameter, and sets *within to the parameter in this patch. A
+// parameter at a joint belongs to the next patch.
 static int patch_of(double x, int steps, int count, double *within)
 {
     int patch = (int)(x / steps);

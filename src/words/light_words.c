@@ -248,7 +248,7 @@ static bool read_pair(struct parser *parser, char *pair, lam_error *error)
 // --- making the light from its values
 
 // Multiplies the colour `name` of the light by a factor. If `by_color` is set and the text does not set this colour,
-// the value of the key `color` replaces it first.
+// multiplies the value of the key `color` instead.
 static void set_color(struct parser *parser, const char *name, bool by_color, double factor)
 {
     lam_light *light = &parser->light;

@@ -143,7 +143,7 @@ static void set_factor(const struct parser *parser, int index, lam_material *m)
     lam_field_get(field, m, color);
     const double *from = color;
     if (field->standard[0] == 0 &&
-        !given(parser, index)) // a factor for a colour that is black by default multiplies white
+        !given(parser, index)) // multiplies white, because a factor would have no effect on a default of black
         from = given(parser, MATERIAL_SPECULAR_COLOR) ? parser->numbers[MATERIAL_SPECULAR_COLOR] : white;
     set_color(field, m, from, parser->numbers[factor_of(index)][0]);
 }
@@ -187,7 +187,7 @@ bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *mat
     if (!word_copy(text, copy, error))
         return false;
     if (!*rest)
-        return fail(error, LAM_BAD_ARGUMENT, "its value is empty, expected a material's name or key=value");
+        return fail(error, LAM_BAD_ARGUMENT, "the value is empty, expected a material's name or key=value");
     size_t first = strcspn(rest, ",");
     if (!memchr(rest, '=', first) && !is_flag(rest, first)) {
         char *name = strsep(&rest, ",");

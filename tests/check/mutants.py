@@ -161,7 +161,7 @@ LIST_EXTRA = "varying vec3 X[$count];"
 
 P_ONLY, O_ONLY, M_ONLY, A_ONLY = ("pittsburgh",), ("oregon",), ("lambent",), ("angel",)
 NYUS, LEARN, THREES = ("nyu", "nyu-point", "nyu-direction"), ("learnopengl", "learnopengl-basic"), ("threejs", "threejs-raw")
-POSITION = ("oregon", "nyu", "nyu-point", "lambent") + LEARN + THREES  # lights are positions in the space in which lighting is computed
+POSITION = ("oregon", "nyu", "nyu-point", "lambent") + LEARN + THREES  # lights are positions in lighting space
 EYE_LIGHT = POSITION + A_ONLY  # or directions, depending on their w
 ATTENUATED = ("pittsburgh", "nyu", "nyu-point", "lambent", "learnopengl")
 MATERIAL = ("pittsburgh", "oregon", "lambent", "learnopengl", "angel") + THREES

@@ -68,10 +68,10 @@ PAGE = """# Public shaders
 
 This page shows how reliably `lambent check` judges shaders from public repositories, and how to repeat the test.
 
-`tests/check/public_labels.py` lists %d pairs of lighting shaders from public repositories, without textures and shadows. Before the check
-was adapted to these shaders, a person labelled each pair as right, as wrong with the reason, or as impossible to judge, for example because
-of a non-standard model. The shaders are not part of this project. To repeat the test, put the repositories into a folder, as
-OWNER/REPOSITORY/PATH, and run this command, which writes this page:
+`tests/check/public_labels.py` lists %d pairs of lighting shaders from public repositories. The shaders use no textures or shadows. A person
+first labelled each pair as right, wrong (with the reason) or impossible to judge (for example, because the model is not standard). The
+check was adapted to these shaders later. The shaders are not part of this project. To repeat the test, put the repositories into a folder,
+as OWNER/REPOSITORY/PATH. Then run this command, which writes this page:
 
     python3 tests/check/public.py FOLDER --program build/lambent --page docs/check/public.md
 

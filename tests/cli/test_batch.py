@@ -165,7 +165,7 @@ class Sources(Batch):
         for words, code, says in ((["a"], 1, ["'a/x.obj' and 'a/x.stl' would both be written to 'x.png'", "{ext}"]),
                                   (["a/x.stl", "a/x.stl"], 1, "'a/x.stl' is listed twice"),
                                   ([], 1, "no model given"), (["empty"], 2, "found no model"), (["@none"], 2, "none: cannot read the list"),
-                                  (["@zero"], 2, "zero byte"), (["a/x.stl", "-o", "-"], 1, "pictures are files"),
+                                  (["@zero"], 2, "zero byte"), (["a/x.stl", "-o", "-"], 1, "cannot write several pictures"),
                                   (["a/x.stl", "--views", "front,left", "-o", "x.png"], 1, "names one picture"),
                                   (["a/x.stl", "--views", "front,left", "-o", "{stem}.png"], 1, "needs {view} or {size}"),
                                   (["a/x.stl", "--views", "front,front"], 1, "a side twice"),

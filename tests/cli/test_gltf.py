@@ -151,11 +151,11 @@ class Gltf(GltfCase):
                                materials=[{"pbrMetallicRoughness": {"metallicFactor": 0}}, {}, {}], extensions=light)
             for more, said in (((), warns), (("--rig", "studio"), False), (("--rig", "file"), False), (("--rig", "default"), False)):
                 text = self.good(model, "-s", "48", "-o", "a.png", "--view", "front", *more).stderr
-                self.assertEqual(b"of the picture black; a dim studio lights it too" in text, said, (z, more, text))
+                self.assertEqual(b"of the picture black, so a dim studio also lights the model" in text, said, (z, more, text))
             self.good(model, "-s", "48", "-o", "a.png", "-q", "--view", "front", "--save-scene", "a.json")
             self.good("a.json", "-o", "b.png", "-q")
             text = self.good(model, "-s", "48", "-o", "{view}.png", "--view", "back,front").stderr
-            self.assertEqual(text.count(b"a dim studio lights it too"), warns, text)  # one warning for both views
+            self.assertEqual(text.count(b"a dim studio also lights the model"), warns, text)  # one warning for both views
             self.good(model, "-s", "48", "-o", "t{frame}.png", "-q", "--view", "front", "--sweep", "azimuth=0..0", "--frames", "2")
             files = [(self.folder / name).read_bytes() for name in ("a.png", "b.png", "front.png")]
             self.assertTrue(all(f == files[0] for f in files[1:]), [len(f) for f in files])
@@ -171,7 +171,7 @@ class Gltf(GltfCase):
             {"translation": [40, 0, -1], "extensions": {"KHR_lights_punctual": {"light": 0}}}])
         text = self.good(model, "-s", "64", "-o", "a.png", "--view", "front").stderr
         self.given.add("a.png")
-        self.assertIn(b"a dim studio lights it too", text)
+        self.assertIn(b"a dim studio also lights the model", text)
         picture = read_png((self.folder / "a.png").read_bytes())
         lit = max((pixel(picture, x, 32) for x in range(64) if pixel(picture, x, 32)[3] == 255), key=sum)
         self.assertTrue(lit[0] < 100 and lit[2] > 150, lit)

@@ -4,7 +4,7 @@
 // The first bytes of an input are the picture's width and height minus one, and flags. 16-bit numbers follow,
 // little-endian, the upper halves of floats: three for the camera's eye, then nine for each triangle. The quotient of a
 // byte of the size by the largest side selects an instruction set. If both bytes select the same one, it is compared
-// with C without vectors, and C without vectors is compared with the next one.
+// with the scalar one, and the scalar one is compared with the next one.
 #include "target.h"
 
 #include <string.h>

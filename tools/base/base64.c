@@ -39,7 +39,7 @@ uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at
     }
     if (!bytes)
         return NULL;
-    // With padding, the last group contains 2 or 3 letters; their surplus bits must be 0.
+    // With padding, the last group contains 2 or 3 characters, and the unused bits of the last character must be 0.
     bool whole = length % 4 == 0 && (padding == 0 || (bits & (padding == 2 ? 0xF : 0x3)) == 0);
     if (bad < length || !whole) {
         *at = bad;

@@ -1,5 +1,5 @@
-// exit_codes.h: the program's exit codes. Main's return value, the reports, the help, the man page and the docs use the
-// same table. The numbers are independent of lam_code.
+// exit_codes.h: the program's exit codes. main(), the reports, the help, the man page and the docs use the same table.
+// The numbers are independent of lam_code.
 #ifndef EXIT_CODES_H
 #define EXIT_CODES_H
 
@@ -17,7 +17,7 @@ extern const struct exit_code exit_codes[];
 
 const struct exit_code *exit_code_of(lam_code code);
 
-// Returns the string in the table that equals the name of a class, or "failed" if the table does not contain the name.
+// Returns the table's own copy of `name`, or "failed" if the table does not contain this name.
 const char *exit_code_name(const char *name);
 
 #endif

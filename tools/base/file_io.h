@@ -24,7 +24,7 @@ bool read_up_to(int file, char *bytes, size_t size, size_t *length);
 bool is_in_folder(const char *real, const char *folder);
 
 // Returns whether a path, after links are resolved, is the folder itself or lies below the folder. Returns `missing` if
-// the file or the folder cannot be found, or memory runs out.
+// the file or the folder cannot be found, or if memory runs out.
 bool path_is_below(const char *path, const char *folder, bool missing);
 
 // Returns whether `path` is a folder or a link to a folder.

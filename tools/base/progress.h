@@ -7,7 +7,7 @@
 struct progress {
     bool allowed; // standard error is a terminal, and --quiet is not set
     double start_ms, drawn_ms;
-    double from, span; // the current call's section of the bar: its start and length, as fractions
+    double from, span; // start and length of the current call's section, as fractions of the bar
     const char *model;
     bool shown;
     void (*show)(double share); // receives the total fraction; if NULL, the bar is drawn

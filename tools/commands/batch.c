@@ -27,7 +27,7 @@ static bool check_jobs(int operands, const struct options *o, lam_error *error)
             return complain(error, LAM_BAD_ARGUMENT, "options '--jobs' and '--%s' cannot be used together", others[i]);
     if (o->batch.skip_same && !o->batch.journal)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--skip-same' needs a journal; with --jobs, name it: --journal FILE");
+                        "option '--skip-same' needs a journal; with --jobs, give --journal FILE");
     return job_check_options(o, error);
 }
 
@@ -43,8 +43,9 @@ static bool check(int operands, const struct options *o, lam_error *error)
                         "batch: no model given, expected files, folders, @FILE with a list of names, or - for names on "
                         "standard input");
     if (o->picture.output && strcmp(o->picture.output, "-") == 0)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "batch: pictures are files; name a folder, -o pictures/, or a pattern");
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "batch: cannot write several pictures to standard output; expected a folder (-o pictures/) or a pattern");
     if (o->picture.term != TERM_AUTO && o->picture.term != TERM_OFF)
         return complain(error, LAM_BAD_ARGUMENT, "batch: option '--term' shows a single picture, but batch draws many");
     if (o->picture.save_scene)

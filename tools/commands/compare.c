@@ -23,11 +23,11 @@
 
 enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
 
-// The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide; the text size is proportional to it.
+// The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide. The text size is proportional to `unit`.
 struct page {
     double unit;
     int cell_width, cell_height; // the size of a picture
-    int gap, head, foot;         // the gap between and around cells; the heights of the title and of a caption
+    int gap, head, foot;         // gap between cells and around them; heights of the title and of a caption
     int inset;                   // the height of the enlarged section with its gap; 0 without such a section
     int rows;
 };
@@ -117,7 +117,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
     return ok;
 }
 
-// Returns the device that draws a cell. On a sheet of mistakes, its shaders contain the mistake.
+// Returns the device that draws a cell. On a sheet of mistakes, the shaders of this device contain the mistake.
 static lam_device *cell_device(const struct compare *c, const struct options *options, lam_error *error)
 {
     if (!c->sheet.mistakes)
@@ -129,7 +129,7 @@ static lam_device *cell_device(const struct compare *c, const struct options *op
     return device;
 }
 
-// Draws a cell's picture, enlarged `enlarge` times, with two additional arguments (may be NULL).
+// Draws a cell's picture, magnified by the factor `enlarge`. `more` and `value` are two additional arguments, or NULL.
 static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
                       lam_image *image, lam_error *error)
 {
@@ -184,7 +184,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     if (!cell_options(c, cell, NULL, NULL, &options, error))
         return false;
     options.shader.style = LAM_SHADER_STYLE_LECTURE;
-    options.shader.products = true; // OpenGL also draws with this form of the shaders
+    options.shader.products = true; // the OpenGL device uses the same form
     options.picture.width = CELL_WIDTH;
     options.picture.height = CELL_HEIGHT;
     struct job job = {.options = &options, .model = c->model};
@@ -193,8 +193,8 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     bool ok = shader && !shader->application;
     if (shader && !ok)
         complain(error, LAM_BAD_ARGUMENT,
-                 "options '--stage application' and '--across mistake': shaders draw the sheet, but in this stage they "
-                 "compute no light; expected '--stage vertex' or '--stage fragment'");
+                 "options '--stage application' and '--across mistake': a sheet of mistakes needs shaders that compute "
+                 "the lighting; expected '--stage vertex' or '--stage fragment'");
     lam_shader_free(shader);
     lam_scene_free(job.scene);
     options_free(&options);
@@ -243,7 +243,8 @@ static bool draw_frame(struct compare *c, double left, double top, double width,
     return draw_line(&c->drawing, round, 5, 2 * c->page.unit, FRAME, 0, error);
 }
 
-// Draws an enlarged section of a cell's picture below the picture, and frames the section in both.
+// Draws an enlarged section of a cell's picture below the picture, and draws a frame around the section in both
+// pictures.
 static bool draw_inset(struct compare *c, const struct cell *cell, struct highlight box, int left, int top,
                        lam_error *error)
 {
@@ -288,7 +289,7 @@ static void join(const char *const *words, int count, char line[512])
 }
 
 // Draws text on one line, or on two lines if the text would be too small to read on one line. Breaks the text after the
-// comma or the space nearest to its middle.
+// comma or the space that is nearest to the middle of the text.
 static void draw_words(struct compare *c, struct point baseline, double width, const char *line)
 {
     double u = c->page.unit, size = 15 * u, needed = text_width(&c->drawing, size, line);

@@ -38,7 +38,7 @@ static void print_json(const struct options *options, const struct settings_sour
 int run_config(int operand_count, char **operands, const struct options *options)
 {
     (void)operand_count, (void)operands;
-    struct options own = *options, before; // their lists belong to `options`
+    struct options own = *options, before; // `options` owns the lists in these copies
     struct settings_source source;
     lam_error error = {0};
     bool ok = settings_apply(&own, &before, &source, &error);

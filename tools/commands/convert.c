@@ -90,8 +90,8 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
-// Returns whether the library writes `written` for the letter `given` of a file name. The library writes _ for letters
-// that names in OBJ and MTL files cannot contain.
+// Returns whether the library writes the letter `given` of a file name as `written`. It writes _ for each letter that a
+// name in an OBJ or MTL file cannot contain.
 static bool is_letter(char given, char written)
 {
     return written == given ||

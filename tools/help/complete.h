@@ -4,14 +4,14 @@
 
 #include "options.h"
 
-// The word that the user is typing: the first `before_length` bytes of `before` are finished, and `prefix` is the rest,
-// which is to be completed.
+// The word that the user is typing. The first `before_length` bytes of `before` are complete. `prefix` is the rest of
+// the word.
 struct typed_word {
     const char *before, *prefix;
     int before_length;
 };
 
-// Prints a candidate if it begins with `prefix`: the whole word, then `ending`, a tab and the summary, which may be
+// If the candidate begins with `prefix`, prints the completed word, `ending`, a tab and the summary. `summary` may be
 // NULL.
 void complete_offer(const struct typed_word *typed, const char *candidate, const char *ending, const char *summary);
 

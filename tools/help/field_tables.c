@@ -1,4 +1,4 @@
-// field_tables.c: prints the tables of the fields of materials and lights as Markdown and for the man page.
+// field_tables.c: prints the tables of material and light fields, as Markdown, for the man page, and for `help`.
 #include "field_tables.h"
 
 #include <math.h>

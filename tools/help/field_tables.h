@@ -1,4 +1,4 @@
-// field_tables.h: the tables of the fields of materials and lights in the documentation.
+// field_tables.h: prints the tables of material and light fields for the documentation.
 #ifndef FIELD_TABLES_H
 #define FIELD_TABLES_H
 

@@ -32,7 +32,7 @@ void print_help(const struct command *command)
     printf("\nMore: lambent help TOPIC (lambent help lists the topics), man lambent\n");
 }
 
-// Prints an option on one line. If the line is too long, shortens the value to its first form and omits the default.
+// Prints an option on one line. Prints only the first form of a long value, and omits a default that does not fit.
 static void brief_option(const struct option *o, const struct command *command)
 {
     char left[64], text[512], letter[8] = "    ";
@@ -54,7 +54,7 @@ static bool is_own(const struct option *o, const struct command *command)
 }
 
 // Prints the command's own options and the common picture options. Prints all common options if the command has no
-// options of its own. Returns false if there are none.
+// options of its own. Returns false if no options were printed.
 static bool brief_options(const struct command *command)
 {
     bool own = false, any = false;

@@ -4,9 +4,9 @@
 
 #include "command.h"
 
-// Print the help of a command on standard output; for the first command of the table, the help of the whole program.
-// print_help prints everything (--help). print_brief_help prints the most common options (-h), in at most 25 lines of
-// 80 columns.
+// Print the help for a command to standard output. For the first command of the table, print the help for the whole
+// program. print_help prints everything (--help). print_brief_help prints the most common options (-h), in at most 25
+// lines of 80 columns.
 void print_help(const struct command *command);
 void print_brief_help(const struct command *command);
 

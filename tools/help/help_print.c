@@ -8,8 +8,8 @@
 
 enum { WIDTH = HELP_WIDTH, LETTER_COLUMN = 6 };
 
-// Prints a paragraph up to `width` columns, starting at column `at`; further lines begin at `indent`. Back quotes are
-// omitted. Returns the text after the paragraph.
+// Prints a paragraph, wrapped at `width` columns. The first line begins at column `at`, further lines begin at
+// `indent`. Omits back quotes. Returns the text after the paragraph.
 static const char *print_paragraph(const char *text, int at, int indent, int width)
 {
     while (*text && *text != '\n') {
@@ -91,7 +91,7 @@ void help_option(const struct option *option, const struct command *command, boo
     (PICTURE_GROUPS | 1ull << GROUP_ANIMATION | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | 1ull << GROUP_REPORT)
 
 // Returns whether the command's help lists only the name of an option, because `lambent --help` describes the option.
-// An option whose default differs for this command is described again.
+// Returns false if the option's default differs for this command.
 static bool is_shared(const struct option *o, const struct command *command)
 {
     return command != command_table && SHARED & command->groups & 1ull << o->group &&

@@ -9,8 +9,8 @@
 
 #include "exit_codes.h"
 
-// Escapes text for roff: '-' becomes \- (otherwise another dash may be shown), '`code`' is bold, and no line begins
-// with a control character.
+// Prints text, escaped for roff. A dash becomes \- (roff may show a plain '-' as another dash), `code` becomes bold,
+// and a control character at the start of a line is escaped.
 static void roff(const char *text)
 {
     bool code = false;

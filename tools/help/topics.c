@@ -10,10 +10,10 @@ const struct topic topics[] = {
      "MODEL is a file, the name of a built-in shape, or `-` for standard input. Lambent detects the format from the "
      "content; the extension is only a hint. The name of a built-in shape always selects the shape. For a file with "
      "the same name as a shape or a command, write `./teapot` or `./shapes`. After `--`, every argument is a model, "
-     "even if it begins with a dash.\nIf you give several models, Lambent writes one picture for each, to the current "
-     "folder or to the folder given with `-o pictures/`. If a model fails, Lambent reports the error and draws the "
-     "other models. The exit code is then the highest exit code of all models. With `-o FILE` or `-`, you can give "
-     "only one model."},
+     "even if it begins with a dash.\nIf you give several models, Lambent writes one picture for each model. The "
+     "pictures are in the current folder, or in the folder given with `-o pictures/`. If a model fails, Lambent "
+     "reports the error and draws the other models. The exit code is then the highest exit code of all models. With "
+     "`-o FILE` or `-`, you can give only one model."},
     {"batch", "Many models", BIT(BATCH), TOPIC_NO_TABLE,
      "`lambent batch` draws all models in folders and their sub-folders: `lambent batch models/ -o "
      "'thumbs/{dir}/{stem}.png'`. The command also accepts lists of models, from files (`@FILE`) or from standard "
@@ -44,9 +44,8 @@ const struct topic topics[] = {
      "overwrites an older picture that it wrote itself (recognised by the `Software` text in the PNG). If any other "
      "file of that name exists, Lambent keeps that file and exits with code 5. With `-o`, Lambent overwrites the given "
      "file. Lambent writes a picture completely or not at all. Even if Lambent is killed, it leaves no temporary file "
-     "in the folder.\nStandard output contains only the picture (`-o -`) or the report (`--json`). Everything else "
-     "goes "
-     "to standard error: warnings, errors, the line that names the written file, and a progress bar. The progress bar "
+     "in the folder.\nStandard output contains only the picture (`-o -`) or the report (`--json`). Lambent writes "
+     "warnings, errors, the line that names the written file, and a progress bar to standard error. The progress bar "
      "appears only on a terminal, if the work takes more than half a second."},
     {"view", "The view", BIT(VIEW), TOPIC_NO_TABLE, NULL},
     {"lights", "Lights", BIT(LIGHTS), TOPIC_LIGHT_FIELDS, NULL},
@@ -54,10 +53,10 @@ const struct topic topics[] = {
     {"shading", "Shading", BIT(SHADING), TOPIC_NO_TABLE, NULL},
     {"animations", "Animations", BIT(ANIMATION), TOPIC_NO_TABLE,
      "`lambent MODEL --turntable 36` and `lambent MODEL --sweep light.azimuth=0..360` draw several pictures of one "
-     "model, and read the model only once. Lambent writes the frames to one animated PNG or WebP (by the extension in "
-     "`-o`), which loops forever. With `{frame}` in the name, Lambent writes each frame to a separate file. A frame is "
-     "identical to a single picture drawn with the same options. All frames use the camera and the automatic exposure "
-     "of the first frame."},
+     "model, and read the model only once. Lambent writes the frames to one animated PNG or WebP file, which loops "
+     "forever. The extension in `-o` selects the format. With `{frame}` in the name, Lambent writes each frame to a "
+     "separate file. A frame is identical to a single picture drawn with the same options. All frames use the camera "
+     "and the automatic exposure of the first frame."},
     {"sheets", "Sheets", BIT(SHEET) | BIT(CAPTIONS), TOPIC_NO_TABLE,
      "`lambent compare MODEL` writes one PNG file with several pictures of a model, and a caption under each picture. "
      "To draw one of these pictures alone, use `lambent MODEL` with the options that the sheet shows in grey under the "
@@ -67,12 +66,12 @@ const struct topic topics[] = {
      "white by default. Lambent writes the sheet to `MODEL-NAME.png` in the current folder, or to the folder or file "
      "given with `-o`. The pictures are identical on every machine. FreeType draws the letters, which may differ "
      "between machines.\nThe options under the title are the sheet's defaults, which make the differences visible. "
-     "Sheets about shading draw a built-in shape with few segments (unless you give `--segments`) under one light "
-     "(unless you give `--light` or `--rig`, or the model contains lights). Sheets with highlights use a material with "
-     "a highlight (unless you give `--material`, or the model contains materials).\n`--sheet stages` marks the "
-     "brightest highlight (the largest difference from the picture without highlights) and shows this highlight below, "
-     "three times as large. For a picture of one term, `--sheet terms` sets the coefficients of the other terms to "
-     "black. `--sheet ambient` sets the ambient coefficient of the default material."},
+     "Sheets about shading draw built-in shapes with few segments, unless you give `--segments`. They use one light, "
+     "unless you give `--light` or `--rig`, or the model contains lights. Sheets with highlights use a material with a "
+     "highlight (unless you give `--material`, or the model contains materials).\n`--sheet stages` marks the brightest "
+     "highlight (the largest difference from the picture without highlights) and shows this highlight below, three "
+     "times as large. For a picture of one term, `--sheet terms` sets the coefficients of the other terms to black. "
+     "`--sheet ambient` sets the ambient coefficient of the default material."},
     {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
      "`lambent explain MODEL X,Y` accepts the same options as `lambent render` and prints the calculation of one "
      "pixel. X is the pixel's column and Y is its row, counted from 0 at the top left corner. For each visible "
@@ -80,10 +79,10 @@ const struct topic topics[] = {
      "material. For each light, Lambent prints the colours (rows ambient, diffuse, specular), the vectors l, r and h, "
      "and the distance. Lambent also prints three angles: between n and l, between r and v, and between n and h. Then "
      "Lambent prints the light's attenuation and spot factors, the base and exponent of the highlight, and the diffuse "
-     "and specular terms. At the end, Lambent prints the terms and their sum, the weighted sum of the triangles over "
-     "the background, the encoding and the bytes. Vectors are in eye space. The numbers are bit-identical to the "
-     "numbers from which Lambent computes the picture. For the formulas, see `docs/lighting.md`. `--json` prints the "
-     "same numbers on one line. `-o figure.svg` draws the numbers as a figure."},
+     "and specular terms. Lambent then prints the terms and their sum. At the end, it blends the weighted sum of the "
+     "triangles over the background, and prints the encoding and the bytes. Vectors are in eye space. The numbers are "
+     "bit-identical to the numbers from which Lambent computes the picture. For the formulas, see `docs/lighting.md`. "
+     "`--json` prints the same numbers on one line. `-o figure.svg` draws the numbers as a figure."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
      "the program that wrote the file, the size and the up axis, triangles, meshes, parts and objects, and the names "
@@ -92,12 +91,12 @@ const struct topic topics[] = {
      "the end, the command prints the memory, the loading time and the warnings. Each list is limited to 8 rows; "
      "`--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF files (in metres) and 3MF "
      "files (which state their unit), the command prints the size, area and volume in millimetres. Other formats "
-     "define no unit. `info` prints the volume only for closed surfaces. A surface is closed if the triangles at each "
-     "edge pass along it equally often in both directions. `info` also reads files that require an unknown extension, "
-     "as with `--lenient`, and reports the extension. The memory is the sum of the model's size and the memory needed "
-     "to draw a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the depths. If Lambent "
-     "cannot read a model, Lambent reports the error and continues. The exit code is then the highest exit code of all "
-     "models."},
+     "define no unit. `info` prints the volume only for closed surfaces. A surface is closed if, at each edge, equal "
+     "numbers of triangles run along the edge in the two directions. `info` also reads files that require an unknown "
+     "extension, as with `--lenient`, and reports the extension. The memory is the sum of the model's size and the "
+     "memory needed to draw a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the "
+     "depths. If Lambent cannot read a model, Lambent reports the error and continues. The exit code is then the "
+     "highest exit code of all models."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent check SHADER.frag --vertex SHADER.vert` draws small reference scenes with the shaders and compares "
      "these pictures with the pictures of the CPU device. Without `--vertex`, Lambent generates a correct vertex "
@@ -110,30 +109,31 @@ const struct topic topics[] = {
      "may "
      "exceed the tolerance. The mean difference may be at most a quarter of the tolerance. The shaders run in a "
      "separate process. `--stop-after` limits the processor time of this process, and `--memory-limit` limits its "
-     "memory. `lambent check --class FOLDER --csv grades.csv -o sheets/` checks a class. A submission is a folder with "
-     "one fragment shader and at most one vertex shader. In a folder with more shaders, each fragment shader forms one "
-     "submission with the vertex shader of the same name. `sheets/index.html` is a page with all results. You can also "
-     "give several shaders: `lambent check */phong.frag */phong.vert` pairs the fragment and vertex shaders of the "
-     "same folder and name. `-o sheets/` then writes a sheet for each shader. If Lambent cannot check a shader, it "
-     "reports the error and checks the other shaders. The exit code is 0 if every scene of every shader matches the "
-     "reference. Otherwise, the exit code is the highest exit code of all shaders. A shader that differs, does not "
-     "compile, does not end or writes NaN has the exit code 6. With `--json`, Lambent prints the report on one line "
-     "(`docs/check.schema.json`). For details, see `docs/check.md`."},
+     "memory. `lambent check --class FOLDER --csv grades.csv -o sheets/` checks the submissions of all students in a "
+     "class. A submission is a folder with one fragment shader and at most one vertex shader. In a folder with more "
+     "shaders, each fragment shader forms one submission with the vertex shader of the same name. `sheets/index.html` "
+     "is a page with all results. You can also give several shaders: `lambent check */phong.frag */phong.vert` pairs "
+     "the fragment and vertex shaders of the same folder and name. `-o sheets/` then writes a sheet for each shader. "
+     "If Lambent cannot check a shader, it reports the error and checks the other shaders. The exit code is 0 if every "
+     "scene of every shader matches the reference. Otherwise, the exit code is the highest exit code of all shaders. "
+     "The exit code is 6 for a shader whose pictures differ, or that does not compile, does not end or writes NaN. "
+     "With `--json`, Lambent prints the report on one line (`docs/check.schema.json`). For details, see "
+     "`docs/check.md`."},
     {"shaders", "Shaders for other programs", BIT(SHADER), TOPIC_NO_TABLE, NULL},
     {"diff", "Comparing pictures", BIT(DIFF), TOPIC_NO_TABLE,
      "`lambent diff A B` reads two pictures of the same size and the same kind (PNG or PPM with 8 bits, or PFM with "
      "floats). The command prints the largest difference of a channel, and the mean and root mean square over all "
      "channels. The channels are red, green, blue and alpha as stored in the files; 1 is the full range. The command "
-     "also prints the PSNR in decibels (`infinite` for equal pictures, null in JSON), and the share of pixels in which "
-     "a channel differs by more than 1/255 and 2/255. `-o` draws the difference. With `-o out/`, the file is "
-     "`A-difference.png` in that folder. Each channel shows its difference times `--gain`, clamped at white; black "
-     "means equal. A pixel that differs only in alpha is grey. A `.pfm` file stores the differences as floats without "
-     "clamping. `--json` prints one line with these keys: `a`, `b`, `width`, `height`, `maximum`, `mean`, `rmse`, "
-     "`psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (1 if the difference exceeds the tolerance, "
-     "otherwise 0) and `picture`. The exit code is 6 if the largest difference exceeds the tolerance, and 1 if the "
-     "sizes or kinds differ. If OLD and NEW are two models or two folders, `lambent diff OLD NEW` draws the models of "
-     "both sides with one camera. `-o report.html` writes a page of added, removed and changed models, with pictures "
-     "before and after. For details, see `docs/pull-requests.md`."},
+     "also prints the PSNR in decibels (`infinite` for equal pictures, null in JSON), and two shares: the pixels in "
+     "which a channel differs by more than 1/255, and by more than 2/255. `-o` draws the difference. With `-o out/`, "
+     "the file is `A-difference.png` in that folder. Each channel of this picture is the channel's difference times "
+     "`--gain`, clamped to 1. Equal pixels are black. A pixel that differs only in alpha is grey. A `.pfm` file stores "
+     "the differences as floats without clamping. `--json` prints one line with these keys: `a`, `b`, `width`, "
+     "`height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (1 if the "
+     "difference exceeds the tolerance, otherwise 0) and `picture`. The exit code is 6 if the largest difference "
+     "exceeds the tolerance, and 1 if the sizes or kinds differ. If OLD and NEW are two models or two folders, "
+     "`lambent diff OLD NEW` draws the models of both sides with the same camera. `-o report.html` writes a page of "
+     "added, removed and changed models, with pictures before and after. For details, see `docs/pull-requests.md`."},
     {"hash", "Hashes of pictures", BIT(HASH), TOPIC_NO_TABLE,
      "`lambent hash models/ -o pictures.hash` writes a line for each model. The line contains the XXH64 hash of the "
      "picture's pixels (rows from the top; red, green, blue, alpha) and the model's path relative to the file. The "
@@ -154,30 +154,32 @@ const struct topic topics[] = {
      "command ignores this file. `lambent config` prints the current settings. For details, see `docs/settings.md`."},
     {"convert", "Models in another format", BIT(CONVERT), TOPIC_NO_TABLE,
      "`lambent convert MODEL OUT.glb` writes any model or scene file as GLB, OBJ (with MTL and PNG files next to it), "
-     "STL, PLY or 3MF. The command writes geometry, materials with their textures, lights and cameras, as far as the "
-     "format supports these kinds of data. Lambent prints a sentence for each kind that it omits. For details, see "
+     "STL, PLY or 3MF. The command writes all geometry, materials with their textures, lights and cameras that the "
+     "format supports. For each kind of data that it omits, Lambent prints a sentence. For details, see "
      "`docs/convert.md`."},
     {"formulas", "Surfaces defined by formulas", BIT(SHAPE), TOPIC_NO_TABLE,
      "`lambent shape --parametric 'x=...; y=...; z=...'` draws a surface over u and v. `--implicit 'x^2+y^2+z^2-1'` "
      "draws the surface on which an expression of x, y and z is zero. `-o torus.obj`, `.stl` or `.ply` saves the "
      "surface as a model file. You can also save built-in shapes: `lambent shape teapot -o teapot.stl`. Normals come "
      "from symbolic derivatives. If two opposite edges of a surface over u and v meet, Lambent joins these edges. "
-     "Creases along a grid line stay sharp (`--segments 64x32`). `docs/shapes.md` describes the language."},
+     "Creases along a grid line stay sharp; `--segments 64x32` sets the grid. `docs/shapes.md` describes the "
+     "language."},
     {"plots", "Plots", BIT(PLOT) | BIT(CAPTIONS), TOPIC_NO_TABLE,
-     "`lambent plot attenuation a/b/c...` draws 1/(a + b d + c d^2) over the distance d. An argument is either three "
-     "such numbers, a light as in `--light` (`spot:attenuation=0/0/1,range=9`), or a model or scene file. For a file, "
-     "Lambent draws a curve for each light in the file. A dot marks the distance at which each curve falls below "
+     "`lambent plot attenuation a/b/c...` plots 1/(a + b d + c d^2) against the distance d. An argument is either "
+     "three such numbers, a light as in `--light` (`spot:attenuation=0/0/1,range=9`), or a model or scene file. For a "
+     "file, Lambent draws a curve for each light in the file. A dot marks the distance at which each curve falls below "
      "1/255, the smallest step of an 8-bit picture. A fourth number (`a/b/c/range`) is a range as in glTF. `lambent "
-     "plot spot cutoff=30,exponent=8 inner=20,outer=35` draws the cones of spot lights over the angle from the axis. "
-     "The first cone uses the formula of OpenGL, and the second uses the formula of glTF. `lambent plot highlight 10 "
-     "50 1000` draws the highlight over the angle between the mirrored light and the eye. For each shininess, Lambent "
-     "draws three curves: Phong, Blinn-Phong, and Blinn-Phong at four times the shininess, which looks like Phong. "
-     "Without arguments, each plot draws a default set of curves. The values come from the same functions that compute "
-     "the lighting of pixels.\nBy default, Lambent writes a picture of 1600x1000 pixels to `attenuation.png`, "
-     "`spot.png` or `highlight.png` (with `-o plots/`, in that folder). If the name ends in `.svg`, Lambent writes an "
-     "SVG file. The table on standard output lists the distance or angle at which each curve falls below 1/255. With "
-     "`--json`, the table is one line: `plot`, `x`, `y`, `curves` and `picture`. Each curve contains `label`, `points` "
-     "(101 pairs) and `below_1_255_from`, which is null if the curve stays above 1/255."},
+     "plot spot cutoff=30,exponent=8 inner=20,outer=35` plots the cones of spot lights against the angle from the "
+     "axis. The first cone uses the formula of OpenGL, and the second uses the formula of glTF. `lambent plot "
+     "highlight 10 50 1000` plots the highlight against the angle between the mirrored light and the eye. For each "
+     "shininess, Lambent draws three curves: Phong, Blinn-Phong, and Blinn-Phong at four times the shininess, which "
+     "looks like Phong. Without arguments, each plot draws a default set of curves. The values come from the same "
+     "functions that compute the lighting of pixels.\nBy default, Lambent writes a picture of 1600x1000 pixels to "
+     "`attenuation.png`, `spot.png` or `highlight.png` (with `-o plots/`, in that folder). If the name ends in `.svg`, "
+     "Lambent writes an SVG file. The table on standard output lists the distance or angle at which each curve falls "
+     "below 1/255. With `--json`, Lambent prints the table on one line, with the keys `plot`, `x`, `y`, `curves` and "
+     "`picture`. Each curve contains `label`, `points` (101 pairs) and `below_1_255_from`, which is null if the curve "
+     "stays above 1/255."},
     {"work", "Threads and devices", BIT(WORK), TOPIC_NO_TABLE, NULL},
     {"limits", "Limits", BIT(LIMITS), TOPIC_NO_TABLE,
      "A malicious file could crash or block a program, or exhaust the machine's memory. Limits prevent such attacks; "

@@ -9,7 +9,7 @@ enum topic_table { TOPIC_NO_TABLE, TOPIC_LIGHT_FIELDS, TOPIC_MATERIAL_FIELDS, TO
 struct topic {
     const char *name; // the argument of `lambent help WORD`
     const char *title;
-    uint64_t groups;        // bit g: options of group g belong to the subject
+    uint64_t groups;        // bit g is set if the options of group g belong to the subject
     enum topic_table table; // shown below the options
     const char *text;       // paragraphs with `code` in back quotes, also printed in the man page; may be NULL
 };

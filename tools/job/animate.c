@@ -152,8 +152,7 @@ static char up_letter(lam_up up)
     return up == LAM_UP_X || up == LAM_UP_NEGATIVE_X ? 'x' : up == LAM_UP_Z || up == LAM_UP_NEGATIVE_Z ? 'z' : 'y';
 }
 
-// Adds the rotation axes for which the camera is fitted: the up axis if only the azimuth changes, and a second axis if
-// the elevation changes.
+// Adds the rotation axes for which the camera is fitted: the up axis, and a second axis if the elevation changes.
 static bool add_turns(struct animation *a, struct options *o, lam_error *error)
 {
     static const char *const all[] = {"x:0", "y:0", "z:0"};
@@ -184,8 +183,8 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     struct options *o = &a->frame;
     for (int i = 0; i < a->sweep_count; i++) {
         const struct sweep *sweep = &a->sweeps[i];
-        // animation_arrange rotates the first frame's camera to the swept angles, so the options of every frame contain
-        // the first angle of the sweep.
+        // animation_arrange moves the camera to the swept angle. The options of every frame therefore contain the
+        // sweep's first angle.
         bool angle = sweep_is_option(sweep, "azimuth") || sweep_is_option(sweep, "elevation");
         if (sweep_words(sweep, angle ? 0 : frame, a->count, &a->words[i])) {
             words[count++] = a->words[i].option;
@@ -208,7 +207,8 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     return options_parse(count, words, find_groups("render"), o, error) >= 0 && add_turns(a, o, error);
 }
 
-// Uses the exposure of the first frame, and the dim studio if one was added, for all later frames.
+// Copies the first frame's exposure to the options of the later frames. If the first frame has a dim studio, copies the
+// studio too.
 static void keep_exposure(const struct job *job, struct options *o)
 {
     if (!job->exposure_fitted)
@@ -290,7 +290,7 @@ static bool find_length(const struct job *job, double *length_s, lam_error *erro
                                      "expected time=FROM..TO");
 }
 
-// Gives each time sweep without a range the whole length of the animation as its range, and sets the number of frames.
+// Sets the number of frames. For a time sweep without a range, sets the range to the whole animation.
 static bool set_length(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;

@@ -58,8 +58,8 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
     return true;
 }
 
-// Returns the crease angle for the library, for which 0 means the default. A user's 0 becomes a tiny angle, so that the
-// normals are split at every edge.
+// Returns the crease angle for the library. In the library, 0 means the default, so an angle of 0 from the user is
+// replaced by a tiny angle, which splits the normals at every edge.
 static double crease_of(const struct options *o)
 {
     return o->shading.crease_angle_deg < 0   ? 0
@@ -84,7 +84,7 @@ static void name_formula_option(const char *model, lam_error *error)
     }
 }
 
-// Returns the formula of the options; its text is NULL if there is none.
+// Returns the formula in the options. If there is no formula, its text is NULL.
 static lam_formula formula_of(const struct options *o)
 {
     if (o->shape.implicit)
@@ -131,7 +131,7 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     return NULL;
 }
 
-// Returns true if only one frame is drawn, so that normals are needed only for its visible triangles.
+// Returns true if only one frame is drawn. Only the triangles visible in this frame then need normals.
 static bool draws_once(const struct job *job)
 {
     const struct options *o = job->options;
@@ -230,7 +230,7 @@ static void warn_color(lam_scene *scene, const char *option, const char *value, 
         lam_scene_add_warning(scene, text);
 }
 
-// Light colours may be above 1, so only lights that do not fade with distance are checked for byte values.
+// Does not check lights with an attenuation, intensity or range, because their colours are often above 1.
 static void warn_colors(struct job *job)
 {
     const struct options *o = job->options;
@@ -319,7 +319,7 @@ static bool fill_darkness(struct job *job, lam_draw_params *draw, int width, int
     return true;
 }
 
-// Computes an automatic exposure. All lights are then evaluated, because the effect of a light depends on the exposure.
+// Computes an automatic exposure. The effect of a weak light depends on the exposure, so no light is skipped.
 static bool fit_exposure(struct job *job, lam_draw_params *draw, int width, int height, lam_error *error)
 {
     const struct options *o = job->options;

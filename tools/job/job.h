@@ -61,11 +61,11 @@ struct job {
     const lam_bytes *model_bytes; // the bytes of the model that `model` names; NULL if the model is a file
     const char *output;           // path of the picture; "-" means standard output
     lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written
-    bool one_of_many;             // several models share the options, so a model may not contain a name given to --hide
-    bool makes_folder;            // also create the folder of an explicitly named picture
-    const lam_cancel *cancel;     // stops the job; if NULL, only Ctrl-C does
-    const char *format;           // the format of the picture: "png"
-    lam_pixel_format pixels;      // the pixel format for drawing
+    bool one_of_many;  // several models share the options, so a name given to --hide may be missing from this model
+    bool makes_folder; // also create the folder of an explicitly named picture
+    const lam_cancel *cancel; // stops the job; if NULL, only Ctrl-C does
+    const char *format;       // the format of the picture: "png"
+    lam_pixel_format pixels;  // the pixel format for drawing
     struct job_frames frames;
     struct animation *animation; // during an animation (animate.h); otherwise NULL
     lam_scene *scene;            // NULL until the model is loaded
@@ -88,7 +88,7 @@ struct job {
     const struct job_view *views;           // the pictures to draw; NULL means one picture from the options
     int view_count;
     lam_camera *cameras; // one camera per view, allocated by job_arrange with malloc
-    // the scene's lights without the lights of the options, which may depend on the camera; allocated with malloc
+    // the scene's lights without the lights of the options (these may depend on the camera); allocated with malloc
     lam_light *lights;
     int light_count;
     uint64_t bytes; // size of the written file

@@ -5,7 +5,7 @@
 #include <lambent/scene.h>
 
 // Returns whether writing `path` would leave the scene's input files unchanged. Fails with LAM_BAD_ARGUMENT. With
-// `own`, another scene file may replace the scene file itself, but no file that the scene file names may be replaced.
+// `own`, `path` may be the scene file itself, but not a file that the scene file names.
 bool job_check_inputs(const lam_scene *scene, const char *path, bool own, lam_error *error);
 
 // Returns whether both paths refer to the same existing file.

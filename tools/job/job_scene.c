@@ -15,8 +15,8 @@
 
 // --- materials
 
-// Returns whether metals selected with --material reflect the studio. They do so if the studio illuminates the picture
-// and no option requires the classic values.
+// Returns whether metals selected with --material reflect the studio: the studio lights the picture, and no option
+// requires the classic values.
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {
     const lam_draw_params *draw = &o->draw;
@@ -112,7 +112,7 @@ static bool apply_sides(const struct options *o, lam_scene *scene, lam_error *er
 
 // --- the rig
 
-// Adds the lights of the rig to the scene, and selects their tone curve.
+// Adds the lights of the rig to the scene, and selects the rig's tone curve.
 static bool add_rig(struct job *job, lam_error *error)
 {
     lam_light lights[LAM_RIG_LIGHTS_MAX];
@@ -132,7 +132,8 @@ static bool lit_by_environment(const struct job *job)
            lam_scene_rig_lights(job->scene, LAM_RIG_AUTO, false, lights) == 0;
 }
 
-// Sets the environment that drawing would use for a scene without lights, because options will add lights.
+// Sets the studio environment. Drawing sets this environment only for scenes without lights, and options will add
+// lights.
 static bool set_studio(const struct job *job, lam_error *error)
 {
     return lam_scene_environment(job->scene) ||
@@ -277,7 +278,7 @@ static bool is_shown(const lam_draw_params *draw)
     return draw->shading == LAM_SHADING_PHONG && !other;
 }
 
-// Warns that only some drawing methods show glass, and that its tint is only correct over white.
+// Warns that only some drawing methods show glass, or that the tint of glass is only correct over white.
 void job_note_glass(struct job *job, const lam_draw_params *draw)
 {
     for (int i = 0; !is_shown(draw) && i < lam_scene_material_count(job->scene); i++)
@@ -290,8 +291,8 @@ void job_note_glass(struct job *job, const lam_draw_params *draw)
         return;
     for (int i = 0; i < lam_scene_material_count(job->scene); i++)
         if (colors_light(lam_scene_material(job->scene, i))) {
-            lam_scene_add_warning(job->scene, "the transparent picture of coloured glass is correct over white; for "
-                                              "another colour behind it, add --background COLOUR");
+            lam_scene_add_warning(job->scene, "the transparent picture of coloured glass is correct only over white; "
+                                              "for another background, add --background COLOUR");
             return;
         }
 }

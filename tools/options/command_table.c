@@ -48,11 +48,12 @@ const struct command command_table[] = {
                        "Draw many models, from folders, lists or standard input, and keep a journal.",
                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
                        .defaults = batch_defaults},
-    [COMMAND_journal] = {"journal", "JOURNAL|FOLDER...",
-                         "List the written, failed and missing pictures of a batch from its journals; -o FILE merges "
-                         "the journals of the shards.",
-                         ABOUT | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_REPORT, .min_operands = 1,
-                         .max_operands = -1, .defaults = journal_defaults},
+    [COMMAND_journal] =
+        {"journal", "JOURNAL|FOLDER...",
+         "Read the journals of a batch and list the written, failed and missing pictures; -o FILE merges "
+         "the journals of the shards.",
+         ABOUT | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_REPORT, .min_operands = 1, .max_operands = -1,
+         .defaults = journal_defaults},
     [COMMAND_compare] = {"compare", "MODEL",
                          "Draw a sheet of labelled pictures that compare methods, lights or terms side by side.",
                          (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_SHEET | 1ull << GROUP_CAPTIONS | TAKES_QUIET |
@@ -103,7 +104,7 @@ const struct command command_table[] = {
                          .min_operands = 2, .max_operands = 2,
                          .one_more = "the command writes one model: lambent convert MODEL OUT.glb"},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
-                      "Plot attenuation, spot cones or highlights as curves (PNG or SVG), and print their numbers.",
+                      "Plot attenuation, spot cones or highlights as curves (PNG or SVG), and print the values.",
                       ABOUT | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
                           TAKES_QUIET | TAKES_FILES | TAKES_TERM | TAKES_TITLE,
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},
@@ -131,13 +132,12 @@ const struct command command_table[] = {
                          .max_operands = 0, .one_more = "the command lists all formats"},
     [COMMAND_looks] = {"looks", "[NAME]", "List the built-in looks (--look), or print the file of one look.", ABOUT,
                        .min_operands = 0, .max_operands = 1},
-    [COMMAND_materials] = {"materials", NULL,
-                           "List the named materials with their numbers; -o FILE also draws a sheet of them.",
-                           ABOUT | 1ull << GROUP_PICTURE | 1ull << GROUP_CAPTIONS | TAKES_JSON, .min_operands = 0,
-                           .max_operands = 0,
-                           .one_more =
-                               "the command lists all materials; lambent teapot --material gold shows one material",
-                           .defaults = materials_defaults},
+    [COMMAND_materials] =
+        {"materials", NULL,
+         "List the named materials with the values of their fields; -o FILE also draws a sheet of these materials.",
+         ABOUT | 1ull << GROUP_PICTURE | 1ull << GROUP_CAPTIONS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
+         .one_more = "the command lists all materials; lambent teapot --material gold shows one material",
+         .defaults = materials_defaults},
     [COMMAND_config] = {"config", NULL, "Print the current settings, and the name of the settings file.",
                         ABOUT | 1ull << GROUP_SETTINGS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
                         .one_more = "the command only prints the settings; to change settings, edit the settings file"},
@@ -151,7 +151,7 @@ const struct command command_table[] = {
                           .min_operands = 0, .max_operands = -1, .verbatim = true},
     [COMMAND_generate] = {"generate", "man|markdown|bash|zsh|fish|scene-schema|contract-schema|contract-NAME",
                           "Print the man page, the reference in Markdown, shell completions, the JSON Schema of scene "
-                          "files or shader contracts, or the file of a built-in contract.",
+                          "files or of shader contracts, or a built-in contract.",
                           ABOUT, .min_operands = 1, .max_operands = 1},
     [COMMAND_COUNT] = {.name = NULL},
 };

@@ -58,8 +58,8 @@ static const struct choice shard_by_words[] = {
     {NULL, 0, NULL}};
 static const struct choice light_frame_words[] = {
     {"object", LAM_FRAME_OBJECT,
-     "object space; the model-view matrix transforms the position in the same way as the vertices"},
-    {"camera", LAM_FRAME_CAMERA, "eye space; Lambent does not transform the position"},
+     "object space; Lambent transforms light positions and vertices by the same model-view matrix"},
+    {"camera", LAM_FRAME_CAMERA, "eye space; Lambent does not transform light positions"},
     {NULL, 0, NULL}};
 
 static const struct choice highlight_words[] = {
@@ -126,7 +126,7 @@ static const struct choice show_words[] = {
 
 static const struct choice glsl_words[] = {
     {"330", LAM_GLSL_330, "OpenGL 3.3"},
-    {"120", LAM_GLSL_120, "OpenGL 2.1: with attribute and varying, without uniform blocks or flat inputs"},
+    {"120", LAM_GLSL_120, "OpenGL 2.1: uses `attribute` and `varying`; has no uniform blocks and no `flat` inputs"},
     {"300es", LAM_GLSL_300_ES, "OpenGL ES 3.0, WebGL 2"},
     {NULL, 0, NULL}};
 
@@ -236,22 +236,23 @@ static const struct choice normals_words[] = {
 
 static const struct choice sheet_words[] = {
     {"summary", SHEET_SUMMARY,
-     "flat, Gouraud and Phong shading, a reflection of the environment (--environment, or the sky), and an anisotropic "
-     "highlight"},
+     "flat, Gouraud and Phong shading, a reflection of the environment (the sky, unless you give --environment), and "
+     "an anisotropic highlight"},
     {"terms", SHEET_TERMS,
-     "ambient, diffuse and specular alone; all terms at shininess 50, at 1000, and at 1000 with flat shading"},
+     "ambient, diffuse and specular alone; all terms together at shininess 50, at shininess 1000, and at shininess "
+     "1000 with flat shading"},
     {"stages", SHEET_STAGES, "lighting per vertex and per fragment, with the brightest highlight enlarged"},
     {"light", SHEET_LIGHT, "the model in its own colours and in orange, each under white light and under green light"},
     {"ambient", SHEET_AMBIENT,
      "white ambient and white diffuse light; red ambient and white diffuse light; red ambient and red diffuse light"},
     {"frames", SHEET_FRAMES,
-     "one light in the frames of the world, the camera and the model, before and after a rotation"},
+     "one light in the world frame, the camera frame and the model frame, each before and after a rotation"},
     {"surfaces", SHEET_SURFACES, "a specular, a diffuse and a translucent surface"},
     {NULL, 0, NULL}};
 
 static const struct choice isa_words[] = {
     {"auto", LAM_ISA_AUTO, "the widest instruction set that this machine supports"},
-    {"scalar", LAM_ISA_SCALAR, "C without vectors"},
+    {"scalar", LAM_ISA_SCALAR, "plain C, without SIMD instructions"},
     {"plain", LAM_ISA_SCALAR, NULL},
     {"sse4", LAM_ISA_SSE4, "4 lanes"},
     {"avx2", LAM_ISA_AVX2, "8 lanes"},
@@ -615,9 +616,9 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "shadow cast-shadows raytrace shadow-map"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "`--ground` without a value means `--ground shadow`. With a ground plane, lights cast shadows on the plane and on "
-     "the model. The kind `shadow` draws only the shadows, over any background, including a transparent one. The other "
-     "kinds are lit surfaces. The ground plane is perpendicular to the up axis (`--up`) and fades out with distance. "
-     "The ground plane is invisible from below. A ground plane requires Phong shading. For pictures, see "
+     "the model. The kind `shadow` draws only the shadows. The background may be transparent. The other kinds are lit "
+     "surfaces. The ground plane is perpendicular to the up axis (`--up`) and fades out with distance. The ground "
+     "plane is invisible from below. A ground plane requires Phong shading. For pictures, see "
      "`docs/lighting/ground.md`.",
      .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
      FIELD(draw.ground)},
@@ -681,8 +682,8 @@ struct option option_table[OPTIONS_MAX] = {
      .min = 0, .max = 180, .loads = true},
     {"segments", 0, GROUP_SHADING, "N[xM]", "the shape's own",
      "The segments of a built-in shape: N slices around the axis, and M stacks along the axis.",
-     "With `--parametric`, N is the number of segments along u and M is the number along v; N alone sets both. N is 3 "
-     "to 16384; `lambent shapes` describes the segments of each shape. The default of M depends on the shape. "
+     "With `--parametric`, N and M are the numbers of segments along u and v. N alone sets both numbers. The range of "
+     "N is 3 to 16384. `lambent shapes` describes the segments of each shape. The default of M depends on the shape. "
      "`gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "the model's",
@@ -690,10 +691,10 @@ struct option option_table[OPTIONS_MAX] = {
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
-     "built in. `none` removes the environment of a scene file. For models, `none` disables the built-in studio "
-     "environment, so that light sources illuminate the model. To use a file named `sky`, write `./sky`. Classic "
-     "materials reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
-     "`docs/lighting/reflection.md` describes how Lambent maps each kind around the model.",
+     "built in. `none` removes the environment of a scene file. For a model without lights, `none` replaces the "
+     "built-in studio environment with the rig's lights. To use a file named `sky`, write `./sky`. Classic materials "
+     "reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
+     "`docs/lighting/reflection.md` describes how Lambent maps each kind of environment around the model.",
      .kind = VALUE_ENVIRONMENT, .store = store_text,
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
@@ -706,11 +707,11 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
      "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
-     "to a picture drawn with `--rotate y:A`, where A is 360 k/N. All frames use the same camera distance and "
-     "exposure. By default, or if the name ends in `.png` or `.webp`, Lambent writes all frames to one animated PNG or "
-     "WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame to a "
-     "separate file, in any format. `36,light=model` turns the lights with the model, instead of keeping the lights "
-     "fixed to the camera. Lights that are fixed to an object always turn with the object. For examples, see "
+     "to a picture drawn with `--rotate y:A`, where A is k/N of 360 degrees. All frames use the same camera distance "
+     "and exposure. By default, or if the name ends in `.png` or `.webp`, Lambent writes all frames to one animated "
+     "PNG or WebP that loops forever. With `{frame}` in the name (`-o 'turn/{frame}.png'`), Lambent writes each frame "
+     "to a separate file, in any format. `36,light=model` turns the lights with the model, instead of keeping the "
+     "lights fixed to the camera. Lights that are fixed to an object always turn with the object. For examples, see "
      "`docs/animation.md`.",
      .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
      FIELD(animation.turntable), .min = 2, .max = 100000},
@@ -720,14 +721,14 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "turntable-lights spin-light", FIELD(animation.turntable_light)},
     {"sweep", 0, GROUP_ANIMATION, "KEY=FROM..TO", NULL,
      "Animate a number: light.azimuth=0..360, roughness=0..1; repeatable.",
-     "KEY is an option whose value is a number (`azimuth`, `elevation`, `zoom`, `exposure`, `opacity`, `ambient`, "
-     "`crease-angle`), `rotate.x`, `rotate.y` or `rotate.z`. KEY may also be a key of `--material` (`roughness`, `kd`, "
+     "KEY is `rotate.x`, `rotate.y`, `rotate.z`, or an option whose value is a number (`azimuth`, `elevation`, `zoom`, "
+     "`exposure`, `opacity`, `ambient`, `crease-angle`). KEY may also be a key of `--material` (`roughness`, `kd`, "
      "`roughness@NAME`) or a numeric property of a light: `light.azimuth`, `light.WHICH.azimuth`. WHICH is the light's "
      "name, or its number counted from 1 (`lambent lights`, `--show-lights`). Without WHICH, the sweep applies to the "
-     "first light that has this key. The keys of a light are its numeric fields (`diffuse`, `range`, `position.x`; "
-     "angles in degrees), `intensity`, `azimuth` and `elevation`. Azimuth and elevation set the direction from which "
+     "first light with this key. The keys of a light are `intensity`, `azimuth`, `elevation` and the light's numeric "
+     "fields (`diffuse`, `range`, `position.x`; angles in degrees). Azimuth and elevation set the direction from which "
      "the light comes, in the light's own frame. These angles work like the camera's angles: 0 is the front, 90 is the "
-     "right side. `time` is the time in a glTF file's animation; without numbers, the sweep covers the whole "
+     "right side. `time` is the time in a glTF file's animation. `--sweep time`, without a range, covers the whole "
      "animation.\nYou can give more than two values: `light.elevation=10..80..10`. If a sweep returns to its first "
      "value, for example after a full turn, the last frame is one step before that value. The loop is then seamless. "
      "You can combine several sweeps with each other and with `--turntable`. Lambent fits the camera once, to the "
@@ -741,14 +742,14 @@ struct option option_table[OPTIONS_MAX] = {
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
      .store = store_number, .others = "frame-rate framerate speed delay", FIELD(animation.fps), .min = 0.1, .max = 240},
 
-    {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads; the picture does not depend on it.",
+    {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads. It does not affect the picture.",
      NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
      .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
      "All instruction sets draw identical pictures. Lambent rejects an instruction set that this machine or this build "
      "does not support (exit 3).",
      isa_words, .store = store_word, .others = "simd instruction-set", FIELD(work.isa)},
-    {"device", 0, GROUP_WORK, "NAME", "auto", "The device that draws: cpu, gl, gles or auto.",
+    {"device", 0, GROUP_WORK, "NAME", "auto", "The rendering device: cpu, gl, gles or auto.",
      "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If OpenGL is unavailable, the error message "
      "states the reason (exit 3). Lambent does not switch to another device. `lambent devices` lists the devices.",
      device_words, .store = store_word, .others = "d gpu cpu backend renderer engine opengl gl", FIELD(work.device),
@@ -768,7 +769,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "iterations benchmark bench", FIELD(work.repeat), .min = 1, .max = 100000},
     {"memory-limit", 0, GROUP_LIMITS, "BYTES", "a quarter of the available memory",
      "Stop if a model needs more than this much memory, for example 500M or 2Gi (exit 4).",
-     "The limit applies separately to reading a model and to drawing the model, including textures and decoders. "
+     "The limit applies separately to reading and to drawing a model. The memory for textures and decoders counts too. "
      "Lambent checks the limit before it allocates memory. The default is a quarter of the available memory, divided "
      "by the number of models drawn at the same time. The available memory is the smallest of the machine's memory, "
      "the limits of control groups (cgroup v1 and v2), `ulimit -v` and `ulimit -d`. `none` disables the limit. k, M, G "
@@ -794,10 +795,10 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "max-objects instance-limit max-instances node-limit", FIELD(limits.object_limit), .max = 2147483647},
     {"layer-limit", 0, GROUP_LIMITS, "N", "by the size of the files",
      "Stop if a picture has more layers per pixel than this, on average (exit 4).",
-     "A layer is a translucent or masked surface that covers a pixel. Each light at a point and each opaque "
-     "surface at a pixel counts as 1/32 of a layer. Environment light at a point counts as one layer. The "
-     "default is 40 plus one per 16384 bytes of the model's files. Pictures with fewer than 65536 pixels count as "
-     "65536 pixels. The OpenGL devices ignore this limit.",
+     "A layer is a translucent or masked surface that covers a pixel. Each light evaluated at a point counts as 1/32 "
+     "of a layer, and so does each opaque surface at a pixel. Environment light evaluated at a point counts as one "
+     "layer. The default is 40 plus one per 16384 bytes of the model's files. Pictures with fewer than 65536 pixels "
+     "count as 65536 pixels. The OpenGL devices ignore this limit.",
      .store = store_count, .others = "max-layers overdraw-limit", FIELD(limits.layer_limit), .max = 2147483647},
     {"expansion-limit", 0, GROUP_LIMITS, "N", "2000",
      "Stop if a model needs more memory than N times the size of its files plus 500 MB (exit 4).",
@@ -817,30 +818,31 @@ struct option option_table[OPTIONS_MAX] = {
      "Reject JSON (glTF and scene files) with deeper nesting than this (exit 4).", NULL, .store = store_integer,
      .others = "max-depth nesting", FIELD(limits.json_depth_limit), .min = 1, .max = 2000},
     {"files-inside", 0, GROUP_LIMITS, NULL, NULL, "Restrict a scene file to files in its own folder.",
-     "Use this option for scene files from untrusted sources. All models and pictures must then be in the scene file's "
-     "folder or below it, after Lambent resolves links and `..`. Files that a model refers to, such as MTL files, must "
-     "always be in the model's folder. Files given on the command line may be anywhere.",
+     "Use this option for scene files from untrusted sources. Lambent resolves links and `..` before it checks the "
+     "folder. All models and pictures must be in the scene file's folder or below it. Files that a model refers to, "
+     "such as MTL files, must always be in the model's folder. Files given on the command line may be anywhere.",
      .store = store_switch, FIELD(limits.files_inside), .single = TAKES_FILES, .also_in = IN_KEY},
     {"sandbox", 0, GROUP_LIMITS, "MODE", "auto",
-     "Drop all privileges that reading files does not need. Values: auto, require or off.",
+     "Drop all privileges that are not needed to read files. Values: auto, require or off.",
      "In the sandbox, a file that exploits a decoder cannot run programs, open sockets or read other files. The "
-     "rendering process can read only the folders of the models and of `--allow-path`, and the system's libraries and "
-     "fonts. The rendering process cannot change any file. A separate small process outside the sandbox writes the "
-     "pictures, and nothing else. The sandbox uses two methods of Linux: Landlock and a seccomp filter. `auto` uses "
-     "each method that the kernel supports. `require` fails if a method is missing (exit 3), and restricts scene files "
-     "to their own folder (`--files-inside`) and `--allow-path`. `-v`, `--json` and `--version` report the methods in "
-     "use. The sandbox applies to commands that read models or pictures. `check` and OpenGL need more privileges for "
-     "the graphics driver. With `auto`, Lambent therefore runs both without a sandbox. With `auto`, a scene file "
-     "(`.json`) may refer to files in any folder, unless you give `--files-inside` or `--allow-path`.",
+     "rendering process can read only the models' folders, the paths given with `--allow-path`, and the system's "
+     "libraries and fonts. The rendering process cannot change any file. A small process outside the sandbox writes "
+     "the pictures and does nothing else. The sandbox uses two methods of the Linux kernel: Landlock and a seccomp "
+     "filter. `auto` uses each method that the kernel supports. `require` fails if a method is missing (exit 3). With "
+     "`require`, a scene file may refer only to files in its own folder (as with `--files-inside`) and to files "
+     "allowed with `--allow-path`. `-v`, `--json` and `--version` report the methods in use. The sandbox applies to "
+     "commands that read models or pictures. `check` and OpenGL need more privileges for the graphics driver. With "
+     "`auto`, Lambent therefore runs both without a sandbox. With `auto`, a scene file (`.json`) may refer to files in "
+     "any folder, unless you give `--files-inside` or `--allow-path`.",
      sandbox_words, .store = store_word, .others = "seccomp landlock jail", FIELD(limits.sandbox),
      .single = TAKES_PICTURE_LIMITS},
     {"allow-path", 0, GROUP_LIMITS, "DIR", NULL,
      "Allow models to use this file, or the files in this folder; repeatable.",
      "By default, a model may use only the files in its own folder. If the textures are in `../textures`, add "
      "`--allow-path ../textures`. Even with `--files-inside`, scene files may refer to files in the allowed folder. "
-     "Links in the folders of `batch` may also lead to it. In the sandbox, Lambent can also read the allowed folder. "
-     "With `--jobs`, all files named in jobs must be in an allowed folder, but models can still use only the files in "
-     "their own folders. Pages (`-o FILE.html`) and `view` never include files from other folders.",
+     "Links in folders given to `batch` may lead to the allowed folder. In the sandbox, Lambent can also read the "
+     "allowed folder. With `--jobs`, all files named in jobs must be in an allowed folder, but models can still use "
+     "only the files in their own folders. Pages (`-o FILE.html`) and `view` never include files from other folders.",
      .kind = VALUE_FILE, .store = store_path, .others = "allow", FIELD(limits.allow_paths),
      .single = TAKES_PICTURE_LIMITS},
 
@@ -854,7 +856,7 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_FILE, .store = store_list, .others = "input-list filelist models-from", FIELD(batch.lists),
      .single = TAKES_MANY},
     {"journal", 0, GROUP_BATCH, "FILE", "none; `batch`: lambent.jsonl in the folder of the pictures",
-     "Write a line of JSON for each picture that succeeds or fails.",
+     "Write a line of JSON for each finished or failed picture.",
      "A line records the model, the picture, the result (`class`, `exit`, `error`), the duration of each step in "
      "milliseconds, the number of triangles and the warnings. The line also records the size of the picture in bytes, "
      "the "
@@ -864,7 +866,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"resume", 0, GROUP_BATCH, NULL, NULL, "Resume: skip pictures that the journal lists as done.",
      "Without a journal, Lambent draws everything, so you can use the same command to start and to resume a run. "
      "Lambent refuses to resume if the picture options differ from those in the journal. If a run was killed, Lambent "
-     "first repeats the models that were in progress, each in a separate process.",
+     "first retries the models that were in progress, each in a separate process.",
      .store = store_switch, .others = "continue restart", FIELD(batch.resume)},
     {"retry-failed", 0, GROUP_BATCH, "N", "0", "Retry a picture that failed, at most N times.",
      "Lambent retries failed pictures at the end of the run. With `--resume`, Lambent also retries failures of earlier "
@@ -889,11 +891,10 @@ struct option option_table[OPTIONS_MAX] = {
     {"shard", 0, GROUP_BATCH, "K/N", "1/1",
      "Divide the models into N shards and draw only shard K (1 to N); other machines draw the other shards.",
      "A model's shard depends only on the model's path, so adding a model does not move other models. `auto` reads K "
-     "and N from SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK and the corresponding counts. `auto/N` reads K from these "
-     "variables or from JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent reports an error. "
-     "Without this option, Lambent ignores the variables. Each shard writes its own journal and page, with names such "
-     "as `lambent-2-of-4.jsonl` "
-     "(`docs/batch.md`). `lambent journal` summarises these journals.",
+     "from SLURM_ARRAY_TASK_ID or OMPI_COMM_WORLD_RANK, and N from the corresponding count. `auto/N` reads K from "
+     "these variables or from JOB_COMPLETION_INDEX (Kubernetes). If these variables are ambiguous, Lambent reports an "
+     "error. Without this option, Lambent ignores the variables. Each shard writes its own journal and page, with "
+     "names such as `lambent-2-of-4.jsonl` (`docs/batch.md`). `lambent journal` summarises these journals.",
      .store = store_text, .others = "part slice partition split array distribute", FIELD(batch.shard)},
     {"shard-by", 0, GROUP_BATCH, "ORDER", "name", "How `--shard` divides the models: by name or by list.",
      "With `name`, each shard reads all names, which takes a second or two for a million models. With `list`, a shard "
@@ -905,8 +906,8 @@ struct option option_table[OPTIONS_MAX] = {
      "This option is for servers: one process draws all jobs until standard input ends (`docs/worker.md`). A job "
      "contains an `id`, a `model` or its bytes, `options`, and an `output`. Without `output`, the answer contains the "
      "picture. Lambent reads and writes files only inside the folders given with `--allow-path`. The options on the "
-     "command line apply to every job; Lambent adds a job's own options after them. Instead of `-`, you can give a "
-     "file or a pipe.",
+     "command line apply to every job. Lambent adds a job's own options after these options. Instead of `-`, you can "
+     "give a file or a pipe.",
      .kind = VALUE_FILE, .store = store_jobs, .others = "worker server daemon serve", FIELD(batch.jobs)},
     {"ahead", 0, GROUP_BATCH, "N", "twice the number of models drawn at once",
      "The maximum number of waiting jobs. When this many jobs are waiting, Lambent pauses reading.", NULL,
@@ -924,24 +925,25 @@ struct option option_table[OPTIONS_MAX] = {
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "Lambent prints the report to standard output, instead of the line with the file's name. If the picture goes to "
      "standard output, Lambent prints the report, and nothing else, to standard error. Lambent also prints a report on "
-     "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption of each picture "
-     "and the options that draw the picture.",
+     "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption and the options "
+     "of each picture.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
-     "List the pictures that the command would write, but draw and write nothing.",
+     "List the pictures that the command would write, without drawing or writing them.",
      "Lambent reads and checks the models and the options, and checks whether it can write each picture. For each "
      "model, Lambent prints the name and size of the picture, whether the picture would overwrite a file, the camera, "
      "the device and the options on the command line. With `--json`, the report contains `planned` instead of `image`. "
      "Errors and exit codes are the same as without `--dry-run`.",
      .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(report.dry_run)},
-    {"verbose", 'v', GROUP_REPORT, NULL, NULL, "Print the files read and the duration of each step to standard error.",
-     NULL, .store = store_switch, FIELD(report.verbose)},
+    {"verbose", 'v', GROUP_REPORT, NULL, NULL,
+     "Print the name of each file that Lambent reads, and the duration of each step, to standard error.", NULL,
+     .store = store_switch, FIELD(report.verbose)},
     {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print only errors.", NULL, .store = store_switch, .others = "silent",
      FIELD(report.quiet), .single = TAKES_QUIET},
 
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
-     "The largest allowed difference of a channel, in steps of 1/255; if a difference is larger, the exit code is 6.",
+     "The largest allowed difference per channel, in steps of 1/255. If a difference is larger, the exit code is 6.",
      NULL, .store = store_number, .others = "threshold epsilon", FIELD(diff.tolerance), .min = 0, .max = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "Amplify the difference picture by this factor.", NULL,
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
@@ -981,10 +983,12 @@ struct option option_table[OPTIONS_MAX] = {
      "The default font covers Latin, Greek and Cyrillic. For Chinese, Japanese and Korean, give a font that covers "
      "these scripts (`--font`). For scripts that run from right to left or join letters, write an SVG file.",
      .store = store_text, .single = TAKES_TITLE, .others = "heading name header", FIELD(captions.title)},
-    {"caption", 0, GROUP_SHEET, "TEXT", NULL, "The caption of a sheet's next picture, in any language; repeatable.",
-     NULL, .store = store_texts, .others = "captions label labels", FIELD(captions.texts)},
+    {"caption", 0, GROUP_SHEET, "TEXT", NULL,
+     "The caption of the next picture on the sheet, in any language; repeatable.", NULL, .store = store_texts,
+     .others = "captions label labels", FIELD(captions.texts)},
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
-     "Draw a row of pictures: shading, or shininess=10,50,1000; a second --across makes a grid.",
+     "Draw a row with one picture per value of an option (shading, or shininess=10,50,1000). A second --across makes a "
+     "grid.",
      "OPTION is the name of an option for pictures, without the leading dashes. Separate the values by commas. If the "
      "values themselves contain commas, as for `light` and `material`, separate the values by semicolons "
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
@@ -1046,8 +1050,8 @@ struct option option_table[OPTIONS_MAX] = {
      "Submitty reads this file as validation_results.json.", .kind = VALUE_FILE, .store = store_text,
      FIELD(check.submitty)},
     {"write-contract", 0, GROUP_CHECK, "FILE", NULL, "Write a commented contract for the shaders.",
-     "If Lambent recognises a contract, the file contains that contract. Otherwise, the file contains the role of each "
-     "input, which Lambent infers from its use in the shader. Correct the file, then check with `--contract FILE` "
+     "If Lambent recognises a contract, the file contains that contract. Otherwise, Lambent infers the role of each "
+     "input from the shader and writes these roles to the file. Correct the file, then check with `--contract FILE` "
      "(`docs/check/contract-file.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
@@ -1056,23 +1060,23 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent also accepts \"300 es\", as in the first line of a shader.", glsl_words, .store = store_glsl,
      .others = "glsl-version shader-version", FIELD(shader.glsl)},
     {"host", 0, GROUP_SHADER, "LANGUAGE", NULL,
-     "Also print code that sets all inputs of the shaders, in this language: c.",
+     "Also print code, in this language, that sets all inputs of the shaders: c.",
      "The code compiles the sources, describes the vertex layout to OpenGL and sets every uniform to its value in this "
      "picture. The code calls only OpenGL. `-o NAME` writes the code to `NAME.c`.",
      host_words, .store = store_word, FIELD(shader.host)},
     {"products", 0, GROUP_SHADER, NULL, NULL,
-     "Pass the products ka La, kd Ld and ks Ls as uniforms, as in many lectures.", NULL, .store = store_switch,
+     "Pass the products ka La, kd Ld and ks Ls as uniforms. This is common in lectures.", NULL, .store = store_switch,
      FIELD(shader.products)},
     {"lights-in", 0, GROUP_SHADER, "STORAGE", "auto", "How the shaders store the lights: array, block or texture.",
      "Lambent sets no maximum number of lights. OpenGL's limit is lowest for an array, higher for a block, and highest "
      "for a texture.",
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
-     "The lecture style uses the symbols common in graphics lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, "
-     "`phong`, `blinn-phong` and `kajiya-kay`, with any lights and any shading, the uniforms and the picture are the "
-     "same as in the full style. Lambent rejects textures and other reflection models in this style. With `--stage "
-     "application`, Lambent also prints a C function that computes the lighting of the vertices. See "
-     "`docs/teaching.md`.",
+     "The lecture style uses symbols that are common in lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
+     "`blinn-phong` "
+     "and `kajiya-kay`, with any lights and any shading, the uniforms and the picture are the same as in the full "
+     "style. Lambent rejects textures and other reflection models in this style. With `--stage application`, Lambent "
+     "also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
      "Introduce a known mistake into shaders of the lecture style; `list` prints the known mistakes.",
@@ -1101,8 +1105,8 @@ struct option option_table[OPTIONS_MAX] = {
      .loads = true},
     {"x", 0, GROUP_SHAPE, "FROM..TO", "around the surface",
      "The range of x in which Lambent draws an implicit surface.",
-     "Give two constant expressions. By default, Lambent searches for the surface in -4..4, and in -16..16 if the "
-     "surface is closed only in the larger range.",
+     "Give two constant expressions. By default, Lambent searches for the surface in -4..4. If the surface is closed "
+     "only in -16..16, Lambent uses that range.",
      .store = store_text, .others = "x-range box bounds", FIELD(shape.x_range), .loads = true},
     {"y", 0, GROUP_SHAPE, "FROM..TO", "around the surface", "The range of y, as for `--x`.", NULL, .store = store_text,
      .others = "y-range", FIELD(shape.y_range), .loads = true},
@@ -1129,16 +1133,16 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"font", 0, GROUP_CAPTIONS, "FILE", "the system's", "The font of captions: a TrueType or OpenType file.",
      "By default, Lambent uses the font that the environment variable `LAMBENT_FONT` names. If this variable is not "
-     "set, Lambent uses the first of these fonts that is installed in Debian's folders: DejaVu Sans, Liberation Sans, "
+     "set, Lambent uses the first of these fonts that it finds in Debian's font folders: DejaVu Sans, Liberation Sans, "
      "Noto Sans, FreeSans, Roboto. FreeType draws the letters. With another version of FreeType, the letters may look "
      "slightly different. The pictures on the sheet are always identical. An SVG file requests DejaVu Sans, but the "
      "viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
-    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Draw no text, so that no font is needed.", NULL,
+    {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Omit all text. Lambent then needs no font.", NULL,
      .store = store_switch, .others = "no-text no-labels", FIELD(captions.no_captions)},
 
     {"config", 0, GROUP_SETTINGS, "FILE", "lambent.json in the user's configuration folder",
-     "The settings file, with keys of scene files that replace the default picture settings.",
+     "The settings file. It uses the keys of scene files and replaces the default picture settings.",
      "Lambent reads `$XDG_CONFIG_HOME/lambent/lambent.json` or `~/.config/lambent/lambent.json`, if this file exists "
      "and the environment variable `CI` is not set. Lambent never reads a settings file from a model's folder. Looks "
      "and options on the command line override settings. Lambent does not apply settings to scene files. `lambent "

@@ -30,7 +30,7 @@ bool store_switch(const struct option *option, const char *value, struct options
 bool store_text(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (!*value)
-        return complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected %s", option->value);
+        return complain(error, LAM_BAD_ARGUMENT, "the value is empty, expected %s", option->value);
     *(const char **)field_of(options, option->field) = value;
     return true;
 }
@@ -444,10 +444,10 @@ static bool append(const struct option *option, const char *value, struct option
 bool store_list(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     return *value ? append(option, value, options, error)
-                  : complain(error, LAM_BAD_ARGUMENT, "its value is empty, expected a file of names");
+                  : complain(error, LAM_BAD_ARGUMENT, "the value is empty, expected a file with a list of names");
 }
 
-// Accepts "-" or a file. Other programs accept a number of jobs here.
+// Accepts "-" or a file. Rejects a number, which is a number of parallel jobs in other programs.
 bool store_jobs(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (*value && strspn(value, "0123456789") == strlen(value))

@@ -122,7 +122,8 @@ bool option_given(const struct options *options, const char *name)
     return option && (options->given[option - option_table] || options->by_key[option - option_table]);
 }
 
-// Returns the option that a key in the value of another option sets, such as "width" in the value of `edges`, or NULL.
+// Returns the option that is set by a key in the value of another option, such as "width" in the value of `edges`.
+// Returns NULL if there is no such option.
 static const struct option *find_key(const struct option *option, const char *key, size_t length)
 {
     for (const struct option *o = option_table; option->keyed && o->name; o++)
@@ -256,7 +257,7 @@ static bool is_known_option(const char *argument)
 }
 
 // Returns the option that the user probably meant: the plural form if there are several values, or the option that
-// formerly had this name if the value is one of that option's words.
+// formerly had this name if that option accepts the value.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
     if (option->several && strchr(value, ','))

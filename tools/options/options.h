@@ -37,14 +37,14 @@ struct options {
     struct report_options report;
     struct settings_options settings;
 
-    bool given[OPTIONS_MAX];         // for each row of the table: the option is on the command line
-    bool by_key[OPTIONS_MAX];        // a key in the value of another option sets the option (option.key)
+    bool given[OPTIONS_MAX];         // for each row of the table: whether the option is on the command line
+    bool by_key[OPTIONS_MAX];        // whether a key in the value of another option sets the option (option.key)
     bool by_look[OPTIONS_MAX];       // whether the option comes from --look
     int by_config[OPTIONS_MAX];      // the line in the settings file, or 0 if the file does not set the option
     const char *values[OPTIONS_MAX]; // the value on the command line or in the settings file, or NULL
 };
 
-// Bits above the group bits: options that a command accepts without the rest of their group.
+// Bits above the group bits: single options that a command accepts, although it does not accept their whole group.
 #define TAKES_OUTPUT         (1ull << 40)
 #define TAKES_JSON           (1ull << 41)
 #define TAKES_QUIET          (1ull << 42)
@@ -58,8 +58,8 @@ struct options {
 #define TAKES_TITLE          (1ull << 50)
 #define TAKES_MANY           (1ull << 51)
 #define TAKES_UP             (1ull << 52)
-// Set for a command that writes no file of its own. Such a command accepts its groups without the options about the
-// output file.
+// Set for a command that writes no file of its own. Such a command accepts no options about the output file, even if
+// they belong to its groups.
 #define WRITES_NO_FILE (1ull << 63)
 
 // The default background of the sheets of `compare` and `materials`.
@@ -97,7 +97,7 @@ enum option_group {
     (1ull << GROUP_PICTURE | 1ull << GROUP_MODEL | 1ull << GROUP_VIEW | 1ull << GROUP_LIGHTS |                         \
      1ull << GROUP_MATERIALS | 1ull << GROUP_SHADING)
 
-// Uses of options. Each use includes the options of some groups; `also_in` and `not_in` of a row are the exceptions.
+// Uses of options. Each use includes all options of some groups. `also_in` and `not_in` of a row list exceptions.
 enum option_use {
     IN_LOOK = 1,      // a look may set the option
     IN_JOB = 2,       // a worker's job may set the option
@@ -154,14 +154,16 @@ struct option {
     const char *alone;          // the value of an option without a value; NULL means that a value is required
     bool of_file;               // the option concerns the output file (WRITES_NO_FILE)
     bool loads;                 // if the option changes, the model must be read again
-    uint8_t also_in, not_in;    // bits of option_use to add to the group's uses, and to remove from them
+    uint8_t also_in, not_in;    // bits of option_use to add to the group's uses, and bits to remove from the group's
+                                // uses
     const lam_setting *setting; // the library's setting that the option stores, or NULL
     // The option that accepts several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;
     const char *now;    // the option that replaces this obsolete option, or NULL
-    const char *key;    // its key in the value of `now`, such as "width" of "edge-width" in "--edges all,width=2"
+    const char *key;    // the key that replaces this option in the value of `now`: "width" in "--edges all,width=2"
+                        // replaces --edge-width
     bool keyed;         // whether other options are keys of the option's value
-    const char *former; // the option that formerly had this name, suggested for values that it accepts; or NULL
+    const char *former; // NULL, or the option that formerly had this name; suggested if `former` accepts the value
 };
 
 // Ends with a NULL name. Only option_table_fill modifies it.
@@ -193,7 +195,8 @@ int options_first_operand(int count, char **words);
 enum { OPTION_WORDS_SIZE = 256 };
 const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE]);
 
-// Returns true if the command line contains the option with this long name, or its key in another option's value.
+// Returns true if the command line contains the option with this long name, or the option's key in the value of another
+// option.
 bool option_given(const struct options *options, const char *name);
 
 // Returns true if a command accepts an option. `groups` has bit g set for each complete group, and TAKES_… bits.

@@ -44,7 +44,7 @@ struct settings_parser {
 // --- the position of a key
 
 // Returns the line of a key in valid JSON text; `group` is the object that contains the key, or NULL for the top level.
-// Returns 1 if the key is written with escapes.
+// Returns line 1 if the text writes the key with escapes.
 static int line_of(const char *text, const char *group, const char *key)
 {
     int line = 1, depth = 0;
@@ -179,7 +179,7 @@ static bool put_value(FILE *out, const struct option *option, const json_t *valu
 
 // --- one key
 
-// Returns whether the command line or a look already sets the option, or an option that must match it.
+// Returns whether the command line or a look already sets `option`, or another option that must match `option`.
 static bool is_decided(const struct settings_parser *r, const struct option *option)
 {
     const char *name = option->name, *pair = strcmp(name, "shading") == 0 ? "stage"
@@ -228,20 +228,20 @@ static bool take_value(struct settings_parser *r, const char *group, const char 
     return true;
 }
 
-// Sets the ground. The kind "color" takes its colour from the key "ground_color".
+// Sets the ground plane. For the kind "color", the key "ground_color" contains the colour.
 static bool take_ground(struct settings_parser *r, const json_t *value)
 {
     const struct option *option = option_find("ground");
     bool color = json_is_string(value) && strcmp(json_string_value(value), "color") == 0;
     if (color && !json_is_string(r->ground_color))
         return wrong(r, NULL, "ground",
-                     "found 'color', expected a string \"ground_color\" beside it, such as \"#888888\"");
+                     "found 'color', expected a string \"ground_color\" as well, such as \"#888888\"");
     if (!color && r->ground_color)
-        return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" beside it");
+        return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" as well");
     return take_value(r, NULL, "ground", option, color ? r->ground_color : value);
 }
 
-// Returns whether the value means the default in scene files, but is not a word of the option.
+// Returns whether the value selects the default in scene files, but is not a keyword that the option accepts.
 static bool is_plain_default(const lam_setting *setting, const json_t *value)
 {
     const char *choice;
@@ -290,7 +290,7 @@ static bool take_root(struct settings_parser *r, json_t *root)
     json_t *value;
     r->ground_color = json_object_get(root, "ground_color");
     if (r->ground_color && !json_object_get(root, "ground"))
-        return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" beside it");
+        return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" as well");
     json_object_foreach(root, key, value)
     {
         bool is_group = strcmp(key, "image") == 0 || strcmp(key, "environment") == 0;

@@ -196,7 +196,7 @@ static bool take_stops(const char *text, struct sweep *sweep, lam_error *error)
     return true;
 }
 
-// Checks each stop with the option's own parser. The values between the stops lie in the same range.
+// Checks each stop with the option's own parser. Values between two valid stops are also valid.
 static bool check_stops(const struct sweep *sweep, lam_error *error)
 {
     for (int i = 0; i < sweep->stop_count && sweep->option; i++) {

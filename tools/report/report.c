@@ -21,8 +21,7 @@ static const char *format_of(const lam_scene *scene)
     return format && *format ? format : "shape";
 }
 
-// Converts radians to degrees. Rounds to thirteen digits, because a conversion to radians and back does not change
-// these digits.
+// Converts radians to degrees. Rounds to thirteen digits. A conversion to radians and back preserves these digits.
 static double degrees(double angle_rad)
 {
     char text[32];

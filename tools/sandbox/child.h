@@ -28,7 +28,7 @@ int child_wait(struct child *child);
 
 void child_kill(const struct child *child);
 
-// Waits for the end of a process that is not a struct child, or does nothing if `pid` is not positive.
+// Waits for the end of a process without a struct child. Does nothing if `pid` is not positive.
 int child_wait_pid(pid_t pid);
 
 // Received bytes.

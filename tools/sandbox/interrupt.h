@@ -14,11 +14,11 @@ const lam_cancel *interrupt_flag(void);
 bool interrupted(void);
 
 // Writes pending output and ends the program with the received signal, so that the parent process sees the cause. For
-// example, a shell reports 130 for Ctrl-C and stops its loop.
+// example, after Ctrl-C a shell reports 130 and ends the loop that called the program.
 void interrupt_finish(void) __attribute__((noreturn));
 
-// Must be called in a new process. Kills the process when the thread that started it ends. `parent` is the process of
-// that thread.
+// Must be called in a new process. The system then kills this process when the thread that started the process ends.
+// `parent` is the process of that thread.
 void interrupt_with_parent(pid_t parent);
 
 #endif

@@ -186,8 +186,8 @@ static bool enter_landlock(const struct sandbox_paths *paths, int version)
     return ok;
 }
 
-// Drops all privileges of root except access to any file. For example, CAP_PERFMON would reveal the environment of
-// other processes in spite of Landlock.
+// Drops the privileges of root. Keeps only the privilege to access any file. For example, CAP_PERFMON would reveal the
+// environment of other processes in spite of Landlock.
 static void drop_capabilities(void)
 {
     struct __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};

@@ -8,7 +8,7 @@
 
 enum {
     SANDBOX_READ = 1,  // a file, or all files in a folder and its subfolders
-    SANDBOX_WRITE = 2, // a pipe or a device, but not a file, which the writer writes (writer.h)
+    SANDBOX_WRITE = 2, // a pipe or a device; the writer writes files (writer.h)
     // SANDBOX_MAKE lets the writer create a file, and replace a file that Lambent wrote. SANDBOX_REPLACE lets the
     // writer replace any file.
     SANDBOX_MAKE = 4,
@@ -61,16 +61,17 @@ const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEX
 // Selects the system calls that the seccomp filter permits, as bits.
 enum sandbox_filter {
     SANDBOX_DRAWS = 0, // reading and drawing: no processes, no sockets, files only read
-    // Also accepts connections on listening sockets, watches files, and starts and ends processes of its own program,
-    // which may then install SANDBOX_DRAWS. The process still cannot create, bind or connect sockets or run programs.
+    // Also accepts connections on listening sockets, watches files, and starts and ends processes of its own program.
+    // These processes may then install SANDBOX_DRAWS. The process still cannot create, bind or connect sockets or run
+    // programs.
     SANDBOX_SERVES = 1,
     SANDBOX_OPENS_PIPES = 2, // also opens existing files for writing, if Landlock permits it
-    // Forbids openat2, whose flags a filter cannot check, for kernels whose Landlock does not stop truncation.
+    // Forbids openat2. Needed if Landlock does not prevent truncation, because a filter cannot check openat2's flags.
     SANDBOX_NO_OPENAT2 = 4,
 };
 
 // sandbox_filter.c: installs a seccomp filter for all threads in addition to the active filters. Returns false and sets
-// errno if the kernel rejects it.
+// errno if the kernel rejects the filter.
 bool sandbox_filter_install(unsigned kind);
 
 #endif

@@ -1,7 +1,7 @@
 // sandbox_filter.c: installs the seccomp filter, which allows the system calls needed for reading and drawing. All
-// other calls fail with ENOSYS. The process therefore cannot run programs, create sockets or mount file systems. It
-// cannot create, trace, signal, measure or slow down other processes, and it cannot create, rename or remove files or
-// change their permissions. https://docs.kernel.org/userspace-api/seccomp_filter.html
+// other calls fail with ENOSYS. The process therefore cannot run programs, create sockets or mount file systems. The
+// process cannot create, trace, signal, measure or slow down other processes. It cannot create, rename or remove files
+// or change file permissions. https://docs.kernel.org/userspace-api/seccomp_filter.html
 
 // The filter returns ENOSYS instead of killing the process, so that C libraries that try a newer call fall back to an
 // older call. The filter is written by hand because it consists of two lists, and libseccomp would be another library
@@ -162,8 +162,8 @@ struct condition {
 #endif
 
 enum {
-    // Flags of open() that create or truncate a file. Before version 3, Landlock does not stop O_TRUNC alone from
-    // emptying a read-only file.
+    // Flags of open() that create or truncate a file. Before version 3, Landlock does not prevent O_TRUNC from emptying
+    // a file that is opened for reading.
     MAKES = O_CREAT | O_TRUNC | (O_TMPFILE & ~O_DIRECTORY) | O_ASYNC,
     WRITES = O_WRONLY | O_RDWR,
     NAMESPACES =

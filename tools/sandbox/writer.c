@@ -72,7 +72,7 @@ static struct {
     void *user;
     uint64_t largest;             // the largest size of the contents; 0 means unlimited
     pthread_mutex_t lock;         // protects the rule and the list
-    struct own_file own[OWN_MAX]; // the most recent files; older files are treated as foreign
+    struct own_file own[OWN_MAX]; // the most recent files; older files are treated like the files of other programs
     size_t own_count;
 } writing = {.lock = PTHREAD_MUTEX_INITIALIZER};
 

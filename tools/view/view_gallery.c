@@ -23,15 +23,15 @@ char *view_gallery_words(const struct view *view, const char *model, size_t *siz
     if (!words)
         return NULL;
     memcpy(words, model, name);
-    if (given) // the address of an empty text may be NULL
+    if (given) // memcpy must not receive NULL, even for 0 bytes
         memcpy(words + name, view->page.words, given);
     memcpy(words + name + given, own[0], last);
     *size = name + given + last;
     return words;
 }
 
-// Reads a model's size and time. Returns false if the file cannot be opened, for example because it is a link that
-// leads out of the folder.
+// Reads the size and the modification time of a model file. Returns false if the file cannot be opened, for example
+// because it is a link that leads out of the folder.
 static bool is_open(const struct view *view, const char *path, struct stat *about)
 {
     int file = view_files_open(&view->files, path);

@@ -137,7 +137,7 @@ static bool fill(struct view_page *page, const char *text, const char *model, la
     return ok;
 }
 
-// Reads the module with threads, which is in the folder of the page if `make web` has made both.
+// Reads the module that supports threads. If `make web` has made this module, it is in the folder of the page.
 static bool take_module(struct view_page *page, const char *path, lam_error *error)
 {
     const char *slash = strrchr(path, '/');

@@ -1,4 +1,4 @@
-// view_peer.c: finds the user at the other end of a connection in the kernel's tables.
+// view_peer.c: uses the kernel's tables to find the user at the other end of a connection.
 #include "view_peer.h"
 
 #include <fcntl.h>
@@ -31,8 +31,8 @@ static bool is_other_end(const char *line, int other_port, int port, unsigned *s
     if (sscanf(line, " %*[^:]: %32[^:]:%x %32[^:]:%x %x %*[^ ] %*[^ ] %*x %u", local, &local_port, remote, &remote_port,
                state, user) != 6)
         return false;
-    // Every 32 bits of an address form a number in the machine's byte order; 127.0.0.1 is the last number in IPv4 and
-    // IPv6.
+    // The kernel prints an address as 32-bit numbers in the machine's byte order: one number for IPv4, four for IPv6.
+    // For a loopback connection, the last number is 127.0.0.1.
     static const unsigned char bytes[4] = {127, 0, 0, 1};
     unsigned loopback;
     char wanted[9];

@@ -1,11 +1,11 @@
 // view_peer.h: accepts only connections of the viewer's own user. The address with the token is an argument of xdg-open
-// and of the browser, which other users can read in /proc.
+// and of the browser, so other users can read the address in /proc.
 #ifndef VIEW_PEER_H
 #define VIEW_PEER_H
 
 #include <stdbool.h>
 
-// The kernel's tables of connections, /proc/net/tcp and tcp6; −1 if missing.
+// Open files: the kernel's tables of connections, /proc/net/tcp and tcp6. −1 if a table is missing.
 struct view_peers {
     int tables[2];
 };

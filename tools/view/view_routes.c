@@ -1,6 +1,6 @@
 // view_routes.c: decides which requests are answered. A page of another site can send requests here, and its host name
-// can resolve to this machine. However, that page does not know the token, the Host and Origin headers of its requests
-// differ, and it cannot read the answers (view_answer.c).
+// can resolve to this machine. However, that page does not know the token, its requests contain other Host and Origin
+// headers, and it cannot read the answers (view_answer.c).
 #include "view_routes.h"
 
 #include <arpa/inet.h>
@@ -101,7 +101,7 @@ static int number_of(const struct view_connection *c, const char *key)
     return text && *text && !*end && number >= 0 && number < 1 << 20 ? (int)number : -1;
 }
 
-// Starts a task. The connection is answered when the task is finished.
+// Starts a task. The viewer answers the request when the task is finished.
 static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, const char *words, size_t size,
                              const char *client)
 {
@@ -113,7 +113,8 @@ static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, con
     request.in_flight = client ? 1 : view->tasks.count - 1;
     c->kind = kind;
     if (kind == VIEW_MODEL)
-        view_watch_add(&view->watch, &view->files, words); // also an invalid file, which the user may correct
+        view_watch_add(&view->watch, &view->files, words); // watches even an invalid file, because the user may correct
+                                                           // it
     c->task = view_tasks_add(&view->tasks, &request, words, client, c);
     if (!c->task)
         return view_answer_text(view, c->connection, 503, "out of memory");
@@ -209,7 +210,7 @@ static enum MHD_Result answer_page(struct view_connection *c)
     return view_answer(c->view, c->connection, 200, "text/html; charset=utf-8", page->text, page->size, VIEW_BORROWED);
 }
 
-// Returns the path in the page that follows a route in an address, or NULL if the address has another route.
+// If an address begins with `route`, returns the rest: the path in the page. Otherwise returns NULL.
 static const char *path_after(const char *address, const char *route)
 {
     size_t length = strlen(route);
@@ -288,7 +289,7 @@ enum MHD_Result view_routes_answer(void *user, struct MHD_Connection *connection
         c->finished = false;
         return view_answer_result(c);
     }
-    if (c) { // a later call for the body, or while a task runs
+    if (c) { // a later call for the same request: the library passes the body, or a task is running
         *upload_size = 0;
         return MHD_YES;
     }

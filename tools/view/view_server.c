@@ -1,5 +1,5 @@
-// view_server.c: starts the server, runs its loop and ends it. The server needs only one thread, because every event
-// makes a file readable.
+// view_server.c: starts the server, runs its loop and ends it. The server needs only one thread, because it can wait
+// for all events with one call of poll.
 #include "view.h"
 
 #include <arpa/inet.h>
@@ -224,8 +224,8 @@ static void finish(struct view *view)
 static bool check(const struct options *o, lam_error *error)
 {
     return !show_is_all(o) || complain(error, LAM_BAD_ARGUMENT,
-                                       "option '--show all' writes the layers of an .exr file, which the viewer does "
-                                       "not show; expected one of its terms, such as '--show diffuse'");
+                                       "option '--show all' writes the layers of an .exr file, and the viewer cannot "
+                                       "show such a file; expected a single term, such as '--show diffuse'");
 }
 
 bool view_run(const char *operand, const struct options *options, lam_error *error)

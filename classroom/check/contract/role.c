@@ -21,7 +21,7 @@ const struct role roles[] = {
     {SEMANTIC_VIEW_PROJECTION, "view_projection", UNIFORM, TYPE_MATRIX, "world to clip space"},
     {SEMANTIC_MODEL_VIEW_PROJECTION, "model_view_projection", UNIFORM, TYPE_MATRIX, "model to clip space"},
     {SEMANTIC_NORMAL_MATRIX, "normal_matrix", UNIFORM | ROLE_IN_SPACE, TYPE_MATRIX,
-     "inverse transpose of the matrix from the model's space to the space in which lighting is computed"},
+     "inverse transpose of the matrix from model space to lighting space"},
     {SEMANTIC_EYE_POSITION, "eye_position", UNIFORM | ROLE_IN_SPACE, TYPE_VECTOR, "position of the eye"},
     {SEMANTIC_AMBIENT, "ambient", UNIFORM, TYPE_VECTOR | TYPE_SAMPLER, "ka: the ambient colour, times its strength"},
     {SEMANTIC_DIFFUSE, "diffuse", UNIFORM, TYPE_VECTOR | TYPE_SAMPLER, "kd; a: the opacity"},

@@ -26,8 +26,8 @@ const float *render_cache_find(lam_check_cache *cache, const struct render_key *
 // Stores a copy of `count` samples. A full cache stays unchanged.
 void render_cache_add(lam_check_cache *cache, const struct render_key *key, const float *samples, size_t count);
 
-// Returns an unused fault shader for pictures of this size and stride, and makes it current. If there is no such fault
-// shader, opens a new fault shader. Returns NULL and fills `error` on failure. `cache` may be NULL in both functions.
+// Returns an unused fault shader for pictures of this size and stride, or opens a new fault shader. Makes the fault
+// shader's context current. Returns NULL and fills `error` on failure. `cache` may be NULL in both functions.
 struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const lam_check_painter *painter, int size,
                                               int stride, lam_error *error);
 // Returns a shader to the cache; NULL is allowed.

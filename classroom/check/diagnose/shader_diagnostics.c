@@ -44,7 +44,7 @@ static bool is_noise(const char *words)
            strstr(words, ", error") || strstr(words, "of type error");
 }
 
-// Adds the messages of one log, each with the hints that explain it. If `d` is NULL, the log is the linker's.
+// Adds the messages of one log. Adds hints to each message. If `d` is NULL, the log is the linker's.
 static void add_log(struct diagnostics *diagnostics, const char *text, const struct declarations *d, const char *file)
 {
     char log[sizeof((struct draw_result *)0)->log];

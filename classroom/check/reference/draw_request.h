@@ -21,7 +21,7 @@ struct draw_result {
     int group_counts[MAX_LIGHT_GROUPS]; // for each array of lights, the number of lights that the driver uses
     char driver[128];
     bool refused_vertex, refused_fragment; // with DRAWN_REFUSED, the shaders that do not compile
-    // the log of the vertex shader or the linker; for DRAWN_SLOW the scene's name
+    // the log of the vertex shader or the linker; with DRAWN_SLOW, the name of the scene
     char log[4096];
     char fragment_log[4096];
     double seconds;                      // with DRAWN_SLOW, the processor time of that scene
@@ -29,7 +29,7 @@ struct draw_result {
     char types[MAX_UNKNOWN_NAMES][96];   // messages about uniforms whose type does not fit
     int unknown_count, types_count;
     unsigned scenes; // same as in the request
-    // RGBA, rows top-down, one picture after the other; points into the message.
+    // RGBA, top row first, one picture after the other. Points into the message.
     const float *pixels;
 };
 

@@ -61,8 +61,8 @@ static void delete_objects(struct gl_place *t)
     gl->DeleteRenderbuffers(1, &t->depth);
 }
 
-// Frees the context. If the context rests (`rests`), another context may be current. The objects are then freed
-// together with the context.
+// Frees the context. If `rests` is set, another context may be current. The objects are then freed together with the
+// context.
 static void close(void *place)
 {
     struct gl_place *t = place;

@@ -7,7 +7,7 @@
 enum { MAX_TEXTURE_COORDINATES = 2, MAX_FACTORS = 2 };
 
 struct place {
-    lam_check_painter painter; // this is a copy, because a cache may keep the context longer
+    lam_check_painter painter; // a copy, because a cache may keep the context longer than the original
     void *place;               // the painter's context; NULL if not open
     int size;
     char renderer[128];

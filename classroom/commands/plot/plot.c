@@ -1,4 +1,4 @@
-// plot.c: the command `plot`: plots attenuation, spot and highlight as curves and prints their numbers.
+// plot.c: the command `plot`: plots attenuation, spot cones and highlights as curves, and prints the values.
 #include "plot.h"
 
 #include <stdlib.h>
@@ -182,7 +182,7 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
     light.range = (float)part[3];
     lam_error reason;
     if (part[0] == 0 && part[1] == 0 && part[2] == 0)
-        return wrong(error, "attenuation", word, "at least one of a, b and c over 0");
+        return wrong(error, "attenuation", word, "at least one of a, b and c above 0");
     if (!lam_light_check(&light, &reason))
         return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
     return add_faded(plot, &light, NULL, error);
@@ -294,9 +294,9 @@ static const struct kind *find_kind(const char *name, lam_error *error)
     return NULL;
 }
 
-// Returns the length of the axis. The axis ends where the last curve has fallen to a twentieth, so that the curves fill
-// the plot. The length is 10 if no curve falls that far. The point where a curve falls below 1/255 is outside the axis,
-// so the legend states it.
+// Returns the length of the axis. The axis ends where the last curve has fallen to a twentieth of its maximum, so that
+// the curves fill the plot. The length is 10 if no curve falls that far. A curve falls below 1/255 beyond the end of
+// the axis, so the legend states this position.
 static double length_of(const struct plot *plot, double farthest)
 {
     double most = 0;
@@ -345,7 +345,7 @@ static void print_text(FILE *file, const struct plot *plot)
 {
     for (int i = 0; i < plot->count; i++) {
         const struct curve *c = &plot->curves[i];
-        // Pads by the number of characters, not of bytes.
+        // The width of the column is a number of characters, so bytes that continue a character are not counted.
         int letters = 0;
         for (const char *s = c->label; *s; s++)
             letters += (*s & 0xC0) != 0x80;

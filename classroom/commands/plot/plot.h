@@ -1,4 +1,4 @@
-// plot.h: labelled curves over one axis, computed by plot.c and drawn by plot_draw.c.
+// plot.h: labelled curves with a common x axis, computed by plot.c and drawn by plot_draw.c.
 #ifndef PLOT_H
 #define PLOT_H
 

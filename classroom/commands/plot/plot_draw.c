@@ -202,7 +202,8 @@ static const char *legend_of(const struct plot *plot, const struct curve *curve,
     return text;
 }
 
-// The legend: in the top right corner of the plot if no curve passes there, otherwise next to the plot.
+// The position of the legend: the top right corner of the plot if no curve crosses this corner, otherwise the space
+// next to the plot.
 struct names {
     double left, top, width, height; // pixels
 };

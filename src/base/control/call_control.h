@@ -14,8 +14,8 @@ struct call_control {
     // The latest request that exceeded a budget: the bytes in use, the requested bytes and the limit. Accessed
     // atomically.
     uint64_t refused_used, refused_bytes, refused_limit;
-    // The total size in bytes of all files read so far; accessed atomically. If it is 0, no file was read, and no limit
-    // is derived from file sizes.
+    // The total size in bytes of all files read so far; accessed atomically. If the total size is 0, no file was read,
+    // and no limit is derived from file sizes.
     uint64_t input_bytes;
     bool unknown_field; // the control sets a field that this version does not know
     double last_share;
@@ -57,15 +57,15 @@ unsigned call_json_depth_limit(const struct call_control *call);
 uint64_t call_layer_limit(const struct call_control *call);
 
 // Checks that a model or a rendered scene may contain this many triangles. Fails with LAM_LIMIT if there are too many.
-// The message calls them `items`, for example "triangles" or "lines".
+// `items` is the name of the primitives in the message, for example "triangles" or "lines".
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
 
 // Checks that a model may contain this many objects. Fails with LAM_LIMIT if there are too many.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
-// Checks the size in bytes of a compressed file's data after decompression. Fails with LAM_LIMIT if it exceeds the
-// memory that may be used to read the file.
+// Checks the size in bytes of a compressed file's data after decompression. Fails with LAM_LIMIT if this size exceeds
+// the memory that may be used to read the file.
 bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
 
 // Checks that a file of this size may be read. Fails with LAM_LIMIT if the file is too large.

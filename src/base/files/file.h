@@ -7,9 +7,9 @@
 #include "pool.h"
 
 // Files are read into memory in parallel chunks. Files are not mapped into memory, because SIGBUS would kill the
-// process if another program shortened a mapped file. Copying from the page cache into huge pages also takes no longer
-// than the page faults of a mapping. At least FILE_PADDING zero bytes follow the last byte, so a parser may read past
-// the end.
+// process if another program shortened a mapped file. Mapping would not be faster: its page faults take at least as
+// long as copying from the page cache into huge pages. At least FILE_PADDING zero bytes follow the last byte, so a
+// parser may read past the end.
 enum { FILE_PADDING = 64 };
 
 struct file_bytes {
@@ -34,13 +34,14 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
 
-// Checks that a path is a regular file, before another library opens it. Fails with LAM_CANNOT_READ if it is not.
+// Checks that a path is a regular file, before another library opens it. Fails with LAM_CANNOT_READ if the path is not
+// a regular file.
 bool file_check_regular(const char *path, lam_error *error);
 
-// Resolves every link and ".." of a path. Returns the resolved path, allocated with malloc, if it is the folder or is
-// inside the folder. A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is then
-// true) or cannot be resolved (errno says why). Sets *length to the length of the folder at the start of the result,
-// including its '/', or to 0 if the path is the folder itself.
+// Resolves every link and ".." of a path. If the resolved path is the folder or is inside the folder, returns this
+// path, allocated with malloc. A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is
+// then true) or cannot be resolved (errno is then set). Sets *length to the length of the folder at the start of the
+// result, including its '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
 // A large open file, of which any thread may read sections.
@@ -52,28 +53,28 @@ struct file_parts {
 // Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD bytes. Returns false if the file is smaller
 // or cannot be read.
 bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
-// Reads `bytes` bytes at an offset; all of them must be inside the file. Fails with LAM_CANNOT_READ; the message names
+// Reads `bytes` bytes at an offset; these bytes must be inside the file. Fails with LAM_CANNOT_READ; the message names
 // `path`.
 bool file_read_part(const struct file_parts *parts, const char *path, size_t offset, void *to, size_t bytes,
                     lam_error *error);
 void file_close_parts(struct file_parts *parts);
 
-// These functions allocate padded memory in the form that file_read returns. file_hold fills it with zeros; file_copy
-// fills it with a copy of `bytes`.
+// These functions allocate padded memory in the form that file_read returns. file_hold fills the memory with zeros;
+// file_copy fills the memory with a copy of `bytes`.
 bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 bool file_copy(const void *bytes, size_t size, struct call_control *call, struct file_bytes *out, lam_error *error);
 
 void file_release(struct file_bytes *bytes);
 
 // Moves the ownership of the bytes to the arena, without copying them. Returns false if memory runs out; `bytes` then
-// still owns them.
+// still owns the memory.
 bool file_move_to_arena(struct file_bytes *bytes, struct arena *arena);
 
 // Writes a file completely or not at all, and leaves no temporary file, even if a signal ends the process during the
 // call (file_write.c). The function keeps the read and write permissions of an existing file, but removes the execute
 // permission. A symbolic link is kept, and its target is replaced. A path that is not a regular file (/dev/stdout, a
-// pipe) is written directly. With `durable`, the file and its folder are on disk when the call returns, so that after a
-// power failure either the old file or the new file is complete. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the
+// pipe) is written directly. With `durable`, the file and its folder are on disk when the call returns. After a power
+// failure, either the old file or the new file is then complete. `call` may be NULL. Errors: LAM_CANNOT_WRITE, and the
 // errors of `call`: LAM_CANCELLED, LAM_LIMIT.
 bool file_write(const char *path, const void *data, size_t size, bool durable, struct call_control *call,
                 lam_error *error);

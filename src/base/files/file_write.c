@@ -35,7 +35,7 @@ static bool fail_writing(lam_error *error, const char *path, const char *action)
 
 // --- signals
 
-// Returns whether a signal that arrives now has no effect: it is ignored, explicitly or by default.
+// Returns whether the process ignores a signal, explicitly or by default.
 static bool is_ignored(int number, const struct sigaction *action)
 {
     if (action->sa_handler == SIG_IGN)
@@ -87,8 +87,8 @@ struct writing {
 };
 
 // Returns false and sets errno on failure. The errno ECANCELED means that the call must stop; EINTR means that a fatal
-// signal is pending. `before` is the set of signals that were blocked before file_write blocked all signals; NULL means
-// that file_write has not blocked signals.
+// signal is pending. If file_write has blocked all signals, `before` is the previous set of blocked signals; otherwise
+// NULL.
 static bool write_all(int file, const struct writing *w, const sigset_t *before)
 {
     const uint8_t *at = w->data;
@@ -123,8 +123,8 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
         return false;
     if (w->durable && !sync_file(file))
         return false;
-    // Some file systems report errors only on close. Closing a duplicate reports them while the file can still be
-    // discarded.
+    // Some file systems report errors only on close. Closing a duplicate handle reports these errors while the file can
+    // still be discarded.
     int copy = dup(file);
     return copy < 0 || close(copy) == 0;
 }
@@ -198,7 +198,7 @@ static bool link_over(int file, const char *target)
     return ok;
 }
 
-// Sets *possible to whether the file system supports unnamed files. If it does not, nothing has been written.
+// Sets *possible to false if the file system does not support unnamed files. In this case, nothing is written.
 static bool write_unnamed(const struct writing *w, bool *possible)
 {
     char *folder = folder_of(w->target);

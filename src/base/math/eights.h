@@ -12,8 +12,8 @@ typedef float eight_memory __attribute__((vector_size(32), aligned(4), may_alias
 LANE_FN eight eight_of(float x) { return x - (eight){0}; }
 LANE_FN eight eight_load(const float *at) { return (eight) * (const eight_memory *)at; }
 
-// The minimum and maximum are defined like min_of and max_of in lanes.h. The last function returns the lanes in which a
-// ≤ b as a bit mask: bit i is lane i.
+// The minimum and maximum are defined like min_of and max_of in lanes.h. eight_not_above returns a bit mask: bit i is
+// set if a ≤ b in lane i.
 #if defined(__AVX__)
 LANE_FN eight eight_min(eight a, eight b) { return (eight)_mm256_min_ps((__m256)a, (__m256)b); }
 LANE_FN eight eight_max(eight a, eight b) { return (eight)_mm256_max_ps((__m256)a, (__m256)b); }

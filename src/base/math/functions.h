@@ -73,9 +73,9 @@ LANE_FN num exp2_of(num y)
 
 // Computes y = exponent · log₂ base as head + tail, for a normal base > 0 that is already split. A power needs y with
 // an error of at most 2e-6 for y up to 126, and a float lacks two bits for this. Therefore the logarithm and the
-// exponent are each split into a head of 12 bits and a tail. (The logarithm's head may be any nearby value; a short
-// estimate is used.) Head · head is then exact, and only small products are rounded. The split of the exponent is the
-// same for every pixel, so the compiler moves it out of the loop.
+// exponent are each split into a head of 12 bits and a tail. Head · head is then exact, and only small products are
+// rounded. (The logarithm's head may be any nearby value, so a short estimate is used.) The split of the exponent is
+// the same for every pixel, so the compiler moves it out of the loop.
 struct two_parts {
     num head, tail;
 };
@@ -100,9 +100,9 @@ LANE_FN num min_base(num exponent) { return pick(exponent > 0.0f, num_of(SMALLES
 // the smallest normal number becomes 0, because calculations with denormals take two to three times as long. The
 // relative error is at most 2e-6 for exponents up to 128, and 3e-6 for all others.
 //
-// Three functions compute the steps, so that a loop over many powers overlaps their latencies. The first splits the
-// base, the second computes its logarithm (with a head of −∞ if the power is 0), and the third computes the power of
-// two.
+// Three functions compute the three steps, so that a loop over many powers overlaps the latencies of the steps. The
+// first splits the base, the second computes its logarithm (with a head of −∞ if the power is 0), and the third
+// computes the power of two.
 LANE_FN struct binary_parts unit_parts_of(num base) { return binary_parts_of(min_of(base, num_of(1.0f))); }
 
 LANE_FN struct two_parts unit_power_logarithm(num base, struct binary_parts parts, num exponent)
@@ -141,7 +141,7 @@ LANE_FN num power(num base, num exponent)
 // of the first step are chosen to make its result slightly too small, because x·y² then has a smaller rounding error.
 // The last step is of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
 //
-// Two functions compute the approximation and its refinement, so that loops can overlap their latencies.
+// Two functions compute the approximation and its refinement, so that loops can overlap the latencies of the two steps.
 LANE_FN num rsqrt_near(num x)
 {
     num y = num_of_bits(wrap_sub(inum_of(0x5f1ffff9), shift_right(bits_of(x), 1)));

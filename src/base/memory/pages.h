@@ -17,11 +17,11 @@ void *pages_get(size_t bytes, size_t *held);
 // Allocates small pages, for sparsely used blocks.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
-// Allocates memory that free() releases. Large memory is in huge pages. A program may keep freed memory for later
-// allocations, and the system then need not clear the memory again.
+// Allocates memory that free() releases. Large blocks use huge pages. A program may keep freed memory for later
+// allocations, so that the system need not clear new memory.
 void *pages_malloc(size_t bytes);
-// Makes the pages that contain `bytes` bytes at `at` ready to be written, with one system call. The call takes a third
-// of the time that accesses to one page after the other would take. Some systems ignore the call.
+// With one system call, prepares the pages that contain `bytes` bytes at `at` for writing. If each first access
+// prepared its page, this would take three times as long. Some systems ignore the call.
 void pages_prepare(void *at, size_t bytes);
 // Releases the pages after the first `bytes` bytes, if the system supports this.
 void pages_trim(void *pages, size_t *held, size_t bytes);

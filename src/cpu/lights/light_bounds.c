@@ -10,8 +10,8 @@
 
 enum { KEY_BITS = 10, PASS_BITS = 11 };
 
-// The maximum slope of the sRGB curve, which is at black. This slope limits how much a small amount of light changes a
-// byte.
+// The slope of the sRGB curve at black, where the slope is largest. This slope limits how much a small amount of light
+// changes a byte.
 #define SRGB_SLOPE 12.92f
 
 // The sort key of a light.

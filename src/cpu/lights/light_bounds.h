@@ -27,7 +27,8 @@ struct light_bounds {
     // `capacity` numbers per material. For the diffuse term, the largest channel of kd ⊙ Ld, before vertex colours tint
     // it (with gl1, the largest channel of ka ⊙ La is added). For the specular term, the largest channel of ks ⊙ Ls.
     const float *max_diffuse, *max_specular;
-    // For each group: the bounding box of its lights and their maximum range; infinite if a light has no range.
+    // For each group: the bounding box of the lights, and the maximum of their ranges. The maximum is infinite if a
+    // light has no range.
     int group_count, group_capacity;
     const float *group_low[3], *group_high[3], *group_reach;
     const uint32_t *all; // 0, 1, 2 … count − 1

@@ -9,7 +9,8 @@
 // tile's triangles. Back faces are drawn last, because most of them are then occluded. The box and the nearest key of
 // an entry's back faces are tested first (occlusion.inc).
 enum {
-    TILE_BINS = 2, // bin 2·t of tile t, and bin 2·t + 1 of its back faces
+    TILE_BINS = 2, // bin 2·t of tile t contains front faces and large back faces, and bin 2·t + 1 contains small back
+                   // faces
     BIN_BLOCK_ENTRIES = 40,
     SMALL = TILE * SUBPIXEL, // largest extent for which edge functions fit into 32 bits
 };
@@ -19,9 +20,9 @@ enum {
 // lists up to LANES triangles.
 struct bin_entry {
     uint32_t first;     // a triangle number
-    uint16_t triangles; // bit i: triangle first + i; one bit if the triangle is clipped
-    uint16_t box;       // for back faces: the box of the triangles in the tile (occlusion.inc)
-    float key;          // for back faces: the nearest key of the triangles' corners
+    uint16_t triangles; // bit i is set if the entry contains triangle first + i; one bit if the triangle is clipped
+    uint16_t box;       // for back faces: the box around the triangles in the tile (occlusion.inc)
+    float key;          // for back faces: the nearest key of all corners
 };
 
 struct bin_block {
@@ -52,7 +53,7 @@ struct thread_bins {
     struct slab_list clipped;
     uint32_t clipped_count;
     uint64_t triangles_binned;
-    uint64_t work; // units of work that have not been added yet
+    uint64_t work; // units of work that have not been added to the frame's sum yet
 };
 
 // Allocate a block for one more bin, or memory for one more clipped triangle. Both functions return NULL if memory runs

@@ -1,8 +1,8 @@
 // clip.c: clips triangles that cross the near or far plane or leave the guard band, in homogeneous coordinates.
 //
-// Sutherland and Hodgman, "Reentrant polygon clipping", 1974. An edge is always cut from its inner end towards its
-// outer end. Two triangles that share the edge therefore have the same point, bit for bit, and there is no gap between
-// them.
+// Sutherland and Hodgman, "Reentrant polygon clipping", 1974. The intersection of an edge and a plane is always
+// computed from the inner end towards the outer end. Two triangles that share the edge therefore contain the same
+// point, bit for bit, and there is no gap between them.
 #include "clip.h"
 
 #include <string.h>
@@ -15,8 +15,8 @@ struct corner {
 // folded.
 enum { PLANES = 6, CORNERS_MAX = 3 << PLANES };
 
-// Returns the distance to a plane times a positive number; it is ≥ 0 inside. The near and far planes are tested first,
-// so that w > 0 when the guard band is tested.
+// Returns the distance to a plane, multiplied by a positive number. The result is ≥ 0 inside. The near and far planes
+// are tested first, so that w > 0 when the guard band is tested.
 static float distance(const struct raster_frame *raster, const struct corner *c, int plane)
 {
     float dx = c->x - 0.5f * (float)raster->frame->width * c->w;

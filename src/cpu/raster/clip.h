@@ -4,7 +4,8 @@
 
 #include "bins.h"
 
-// For a vertex that needs clipping, x is a NaN. Its low bits are flags for the planes that the vertex is outside of.
+// For a vertex that needs clipping, x is a NaN. The low bits of this NaN are flags. A flag is set if the vertex is
+// outside the plane.
 enum outside {
     OUTSIDE_LEFT = 1,
     OUTSIDE_RIGHT = 2,
@@ -16,8 +17,8 @@ enum outside {
 };
 #define OUTSIDE_NAN 0x7fc00000
 
-// Clips triangle t of a draw (with the number `id`) against each plane that at least one of its corners is outside of.
-// Bins the resulting triangles.
+// Clips triangle t of a draw (with the number `id`) against each plane for which at least one corner is outside. Bins
+// the resulting triangles.
 void clip_triangle(const struct raster_frame *raster, struct thread_bins *bins, const struct frame_draw *draw,
                    uint32_t t, uint32_t id);
 

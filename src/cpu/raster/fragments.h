@@ -1,4 +1,4 @@
-// fragments.h: a tile's fragments, one for each pixel and each triangle that is visible in it.
+// fragments.h: a tile's fragments, one for each pixel and each triangle that is visible in this pixel.
 #ifndef FRAGMENTS_H
 #define FRAGMENTS_H
 

@@ -28,13 +28,13 @@ static inline struct tile tile_at(int x, int y, int picture_width, int picture_h
     return (struct tile){x, y, width < TILE ? width : TILE, height < TILE ? height : TILE};
 }
 
-// Pixels of a tile, both ends included.
+// A rectangle of pixels in a tile, including the last column and row.
 struct rectangle {
     int left, top, right, bottom;
 };
 
-// A tile's samples are stored cell by cell. A cell contains CELL samples, whose area is as square as possible, so that
-// a small triangle touches few cells. Within a cell, pixels are stored row by row, and the samples of a pixel are
+// A tile's samples are stored cell by cell. A cell contains CELL samples. Its shape is as square as possible, so that a
+// small triangle touches few cells. Within a cell, pixels are stored row by row, and the samples of a pixel are
 // adjacent.
 enum { CELL = 16 };
 struct cells {

@@ -1,5 +1,5 @@
-// visible_triangles.c: collects data of the whole picture before lighting. For meshes without normals, it finds the
-// visible triangles and their normals. For ambient occlusion, it finds the distances of surfaces.
+// visible_triangles.c: collects data of the whole picture before lighting. For meshes without normals, finds the
+// visible triangles and their normals. For ambient occlusion, finds the distances of surfaces.
 #include "visible_triangles.h"
 
 #include "cpu_frame.h"
@@ -37,8 +37,8 @@ struct tile_search {
     struct arena *arenas;
 };
 
-// Number of tiles for each thread. If all of them are covered, they contain about a quarter of a million fragments,
-// which need more than a megabyte.
+// Number of tiles for each thread. If all tiles are covered, they contain about a quarter of a million fragments, which
+// need more than a megabyte.
 enum { LARGE_PICTURE = 64 };
 
 // Finds the lowest and the highest triangle of the fragments.
@@ -130,7 +130,7 @@ static bool search_tiles(struct cpu_frame *cpu, struct visible_buffers *buffers,
     return true;
 }
 
-// Frees the bins, which are no longer needed, if they are large.
+// Frees the bins if they are large, because they are no longer needed.
 static void release_bins(struct cpu_frame *cpu)
 {
     size_t tiles = tile_count(cpu);

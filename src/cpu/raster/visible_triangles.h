@@ -16,11 +16,11 @@ struct visible_buffers {
     double search_ms;        // the time for finding the visible triangles in the last frame
 };
 
-// Returns whether cover_in_advance, if it is called, finds each tile's fragments and keeps them until they are shaded.
+// Returns whether cover_in_advance would find each tile's fragments and keep them until they are shaded.
 bool keeps_fragments(const struct cpu_frame *cpu);
 
-// Finds the distances of the surfaces (cpu->occlusion), and the visible triangles and their normals, as far as the
-// frame needs them. If all surfaces are opaque, each tile's fragments are found at the same time and kept; otherwise
+// If the frame needs them, finds the distances of the surfaces (cpu->occlusion), the visible triangles, and the normals
+// of these triangles. If all surfaces are opaque, each tile's fragments are found at the same time and kept; otherwise
 // every binned triangle is treated as visible.
 bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error);
 void visible_buffers_empty(struct visible_buffers *buffers, int threads); // frees the fragment stores

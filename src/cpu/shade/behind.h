@@ -8,8 +8,8 @@
 enum { BEHIND_LEVELS = 24 };
 
 // A texel is the mean of the pixels that it covers; all texels of a level have the same size, about 2^level pixels.
-// Beyond the border, the border texels are used. Each texel is four floats: premultiplied light before exposure, and
-// alpha.
+// Beyond the border, the border texels are used. Each texel consists of four floats: premultiplied light before
+// exposure, and alpha.
 struct behind {
     int levels;
     int width[BEHIND_LEVELS], height[BEHIND_LEVELS];

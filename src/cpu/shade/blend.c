@@ -163,7 +163,7 @@ static void rank_layers(const struct fragments *fragments, const struct layer_ro
     sort_by_rank(layers, count);
 }
 
-// Blends the layers of one pixel: adds to its sums, and sets the transmittance of each sample.
+// Blends the layers of one pixel: adds to the pixel's sums, and sets the transmittance of each sample.
 static void blend_pixel(const struct fragments *fragments, const struct layer_rows *rows, struct blend_scratch *scratch,
                         int samples, int pixel, struct pixel_sums *sums, struct recorder *recorder)
 {
@@ -204,7 +204,7 @@ static float mean_of(const float left[3]) { return (left[0] + left[1] + left[2])
 
 // Sums the layers of a sample with a transmittance per channel. A fragment with opacity a, colour C and transmittance T
 // changes the light L behind it to C a + L (1 - a (1 - T)). A surface that refracts shows the picture behind it, which
-// already contains the opaque surfaces. They are therefore omitted.
+// already contains the opaque surfaces. The opaque surfaces are therefore omitted.
 static struct layer_sum sum_layers(const struct fragments *fragments, const struct layer_rows *rows,
                                    const struct layer *layers, uint32_t count, int sample, struct recorder *recorder,
                                    int pixel, float share)
@@ -233,8 +233,8 @@ static struct layer_sum sum_layers(const struct fragments *fragments, const stru
     return l;
 }
 
-// A pixel with layers that have a transmittance per channel. A picture has only one alpha, which becomes the mean of
-// the channels; the visible background is tinted by the difference.
+// A pixel with layers that have a transmittance per channel. A picture has only one alpha per pixel, the mean of the
+// channels. The differences from the mean tint the visible background.
 struct tinted_pixel {
     int number;      // index in the tile
     float x, y;      // the centre of the pixel in the picture

@@ -6,7 +6,7 @@
 #include "lighting.h"
 #include "prefiltered_lookup.h"
 
-_Static_assert((int)PREFILTERED_LAST == ENVIRONMENT_LEVELS - 1, "lobes.h and environment_light.h have the same levels");
+_Static_assert((int)PREFILTERED_LAST == ENVIRONMENT_LEVELS - 1, "lobes.h and environment_light.h use the same levels");
 
 LANE_FN vec3 to_environment_axes(const struct frame *frame, vec3 w)
 {
@@ -15,7 +15,7 @@ LANE_FN vec3 to_environment_axes(const struct frame *frame, vec3 w)
                    (m[2][0] * w.x + m[2][1] * w.y) + m[2][2] * w.z);
 }
 
-// Does the same as cube_look, but gathers the four texels around each direction one channel at a time.
+// Works like cube_look, but gathers the four texels around each direction one channel at a time.
 LANE_FN vec3 cube_gathered(const struct lam_environment *cube, vec3 direction)
 {
     struct cube_position on_cube = cube_position(direction.x, direction.y, direction.z, cube->size);
@@ -35,7 +35,7 @@ LANE_FN vec3 cube_gathered(const struct lam_environment *cube, vec3 direction)
     return vec3_of(mixed[0], mixed[1], mixed[2]);
 }
 
-// Does the same as prefiltered_look; if the material has no maps, all lanes read the same two levels.
+// Works like prefiltered_look. If the material has no maps, all lanes read the same two levels.
 LANE_FN vec3 prefiltered_gathered(const struct environment_light *light, num level, vec3 direction)
 {
     inum first = int_of(min_of(level, num_of((float)(ENVIRONMENT_LEVELS - 2))));

@@ -6,8 +6,8 @@
 #include "fragments.h"
 #include "resolve.h"
 
-// Writes a tile's pixels; for these outputs, it replaces the function `resolve` of the kernels. LAM_OUTPUT_CLIPPED uses
-// sums->unclipped, which contains the tile's pixels row by row.
+// Writes a tile's pixels. For these outputs, this function replaces the function `resolve` of the kernels.
+// LAM_OUTPUT_CLIPPED uses sums->unclipped, which contains the tile's pixels row by row.
 void output_tile(const struct resolve_target *target, const struct fragments *fragments,
                  const struct tile_samples *samples, struct pixel_sums *sums, const struct tile *tile);
 

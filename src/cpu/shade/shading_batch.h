@@ -1,4 +1,4 @@
-// shading_batch.h: batches of points that are shaded together, and the scratch memory of shading.
+// shading_batch.h: batches of points that are shaded together, and the scratch memory for shading.
 #ifndef SHADING_BATCH_H
 #define SHADING_BATCH_H
 
@@ -38,7 +38,7 @@ struct light_batch {
     float l[3][BATCH_ROW], distance[BATCH_ROW], arriving[BATCH_ROW];
     // the factor of the incoming light: 1 if there is a highlight, otherwise 0
     float share[BATCH_ROW];
-    float base[BATCH_ROW];                     // the bases of the packets listed below, consecutive
+    float base[BATCH_ROW];                     // the bases of the packets listed below, stored consecutively
     float first[BATCH_ROW], second[BATCH_ROW]; // values passed from one step to the next
     int packets[LIGHT_BATCH], packet_count;    // first points of the packets with a highlight
 };
@@ -76,7 +76,7 @@ struct shading_batch {
         float stretch[2][BATCH_ROW], anisotropy[BATCH_ROW]; // along tangent and bitangent
     } layered;
     float through[3][BATCH_ROW]; // transmittance of surfaces
-    float bend[3][BATCH_ROW];    // the same as fragments.bend, if the frame refracts
+    float bend[3][BATCH_ROW];    // the same as fragments.bend, if the frame is rendered with refraction
     float sign[BATCH_ROW];       // sign of the bitangent
     float rest[3][BATCH_ROW];    // same as vertex_cache.rest
     struct triangle_runs runs;
@@ -100,7 +100,7 @@ struct shadow_rows {
     int32_t own[BATCH_ROW];
 };
 
-// Scratch memory of one thread's shading, and its counters.
+// Scratch memory and counters for the shading of one thread.
 struct shading {
     struct shading_batch *batch;
     struct shadow_rows *shadows; // NULL if the frame traces no rays
@@ -109,7 +109,7 @@ struct shading {
     struct light_list lights;
     uint64_t points_lit, lights_evaluated, rays;
     struct work *work;  // the frame's work
-    uint64_t uncounted; // units of work that have not been added yet
+    uint64_t uncounted; // units of work that have not been added to `work` yet
 };
 
 #endif

@@ -8,7 +8,7 @@
 
 enum { CHECK_INTERVAL = 1 << 13 }; // welded numbers between two checks of the call
 
-// Pairs edges of opposite directions that have the same other end, in their order.
+// Pairs the outgoing and incoming edges with the same other end. Edges with the same ends are paired in their order.
 static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const uint64_t *in, uint32_t in_count)
 {
     for (uint32_t i = 0, k = 0; i < out_count && k < in_count;) {

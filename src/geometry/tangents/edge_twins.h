@@ -18,8 +18,8 @@ struct edge_twins {
     uint32_t *first, *list;
 };
 
-// The edges of triangles that have a bit of `left_out` in their flags get no twins, and the corners of these triangles
-// are not in the list. `memory` owns the result and the scratch memory.
+// Omits triangles whose flags contain a bit of `left_out`: their edges get no twins, and their corners are not in the
+// list. `memory` owns the result and the scratch memory.
 bool edge_twins(struct edge_twins *edges, const struct corner_weld *weld, uint32_t triangle_count, const uint8_t *flags,
                 unsigned left_out, struct arena *memory, struct call_control *call, lam_error *error);
 

@@ -13,7 +13,7 @@
 #include <string.h>
 
 enum { CHECK_INTERVAL = 1 << 13 }; // triangles or corners between two checks of the call
-// if the lengths of the summands add up to 1, a sum shorter than this is zero except for rounding errors
+// a sum is treated as zero if its length is below this fraction of the sum of the summands' lengths
 #define ZERO_SUM 1e-6
 
 struct tangent_maker {
@@ -110,7 +110,7 @@ static bool make_groups(struct tangent_maker *m, struct call_control *call, lam_
 }
 
 // Normalises the sums. A zero sum is replaced with the tangent for meshes without texture coordinates, computed from
-// the normal of its corners.
+// the normal of the group's corners.
 static void finish_sums(const struct tangent_maker *m, float (*sums)[4])
 {
     bool zeros = false;

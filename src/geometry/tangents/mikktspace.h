@@ -1,7 +1,7 @@
 // mikktspace.h: MikkTSpace tangents, which baked normal maps require.
 //
 // From M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited" (2008), and glTF 2.0, section 3.7.2.1, which refers
-// to it:
+// to this paper:
 //
 // 1. Corners with the same position, normal and texture coordinates are welded, regardless of their indices.
 // 2. A triangle has the direction ∂p/∂s and an orientation, the sign of its area in the texture. A triangle whose

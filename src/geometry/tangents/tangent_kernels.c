@@ -78,7 +78,8 @@ struct directions {
     mask preserving, joins_any;
 };
 
-// Solves p = p0 + ∂p/∂s·Δs + ∂p/∂t·Δt for two edges, times the triangle's area in the texture.
+// Solves p = p0 + ∂p/∂s·Δs + ∂p/∂t·Δt for two edges. The derivatives are multiplied by the triangle's area in the
+// texture.
 LANE_FN struct directions directions_of(const struct triangles *from)
 {
     num s0 = num_load(from->s[0]), t0 = num_load(from->t[0]);

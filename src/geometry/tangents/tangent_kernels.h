@@ -17,10 +17,10 @@ enum { TRIANGLES_AFTER = 15 }; // number of flags after the last triangle that m
 struct tangent_kernels {
     // Sets the flags of the triangles from `first` to `end`, except TRIANGLE_HAS_A_GROUP.
     void (*look)(const lam_mesh *mesh, uint32_t first, uint32_t end, uint8_t *flags);
-    // Adds the corners of these triangles, in order, to the sums of their groups. Each summand is the triangle's ∂p/∂s,
-    // made perpendicular to the normal, normalized, and multiplied by the angle at the corner, measured in the plane
-    // perpendicular to the normal. The fourth float is the sum of these angles. Corners of triangles with
-    // TRIANGLE_DEGENERATE or TRIANGLE_JOINS_ANY add nothing.
+    // Adds the corners of these triangles, in order, to the sums of their groups. For each summand, makes the
+    // triangle's ∂p/∂s perpendicular to the normal, normalizes the result, and multiplies it by the angle at the
+    // corner. The angle is measured in the plane perpendicular to the normal. The fourth float is the sum of these
+    // angles. Corners of triangles with TRIANGLE_DEGENERATE or TRIANGLE_JOINS_ANY add nothing.
     void (*add)(const lam_mesh *mesh, uint32_t first, uint32_t end, const uint8_t *flags, const uint32_t *groups,
                 float (*sums)[4]);
 };

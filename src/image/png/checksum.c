@@ -66,7 +66,7 @@ void adler_zeros(struct adler_part *part, uint64_t count)
 
 void adler_join(struct adler_part *part, const struct adler_part *next)
 {
-    // In the joined sequence, the weight of every byte of `part` is larger by next->size.
+    // Joining the sequences increases the weight of every byte of `part` by next->size.
     uint64_t follow = next->size % ADLER_MODULUS * part->sum;
     part->weighted = (uint32_t)((part->weighted + follow + next->weighted) % ADLER_MODULUS);
     part->sum = (part->sum + next->sum) % ADLER_MODULUS;

@@ -27,7 +27,7 @@ struct adler_part {
 
 // These functions append to a sequence: one byte, several bytes, zeros, a row of pixels, or the sequence that follows.
 // A row consists of `width` 32-bit words. The first `bytes_per_pixel` bytes (1 … 4) of a word are in the stream, and
-// its other bytes must be zero. The words after the row, up to a multiple of 4, must also be zero.
+// the other bytes of the word must be zero. The words after the row, up to a multiple of 4, must also be zero.
 void adler_byte(struct adler_part *part, uint8_t byte);
 void adler_bytes(struct adler_part *part, const uint8_t *bytes, size_t size);
 void adler_zeros(struct adler_part *part, uint64_t count);

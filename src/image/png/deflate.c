@@ -18,8 +18,8 @@ typedef u32x4 u32x4_memory __attribute__((aligned(4), may_alias));
 
 static inline u32x4 load(const uint32_t *at) { return (u32x4) * (const u32x4_memory *)at; }
 
-// A value of last_positions that is not a position, and whose bytes are equal. The distance from this value to any
-// position is above DEFLATE_FARTHEST.
+// A value in last_positions that means "no position". All its bytes are equal, and its distance from any position is
+// above DEFLATE_FARTHEST.
 #define NO_POSITION 0x80808080u
 
 // Tokens are built as 64-bit integers; the first quarter is the lowest 16 bits.
@@ -78,8 +78,8 @@ static inline uint64_t unused_after(int used)
     return used == 4 ? 0 : all << 16 * used;
 }
 
-// Returns the symbol and the extra bits of a distance (RFC 1951, 3.2.5). From distance 5, there are two symbols for
-// each power of two.
+// Returns the symbol and the extra bits of a distance (RFC 1951, 3.2.5). For distances of 5 or more, there are two
+// symbols for each power of two.
 static inline uint64_t distance_of(uint32_t distance)
 {
     uint32_t before = distance - 1;
@@ -293,7 +293,7 @@ static inline int equal_bytes(const uint8_t *a, const uint8_t *b, int max)
     return max;
 }
 
-// Stores the lowest byte or the two lowest bytes of words, rounding the count up to 16 words.
+// Stores the lowest byte, or the two lowest bytes, of each of `count` words. Rounds `count` up to a multiple of 16.
 static inline void pack(uint8_t *out, const uint32_t *words, int count, int bytes_per_pixel)
 {
     typedef uint16_t u16x8 __attribute__((vector_size(16)));

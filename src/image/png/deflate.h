@@ -1,16 +1,16 @@
 // deflate.h: converts rows of filtered pixels to deflate blocks (RFC 1951).
 //
-// After a row filter, a lit picture consists of runs of one pixel (the background, flat areas) and noise of a few small
-// numbers. There are two methods of finding matches:
+// After a row filter, a lit picture consists of runs of equal pixels (the background, flat areas) and noise of a few
+// small numbers. There are two methods of finding matches:
 //  runs     only the previous pixel, repeated at least twice. Coloured noise is smallest as Huffman codes; matches over
 //           a distance make the file larger (measured: 5–20 %).
 //  matches  also the last position of the same few pixels. The caller uses this method for grey pictures and for grey
 //           strips of coloured pictures. In such strips, the three channels are equal, which codes of single bytes
 //           cannot exploit (measured: 20 % smaller).
 // Matches never leave the strip, so each strip can be encoded separately, with Huffman codes from its own counts.
-// The filtered pixels are first converted to a flat list of tokens, and then the tokens to bits. The loops over this
-// list, and the search for runs, contain no branch that depends on the picture, because a misprediction takes as long
-// as writing two pixels.
+// The filtered pixels are first converted to a flat list of tokens. The tokens are then converted to bits. The loops
+// over this list, and the search for runs, contain no branch that depends on the picture, because a misprediction takes
+// as long as writing two pixels.
 #ifndef DEFLATE_H
 #define DEFLATE_H
 
@@ -40,17 +40,17 @@ struct token {
 
 enum { DEFLATE_HASH_BITS = 12 };
 
-// The state of one strip at a time, of at most `rows` rows of `width` pixels.
+// The state of the strip that is being encoded. A strip has at most `rows` rows of `width` pixels.
 struct deflate {
     int width, bytes_per_pixel;
     uint32_t *row;   // the next row: one word per pixel, with 4 words of padding before the row and 16 after it
     uint32_t *words; // the first row
-    size_t stride;   // words from row to row; 0 if the rows are packed
+    size_t stride;   // the distance between rows in words; 0 if the rows are packed
     uint8_t *stream; // the added rows as bytes, each after its filter, if the rows are packed; otherwise NULL
     uint8_t filter;
     bool matches;
     uint32_t y; // number of rows added
-    // With matches: for each hash of some pixels, their last position, as y << 16 | x, or as an offset in `stream`.
+    // With matches: the last position of pixels with each hash, as y << 16 | x, or as an offset in `stream`.
     uint32_t *last_positions;
     struct token *tokens, *end;
     // The number of occurrences of each kind in each quarter, for even and odd tokens separately.
@@ -69,9 +69,9 @@ size_t deflate_scratch(int width, int rows);
 void deflate_start(struct deflate *deflate, uint8_t filter, bool matches);
 void deflate_row(struct deflate *deflate, int first, int end);
 
-// Writes the added rows, each after its filter byte, as one or more blocks, none of which is marked as the last. An
-// empty stored block follows them, so that the output ends on a byte boundary (like zlib's sync flush). Returns the
-// number of bytes.
+// Writes the added rows, each after its filter byte, as one or more blocks. No block is marked as the last. At the end,
+// writes an empty stored block, so that the output ends on a byte boundary (like zlib's sync flush). Returns the number
+// of bytes.
 size_t deflate_write(const struct deflate *deflate, uint8_t *out);
 
 // Returns the maximum number of bytes that deflate_write writes.

@@ -64,8 +64,8 @@ void codes_make(struct codes *codes, const uint32_t counts[LITERALS], const uint
         codes->bits += (uint64_t)counts[i] * codes->length[i];
     for (int i = 0; i < DISTANCES; i++)
         codes->bits += (uint64_t)distance_counts[i] * (codes->distance_length[i] + distance_extra(i));
-    // Trailing zeros are not written. The first distance's code length is always written. If it is the only distance
-    // length and is zero, there are no distances.
+    // Trailing zeros are not written. The code length of the first distance is always written. If the first length is
+    // zero and no other length follows, there are no distances.
     for (codes->literals = LITERALS; !codes->length[codes->literals - 1];)
         codes->literals--;
     for (codes->distances = DISTANCES; codes->distances > 1 && !codes->distance_length[codes->distances - 1];)

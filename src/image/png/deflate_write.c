@@ -3,8 +3,8 @@
 
 size_t deflate_capacity(int width, int rows, int bytes_per_pixel)
 {
-    // The size of the stored blocks and of the empty block at the end, plus the bytes after them that the last 8-byte
-    // step overwrites.
+    // The sum of three sizes: the stored blocks, the empty block at the end, and the bytes after the end that the last
+    // 8-byte step overwrites.
     size_t bytes = (size_t)rows * ((size_t)width * (unsigned)bytes_per_pixel + 1);
     return bytes + 5 * (bytes / MAX_STORED + 2) + 8;
 }

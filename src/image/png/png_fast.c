@@ -93,8 +93,8 @@ static bool fast_start(struct png_encoding *encoding, struct pool *pool, struct 
 }
 
 const struct png_method png_fast = {
-    .strip_pixels = 1 << 15, // the words of a strip fit into the second-level cache; its Huffman codes need about 80
-                             // bytes
+    .strip_pixels = 1 << 15, // the words of a strip fit into the second-level cache, and the Huffman codes of a strip
+                             // need only about 80 bytes
     .zlib_flags = 0x01,      // the fastest level
     .start = fast_start,
     .strip = fast_strip,

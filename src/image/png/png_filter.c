@@ -26,9 +26,9 @@ INLINE u8x16 average(u8x16 a, u8x16 b)
 }
 
 // The Paeth predictor in 8-bit arithmetic. With p = a + b − c, |p − a| = |b − c| and |p − b| = |a − c|. If a and b are
-// on different sides of c, |p − c| is the difference between these two. If a and b are on the same side of c, |p − c|
-// is the sum of the other two distances. This sum is never the smallest distance, so 255 replaces it. If distances are
-// equal, a is preferred to b, and b to c.
+// on different sides of c, |p − c| is the difference between the other two distances. If a and b are on the same side
+// of c, |p − c| is the sum of the other two distances. This sum is never the smallest distance, so 255 replaces it. If
+// distances are equal, a is preferred to b, and b to c.
 INLINE u8x16 paeth(u8x16 a, u8x16 b, u8x16 c)
 {
     u8x16 b_below = below(b, c), a_below = below(a, c);
@@ -135,7 +135,8 @@ struct png_span png_span_of(const uint8_t *row, int width)
 
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width)
 {
-    enum { FURTHER = VECTOR / 4 }; // a filter changes one more pixel, and processes whole vectors
+    // A filter also changes the next pixel after the changed pixels, and it processes whole vectors.
+    enum { FURTHER = VECTOR / 4 };
     struct png_span both = row.first == row.end ? above : row;
     if (above.first < above.end) {
         both.first = above.first < both.first ? above.first : both.first;

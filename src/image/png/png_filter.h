@@ -15,14 +15,14 @@ enum png_filter {
 };
 
 // Filters a row of `width` RGBA pixels; `above` is the previous row (zeros for the first). `out` receives one word for
-// each pixel. The lowest bytes of a word are the pixel's bytes_per_pixel bytes of the stream (1: red; 2: red and alpha;
-// 3: red, green and blue; 4: all). The other bytes are zero. `out` has capacity for a multiple of 4 words; the words
-// after the first `width` become zero.
+// each pixel. The lowest bytes_per_pixel bytes of a word are the bytes of the stream: red (1), red and alpha (2), red,
+// green and blue (3), or all channels (4). The other bytes are zero. `out` has capacity for a multiple of 4 words; the
+// words after the first `width` become zero.
 void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, int bytes_per_pixel,
                     uint32_t *out);
 
-// The pixels of a row from `first` up to, but not including, `end`. All other pixels of the row are zero: transparent
-// background, which makes up most of many pictures. If `first` and `end` are equal, all pixels are zero.
+// The pixels of a row from `first` up to, but not including, `end`. All other pixels of the row are zero (transparent
+// background). Many pictures consist mostly of such pixels. If `first` and `end` are equal, all pixels are zero.
 struct png_span {
     int first, end;
 };

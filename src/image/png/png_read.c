@@ -43,8 +43,8 @@ static bool fits(const struct spng_ihdr *header, size_t size)
     return (bits / 8 + 1) * header->height / 1032 <= size;
 }
 
-// Converts 16-bit values to floats. The values are in the second half of the pixels' memory, so no value is overwritten
-// before it is read if the values are converted in ascending order.
+// Converts 16-bit values to floats. The values are in the second half of the pixels' memory and are converted in
+// ascending order, so each value is read before its memory is overwritten.
 static void widen(lam_image *image)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
@@ -107,8 +107,8 @@ static bool decode_rows(spng_ctx *spng, const struct picture_file *file, bool ke
     return !code || fail(error, LAM_CANNOT_READ, "%s: PNG pixels: %s", file->name, spng_strerror(code));
 }
 
-// Sets *wide to whether the file has 16 bits per channel; if so, all bits are kept. If `wide` is NULL, 16-bit samples
-// are converted to 8 bits, and an alpha channel is added if the file has none.
+// Sets *wide to true, and keeps all bits, if the file has 16 bits per channel. If `wide` is NULL, 16-bit samples are
+// converted to 8 bits, and an alpha channel is added if the file has none.
 static bool decode(spng_ctx *spng, const struct picture_file *file, lam_image *image, bool *wide, lam_error *error)
 {
     struct spng_ihdr header;

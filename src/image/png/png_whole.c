@@ -106,7 +106,7 @@ static inline bytes16 max16(bytes16 x, bytes16 y)
 // equal, the first of them is used. If c is between a and b, the distance is x = high − c for the lower of both,
 // y = c − low for the higher, and |x − y| for c itself. The lower is nearest if 2x ≤ y, and the higher is nearest if
 // 2y ≤ x. If 0 replaces negative differences, these conditions are also correct for all other c. Both conditions are
-// true only if a = b = c. Few steps depend on a, the most recent pixel.
+// met only if a = b = c. Few steps depend on a, the most recent pixel.
 static inline bytes16 paeth(bytes16 a, bytes16 b, bytes16 c)
 {
     const bytes16 x = max16(a, max16(b, c)) - c, y = c - min16(a, min16(b, c));
@@ -149,7 +149,7 @@ struct four_rows {
     const uint8_t *above, *from;
     size_t width, size;
     bytes16 a, older,
-        c; // the pixels of the previous step and of the step before it, and the pixels above the previous ones
+        c; // `a`: the pixels of the previous step; `older`: the pixels of the step before; `c`: the pixels above `a`
     bytes16 looks_up; // all bits of the rows with filter 4; a row with filter 1 is the same with b = c = 0
 };
 
@@ -228,7 +228,7 @@ static bool are_four(const uint8_t *from, size_t row_bytes, bytes16 *looks_up)
 }
 
 // Unfilters the next row of the file, or the next four rows. A row consists of a filter byte and the pixels. Returns
-// the number of unfiltered rows, or 0 if the filter is unknown. `left` is the number of rows that are left.
+// the number of unfiltered rows, or 0 if the filter is unknown. `left` is the number of remaining rows.
 static size_t unfilter_next(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t left, size_t width,
                             size_t size, int channels)
 {

@@ -85,8 +85,8 @@ static int channels_of(const uint8_t *pixels, size_t count)
     return (colored ? PNG_COLORED : 0) | (opaque ? 0 : PNG_TRANSLUCENT);
 }
 
-// Finds the spans of a strip's rows, and adds the channels that its pixels need. Pixels are skipped only if all channels
-// are already needed, so the result does not depend on the order of the strips.
+// Finds the spans of a strip's rows, and adds the channels that the pixels of the strip need. Pixels are skipped only
+// if all channels are already needed, so the result does not depend on the order of the strips.
 static void examine_strip(void *user, size_t index, int thread)
 {
     (void)thread;

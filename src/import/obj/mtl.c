@@ -28,7 +28,7 @@ struct mtl_parser {
     const uint8_t *opacity, *exponent; // the positions of the statement d or Tr, and of Ns; NULL if missing
     // The first occurrence of each problem that is reported once per file: unknown statements, and statements before
     // the first newmtl.
-    const uint8_t *unknown, *stray, *wide; // wide: highlights with the exponent 0
+    const uint8_t *unknown, *stray, *wide; // `wide` is the first highlight with the exponent 0
     size_t unknown_count, stray_count, wide_count;
 };
 
@@ -308,7 +308,7 @@ static int statement_of(const uint8_t *at, const uint8_t *end)
     return map || text_is_word(at, end, "decal") ? OTHER_MAP : UNKNOWN;
 }
 
-// Reads a colour (only the first three numbers of a colour with alpha), or a number, which is clamped to its range.
+// Reads a colour or a number. The alpha of a colour is not read. A number is clamped to the range of the field.
 static void read_material_field(struct mtl_parser *reader, int index, const uint8_t *at, const uint8_t *end)
 {
     const lam_field *field = lam_material_field(index);

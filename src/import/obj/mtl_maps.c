@@ -41,7 +41,7 @@ static bool is_drawn(int slot) { return slot != LAM_MAP_DISPLACEMENT && slot != 
 
 struct options {
     const uint8_t *at, *end;
-    // For warnings: the current option, its map and its material.
+    // For warnings: the material, and the option that is being read.
     struct lam_scene *scene;
     const char *file, *material, *option;
     int slot;

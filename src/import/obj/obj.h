@@ -61,7 +61,8 @@ struct obj_chunk {
     bool texcoord_unknown, normal_unknown;
     uint64_t short_faces;                              // the number of faces with one or two corners
     uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
-    const uint8_t *first_short_face, *first_nonfinite; // the first such face, and the first such vector
+    const uint8_t *first_short_face, *first_nonfinite; // the first face with one or two corners, and the first vector
+                                                       // that is not finite
 };
 
 // A statement of OBJ_OTHER, and the numbers of triangles, positions and texture coordinates before it.
@@ -84,7 +85,8 @@ struct obj_strokes {
 // The material files named so far.
 struct obj_libraries {
     struct name_table tried; // keys: confined names; values: 1 read, 0 missing
-    bool named, missing;     // the file names a library; some libraries could not be opened or were skipped
+    bool named, missing;     // `named`: the file names a library; `missing`: a library could not be opened or was
+                             // skipped
     bool left_out;           // the file names more than OBJ_LIBRARIES_MAX libraries
 };
 
@@ -148,7 +150,8 @@ obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
 const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);
 // obj_parse.c
 bool obj_parse(struct obj *obj, lam_error *error); // pass two
-// Parses one chunk. chunk->before and chunk->counts determine the index ranges of its elements. `error` may be NULL.
+// Parses one chunk. chunk->before and chunk->counts determine the index ranges of the chunk's elements. `error` may be
+// NULL.
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error);
 // Chooses the origin. Reads the positions again as doubles if they are far from zero.
 bool obj_find_origin(struct obj *obj, lam_error *error);

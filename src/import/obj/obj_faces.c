@@ -9,7 +9,7 @@
 
 // --- attributes that only some corners have
 
-// Copies the array and reserves space for `more` elements after its `count`.
+// Copies the `count` elements of an array to a new array with space for `more` further elements.
 static float *grow(struct obj *obj, const float *array, size_t count, size_t more, size_t width, lam_error *error)
 {
     float *larger = arena_array(&obj->scene->arena, count + more, width * sizeof *larger);
@@ -19,7 +19,7 @@ static float *grow(struct obj *obj, const float *array, size_t count, size_t mor
     return larger;
 }
 
-// Corners without texture coordinates get (0, 0).
+// Sets missing texture coordinates of corners to (0, 0).
 bool obj_complete_texcoords(struct obj *obj, lam_error *error)
 {
     bool used = false, missing = false;

@@ -1,8 +1,8 @@
 // obj_groups.c: reads the statements between vertices and faces of an OBJ file, in file order: object, group, material,
 // smoothing group, material files, lines and points, and elements that are not drawn.
 //
-// A part is a range of triangles with the same object, group and material. The part's name is "object/group"; if only
-// one of the two names exists, it is that name. A new object ends the group.
+// A part is a range of triangles with the same object, group and material. The part's name is "object/group", or only
+// one of these two names if the other is missing. A new object ends the group.
 #include "obj.h"
 
 #include "mtl_maps.h"
@@ -110,7 +110,7 @@ static bool same_name(const char *a, const char *b) { return a == b || (a && b &
 
 // --- parts
 
-// Sets *out to "object/group" or, if only one of the two names exists, to that name.
+// Sets *out to "object/group", or to only one of these two names if the other is missing.
 static bool join_names(const struct state *state, const char *object, const char *group, const char **out,
                        lam_error *error)
 {
@@ -155,8 +155,8 @@ static bool end_part(struct state *state, uint32_t triangle, lam_error *error)
     return true;
 }
 
-// Reads lines or points. They extend the last part if that part has the state's object, group and material; otherwise
-// they form a new part.
+// Reads lines or points. The lines or points extend the last part if that part has the state's object, group and
+// material. Otherwise, they form a new part.
 static bool read_strokes(struct state *state, const struct obj_statement *s, bool lines, lam_error *error)
 {
     struct obj *obj = state->obj;

@@ -19,7 +19,7 @@ size_t obj_line_number(struct obj *obj, const uint8_t *at)
 }
 
 // The "expected" part of the message if pass two finds more elements than pass one counted.
-static const char changed[] = "the same text as before: the file changed while it was read";
+static const char changed[] = "the text that was counted first; the file changed during the load";
 
 // Fills the reader's error: "found 'x', expected …". Returns NULL.
 static const uint8_t *fail_expected(struct obj_reader *reader, const uint8_t *at, const char *expected)

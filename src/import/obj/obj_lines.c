@@ -1,7 +1,7 @@
-// obj_lines.c: a fast path for the most frequent lines: "v x y z", "vt s t", "vn x y z", and faces whose corners all have
-// the attributes that are kept; obj_line.c reads all other lines. The file is compiled for several instruction sets
-// (meson.build defines ISA). The results are identical, because base/number.c parses all numbers whose last bit is
-// uncertain.
+// obj_lines.c: a fast path for the most frequent lines: "v x y z", "vt s t", "vn x y z", and faces whose corners all
+// contain the attributes that are kept. obj_line.c reads all other lines. The file is compiled for several instruction
+// sets (meson.build defines ISA). The results are identical, because src/base/text/number.c parses all numbers whose
+// last bit is uncertain.
 #include "byte_masks.h"
 #include "number_scan.h"
 #include "obj.h"
@@ -140,7 +140,7 @@ static inline const uint8_t *read_index(const uint8_t *at, uint64_t total, uint3
 {
     uint64_t eight = number_load8(at);
     unsigned digits = number_digit_count(eight);
-    uint64_t index = number_digits_value(eight, digits) - 1; // the largest number if there is no digit
+    uint64_t index = number_digits_value(eight, digits) - 1; // becomes UINT64_MAX if there is no digit
     *to = (uint32_t)index;
     return index < total ? at + digits : NULL;
 }

@@ -1,7 +1,8 @@
-// obj_lines_avx512.h: the line parsers of obj_lines.c for AVX-512 with VBMI, which moves bytes within a register.
+// obj_lines_avx512.h: the line parsers of obj_lines.c for AVX-512 with VBMI. VBMI instructions can move any byte of a
+// register to any position.
 //
 // A line is loaded into one register, and bit masks of its digits, spaces and points are computed. The starts and ends
-// of the numbers, packed into bytes, determine the index for permuting each byte. The permutation moves every number to
+// of the numbers are packed into bytes. From these bytes, the parser computes a permutation that moves every number to
 // its own lane, right-aligned and padded with leading zeros.
 #ifndef OBJ_LINES_AVX512_H
 #define OBJ_LINES_AVX512_H
@@ -129,8 +130,8 @@ static inline void store_indices(uint32_t *to, __m256i indices, __mmask8 lanes)
     to[2] = (uint32_t)_mm_extract_epi32(chosen, 2);
 }
 
-// Reads three corners like 12/34/56 or, if texture coordinates are not kept, 12//56, separated by one space, and stores
-// them from corner `to` of the arrays. Eight of the nine numbers are computed in lanes.
+// Reads three corners, separated by one space, and stores them from corner `to` of the arrays. The form of a corner is
+// 12/34/56, or 12//56 if texture coordinates are not kept. Eight of the nine numbers are computed in lanes.
 static inline bool read_corners(const struct constants *c, const struct obj *obj, const uint8_t *line,
                                 const uint8_t *line_end, size_t to)
 {
@@ -198,7 +199,7 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     uint32_t ends = pack(lowest_bit(spaces), lowest_bit(without_lowest(spaces)), length);
     uint32_t middles = pack(lowest_bit(points), lowest_bit(points_2), lowest_bit(without_lowest(points_2)));
     uint32_t begins = (ends << 8) + 0x010100 + (uint32_t)_pdep_u64(negative, 0x010101);
-    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf0f0f0) // a number is longer than 15 digits and the point
+    if (((ends - (begins & 0xffffff)) - 0x010101) & 0xf0f0f0) // a number has more than 15 digits
         return false;
     __m512i from = _mm512_add_epi8(_mm512_shuffle_epi8(_mm512_set1_epi32((int)ends), c->lanes_of_16), c->back_16);
     __m512i point_at = _mm512_shuffle_epi8(_mm512_set1_epi32((int)middles), c->lanes_of_16);

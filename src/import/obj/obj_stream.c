@@ -144,7 +144,8 @@ static bool parse(struct chunk_scratch *scratch, struct obj_chunk *chunk)
             return false;
         if (!chunk->texcoord_unknown && !chunk->normal_unknown)
             break;
-        // the thread finds the first faces with texture coordinates or normals, so the chunk is parsed again
+        // these are the thread's first faces with texture coordinates or normals, so the chunk is parsed again with
+        // these indices
         scratch->texcoords |= chunk->texcoord_unknown;
         scratch->normals |= chunk->normal_unknown;
     }

@@ -62,8 +62,8 @@ static inline bool ply_type_is_integer(enum ply_type type) { return type < PLY_F
 // Returns the index of a property with this name, list or scalar, or −1 if there is none.
 int ply_find(const struct ply_element *element, bool list, const char *name);
 
-// The type of x, y and z in a table. The declared types of an ASCII file do not determine how many decimals its numbers
-// have, so positions are read as floats, and again as doubles if the model is far from zero.
+// The type of x, y and z in a table. In an ASCII file, numbers may have more decimals than the declared types can
+// store. Positions are therefore read as floats, and again as doubles if the model is far from zero.
 enum ply_positions_as { PLY_AS_DECLARED, PLY_AS_FLOAT, PLY_AS_DOUBLE };
 
 // An element's rows.
@@ -104,7 +104,7 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
 // ply_rows.c. Sets offsets, types and stride for rows without their lists.
 bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
                    struct ply_table *table, lam_error *error);
-// Reports a file that ends within the element's row `row`, counted from 0.
+// Reports that the file ends within a row of the element. `row` counts from 0.
 bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
                         lam_error *error);
 // Fails with LAM_LIMIT, because the file contains more elements than 32-bit indices can address.
@@ -121,7 +121,8 @@ void ply_copy_column(const struct ply_table *table, int property, const uint8_t 
                      float *out, size_t step);
 
 // Sets origin, positions (from `arena`) and vertex_count of the mesh. Sets *needs_doubles if the table stores an ASCII
-// file's positions as floats, which are not precise enough; the caller must read them again as doubles.
+// file's positions as floats and floats are not precise enough. The caller must then read the positions again as
+// doubles.
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                    lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 

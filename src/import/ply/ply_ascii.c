@@ -1,8 +1,8 @@
 // ply_ascii.c: converts the rows of one element of an ASCII PLY to a table of binary rows.
 //
 // Numbers are separated by white space, and a row may continue on the next line. A row ends at the end of the line that
-// contains its last number; further numbers on that line are ignored. A first, serial pass finds the start of each
-// chunk of rows and the lengths of the chunk's lists; then the chunks are read in parallel.
+// contains its last number; further numbers on that line are ignored. A serial pass first finds the start of each chunk
+// of rows and the lengths of the lists in the chunk. The chunks are then read in parallel.
 #include "fail.h"
 #include "number.h"
 #include "ply_rows.h"
@@ -189,8 +189,8 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
     return at != NULL;
 }
 
-// Called after an error of index_rows: an error in the numbers of an earlier row comes first in the file, so it is
-// reported instead.
+// Call this function after an error of index_rows. If an earlier row contains an invalid number, this function reports
+// the earlier error instead.
 static void check_rows_before(const struct ply_reader *reader, lam_error *error)
 {
     const uint8_t *at = reader->first;

@@ -116,7 +116,7 @@ static bool may_be_triangles(const struct ply_reader *reader, const struct ply_h
     return left == 0;
 }
 
-// Reads the rows as triangles. Sets *done to whether all rows have three items.
+// Reads the rows as triangles. Sets *done to true if all rows have three items, otherwise to false.
 static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct arena *scratch, bool *done,
                           lam_error *error)
 {

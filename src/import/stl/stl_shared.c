@@ -30,8 +30,8 @@ struct recent_vertex {
     uint32_t z, number;
 };
 
-// The two most recent vertices with a given hash. With one vertex, many vertices of large models would be forgotten
-// before the next row of facets uses them.
+// The two most recent vertices with a given hash. If only one vertex were stored, many vertices of large models would
+// be overwritten before the next row of facets uses them.
 typedef struct recent_vertex recent_vertices[2];
 
 // Returns the index of a position's pair in the table. The position 0 has index 0.
@@ -129,8 +129,8 @@ static bool share_chunk(struct sharing *s, struct share_worker *worker, size_t i
     return all_finite(worker->positions + before, *count - before);
 }
 
-// An empty entry contains a position that belongs to another pair, so that no corner matches the entry. This position
-// is 0, and NaN in pair 0.
+// Fills empty entries with a position that belongs to another pair, so that no corner is found there. Pair 0 is filled
+// with NaN, and all other pairs are filled with the position 0.
 static void start_window(struct share_worker *worker)
 {
     memset(worker->table, 0, sizeof *worker->table << TABLE_BITS);

@@ -7,8 +7,7 @@
 // Checks every member that has a row in the table. Fails with LAM_BAD_ARGUMENT.
 bool settings_check(const lam_draw_params *params, lam_error *error);
 
-// Copies the parameters. If a WHOLE or NUMBER setting is 0, it becomes its default; if a NUMBER is negative, it becomes
-// 0.
+// Copies the parameters. Replaces a WHOLE or NUMBER setting of 0 with the default, and a negative NUMBER with 0.
 void settings_resolve(const lam_draw_params *params, lam_draw_params *out);
 
 // Returns the value or the default of a NUMBER or ANGLE (radians) as a double, which avoids rounding to float. `key`

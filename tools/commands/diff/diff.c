@@ -11,7 +11,8 @@
 #include "output.h"
 #include "report.h"
 
-// Treats a scene file as a model, because no picture format has its extension.
+// Returns whether a path names a model. A file with the extension .json counts as a model, because no picture format
+// uses this extension.
 static bool is_model(const char *path)
 {
     const char *dot = strrchr(path, '.');

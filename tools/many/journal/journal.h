@@ -1,8 +1,8 @@
 // journal.h: reads and writes journals: files with one JSON line for each finished or failed picture.
 //
-// After a picture is written, a single write() appends its line, so a run may be killed at any time. At worst, the last
-// line is truncated and lacks its line end. During a run, FILE.running beside the journal lists the models in progress
-// and their processes. A killed run leaves that file behind.
+// After a picture is written, a single write() appends the picture's line, so a run may be killed at any time. At
+// worst, the last line is truncated and lacks its line end. During a run, FILE.running beside the journal lists the
+// models in progress and their processes. A killed run leaves that file behind.
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
@@ -29,17 +29,18 @@ struct journal_run {
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
-// Returns the latest line for a picture's path. SAME also finds a line by the path below the folder of the pictures,
-// regardless of the spelling of this folder. Returns NULL if there is no line. The caller calls json_decref.
+// Returns the latest line for a picture's path. With SAME, also compares the paths relative to the folder of the
+// pictures, because the name of this folder may be written differently. Returns NULL if there is no line. The caller
+// calls json_decref.
 json_t *journal_find(const struct journal *journal, const char *output);
 
-// Appends a record. One thread at a time may call it. Fails with LAM_CANNOT_WRITE.
+// Appends a record. Only one thread at a time may call this function. Fails with LAM_CANNOT_WRITE.
 bool journal_add(struct journal *journal, const json_t *record, lam_error *error);
 
 // Returns the text of a record's key, or "" if there is none.
 const char *journal_value(const json_t *record, const char *key);
 
-// Sets a key of a record to a text (journal_text), or to null for NULL.
+// Sets a key of a record to `text` (journal_text), or to null if `text` is NULL.
 void journal_set_text(json_t *record, const char *key, const char *text);
 
 // Returns a record as a line with its line end, allocated with malloc, or NULL if memory runs out.
@@ -48,15 +49,16 @@ char *journal_line(const json_t *record);
 // Returns the path of FILE.running, which journal_close removes.
 const char *journal_running_path(const struct journal *journal);
 
-// Records in a slot which model a process draws. A NULL model frees the slot.
+// Records the model that a process draws in a slot of FILE.running. A NULL model frees the slot.
 void journal_begin(struct journal *journal, int slot, int process, const char *model);
 
-// Calls `visit` for each model that a killed run was drawing, with its process and machine.
+// Calls `visit` for each model that a killed run was drawing. Passes the process and the machine that were drawing the
+// model.
 void journal_each_running(const struct journal *journal,
                           void (*visit)(void *user, const char *model, int process, const char *host), void *user);
 
-// Reads a whole file into memory allocated with malloc, and appends a zero. Returns NULL and sets errno on failure;
-// errno is 0 if the file does not exist.
+// Reads a whole file into memory allocated with malloc, and appends a zero byte. Returns NULL and sets errno on
+// failure; errno is 0 if the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
 // Closes the journal. `done` means that the run was completed. FILE.running is removed, even after a failed run, unless

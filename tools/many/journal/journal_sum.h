@@ -1,4 +1,4 @@
-// journal_sum.h: combines several journals of one batch, to find its finished, failed and missing pictures.
+// journal_sum.h: combines several journals of one batch, to find the batch's finished, failed and missing pictures.
 #ifndef JOURNAL_SUM_H
 #define JOURNAL_SUM_H
 
@@ -22,7 +22,7 @@ struct journal_entry {
     uint64_t output;  // the hash of the picture's path; 0 if free
     const char *line; // `length` bytes, without the line's end
     size_t length;
-    const char *folder; // the latest line before it that names the pictures' folder, with its line end, or NULL
+    const char *folder; // the latest earlier line that names the pictures' folder, including the line end; or NULL
     int part;
     float ms; // the duration of the work; 0 if the picture failed
 };
@@ -38,8 +38,8 @@ struct journal_sum {
     char *first_double;        // "x.png is in a.jsonl and in b.jsonl", allocated with malloc, or NULL
 };
 
-// Adds a journal. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT (not a journal, or its options or number of shards
-// differ from those in the previous journals) or LAM_LIMIT.
+// Adds a journal. Fails with LAM_CANNOT_READ, LAM_LIMIT or LAM_BAD_ARGUMENT (the file is not a journal, or the options
+// or the number of shards differ from the previous journals).
 bool journal_sum_add(struct journal_sum *sum, const char *path, lam_error *error);
 
 // Adds the journals in a folder: the journals of shards in alphabetical order or, if there are none, lambent.jsonl.
@@ -48,7 +48,7 @@ bool journal_sum_add_folder(struct journal_sum *sum, const char *folder, lam_err
 // Returns the record of an entry; the caller calls json_decref. Returns NULL if memory runs out.
 json_t *journal_sum_record(const struct journal_sum *sum, size_t entry);
 
-// Returns whether there is a completed journal for each shard, and no picture is in two journals.
+// Returns true if each shard has a completed journal and no picture is in two journals.
 bool journal_sum_is_whole(const struct journal_sum *sum);
 bool journal_sum_has_shard(const struct journal_sum *sum, int number);
 

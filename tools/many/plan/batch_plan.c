@@ -9,7 +9,7 @@
 #include "console.h"
 #include "output.h"
 
-// Makes the pattern of the pictures' names: the user's pattern, or a pattern that distinguishes several pictures of a
+// Makes the pattern for the pictures' names: the user's pattern, or a pattern that distinguishes several pictures of a
 // model. If the pattern remains NULL, a picture is named after its model.
 static bool make_pattern(struct batch_plan *plan, lam_error *error)
 {

@@ -17,7 +17,7 @@ enum { SHARDS_MAX = 1000000 };
 
 // --- numbers
 
-// Parses a number without a sign. Returns false if the text is something else, or the number is above `max`.
+// Parses a number without a sign. Returns false if the text is not such a number, or if the number is above `max`.
 static bool parse_number(const char *text, size_t length, long max, long *number)
 {
     *number = 0;
@@ -98,7 +98,7 @@ static bool from_environment(struct batch_shard *shard, long count, lam_error *e
                         "option '--shard auto': none of %s, %s and %s is set; name the shard, --shard K/N", task_id,
                         completion, rank);
     long index, ranks;
-    if (found == rank) { // mpirun reports the number of ranks; any other number would skip models
+    if (found == rank) { // mpirun reports the number of ranks; with any other number, some models would not be drawn
         if (!read_variable(rank, &index, error) || !read_variable("OMPI_COMM_WORLD_SIZE", &ranks, error))
             return false;
         if (ranks < 1 || ranks > SHARDS_MAX || (count && ranks != count))

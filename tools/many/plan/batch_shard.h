@@ -13,11 +13,12 @@ struct batch_shard {
 // Open MPI. Fails with LAM_BAD_ARGUMENT if there is no such shard, or if the environment does not determine the shard.
 bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *error);
 
-// Returns the name that determines a model's shard, allocated with malloc: its path below `root` or, if `root` is NULL,
-// the whole path, without ".", "..", doubled slashes and a leading slash. Returns NULL if memory runs out.
+// Returns the name that determines a model's shard, allocated with malloc. The name is the path relative to `root`, or
+// the whole path if `root` is NULL. It contains no ".", "..", doubled slashes or leading slash. Returns NULL if memory
+// runs out.
 char *batch_shard_name(const char *path, const char *root);
 
-// Returns the shard of a name, counted from 1: XXH64 of its bytes, modulo `count`, plus 1.
+// Returns the shard of a name, counted from 1: XXH64 of the name's bytes, modulo `count`, plus 1.
 int batch_shard_of_name(const char *name, int count);
 
 // Returns the path of a shard's own file, allocated with malloc: "lambent-017-of-300.jsonl" for "lambent.jsonl".
@@ -27,8 +28,8 @@ char *batch_shard_path(const char *path, const struct batch_shard *shard);
 // Returns the number of shards in a file name ("lambent-017-of-300.jsonl"), or 0 if there is none.
 int batch_shard_count_of(const char *path);
 
-// Fails with LAM_BAD_ARGUMENT if the folder of `path` (a path without a shard) contains files for another number of
-// shards, because two shards would then draw the same models.
+// Fails with LAM_BAD_ARGUMENT if the folder of `path` contains files for another number of shards. Otherwise, two
+// shards could draw the same models. `path` does not name a shard.
 bool batch_shard_check_folder(const char *path, const struct batch_shard *shard, lam_error *error);
 
 #endif

@@ -24,8 +24,8 @@
 
 // --- messages
 
-// Prints each warning from index *first on, unless an earlier warning has the same text, and sets *first to the number
-// of warnings. Returns how many warnings have new texts.
+// Prints the warnings from index *first on, except repeated texts. Sets *first to the number of warnings. Returns the
+// number of warnings with new texts.
 static int print_warnings(const struct job *job, int *first, bool print)
 {
     int count = 0;
@@ -90,7 +90,7 @@ struct files {
     bool changed;       // a file has changed since it was read, so the hashes are not valid
 };
 
-// Returns whether a file may have changed since `start`, a time of the clock that file systems use.
+// Returns whether a file may have changed since `start`, a time on the clock that file systems use.
 static bool changed_since(const char *path, const struct timespec *start)
 {
     struct stat about;
@@ -251,7 +251,7 @@ struct model_run {
     struct batch_result *result;
     struct timespec start; // by the clock that file systems use
     struct files files;
-    int warnings; // of the scene, counted after the previous picture
+    int warnings; // the number of the scene's warnings after the previous picture
     bool hashed;
     json_t *found; // the data that batch_use.draw adds to the record; NULL if the picture is written to a file
 };
@@ -382,7 +382,7 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         result->record_count = 0;
         return;
     }
-    // Markers of lights are objects of the scene and depend on the camera, so with markers the model is read again for
+    // Markers of lights are objects of the scene and depend on the camera, so a model with markers is read again for
     // each picture.
     int together = item->options->shading.show_lights ? 1 : item->view_count;
     for (int i = 0; i < item->view_count; i += together) {

@@ -28,7 +28,7 @@ struct batch_picture {
 struct batch_job;
 struct batch_jobs;
 
-// The task of a worker: a model of the batch's plan, or of a job, which has its own plan.
+// The task of a worker: a model in the batch's plan or in a job's own plan.
 struct batch_task {
     const struct batch_plan *plan; // the options, the views and the names
     size_t model;                  // the index in the plan

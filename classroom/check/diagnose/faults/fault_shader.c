@@ -177,8 +177,8 @@ static lam_check_program *make_program(struct fault_shader *m, const struct spec
     return NULL;
 }
 
-// Makes the program for these constants current. If there are more than MAX_PROGRAMS, the least recently used program
-// is freed.
+// Selects the program for these constants, and builds it if necessary. If there are more than MAX_PROGRAMS, the least
+// recently used program is freed.
 static bool build(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
 {
     int at = 0;
@@ -233,7 +233,7 @@ void fault_shader_close(struct fault_shader *m)
     free(m);
 }
 
-// Sets the values of a uniform, `each` floats per element, for the elements that the program reads.
+// Sets the elements of a uniform that the program reads. Each element consists of `each` floats.
 static void set(struct fault_shader *m, const char *name, int count, int each, const float *numbers)
 {
     int input = place_input(m->program, name, false);
@@ -391,7 +391,7 @@ static void set_material(struct fault_shader *m, bool separate, const struct ref
     set_color(m, "bare_kd", reference_scene->diffuse, 1);
     set_color(m, "bare_ks", reference_scene->specular, 1);
     // In contracts with separate strengths and colours, the fault swaps the strengths or the colours. In other
-    // contracts, it swaps the products.
+    // contracts, the fault swaps the products.
     set_color(m, "kd_with_ks", separate ? reference_scene->diffuse : reference_scene->specular, reference_scene->ks);
     set_color(m, "ks_with_kd", separate ? reference_scene->specular : reference_scene->diffuse, reference_scene->kd);
     set_color(m, "specular_as_diffuse", reference_scene->diffuse, separate ? reference_scene->ks : reference_scene->kd);

@@ -6,16 +6,16 @@
 
 struct fault_shader;
 
-// Opens a fault shader for every `stride`-th pixel of every `stride`-th row of pictures of size² pixels, starting at
-// the lower left pixel. These pictures have fault_shader_size(size, stride)² pixels.
+// Opens a fault shader for pictures of size² pixels. The fault shader draws only every `stride`-th pixel of every
+// `stride`-th row, from the lower left pixel on: fault_shader_size(size, stride)² pixels.
 struct fault_shader *fault_shader_open(const lam_check_painter *painter, int size, int stride, lam_error *error);
-void fault_shader_close(struct fault_shader *shader); // NULL is allowed; the shader may be at rest
+void fault_shader_close(struct fault_shader *shader); // `shader` may be NULL or released (fault_shader_rest)
 
 // Returns whether a fault shader draws pictures of this size and stride.
 bool fault_shader_draws(const struct fault_shader *shader, int size, int stride);
 
 // The context of an open shader is current on the thread that opened the shader. fault_shader_rest releases the
-// context. fault_shader_wake makes it current again, on the same thread or another.
+// context. fault_shader_wake makes the context current again, on any thread.
 void fault_shader_rest(struct fault_shader *shader);
 bool fault_shader_wake(struct fault_shader *shader, lam_error *error);
 
@@ -28,7 +28,7 @@ struct fault_model {
     lam_reflection reflection;
 };
 
-// Draws a scene from shader_interface_scene. `pixels`: RGBA, rows top-down.
+// Draws a scene from shader_interface_scene. `pixels` receives RGBA, with the top row first.
 bool fault_shader_draw(struct fault_shader *shader, const struct reference_scene *reference_scene,
                        const struct fault_model *model, const fault_set *set, float *pixels, lam_error *error);
 

@@ -47,8 +47,8 @@ const struct fault faults[] = {
         "the interpolated normal is not normalized again in the fragment shader; between vertices it is shorter than 1",
         "vec3 n = normalize(N); // in the fragment shader, before any dot product and before reflect()"),
     ROW("normal-unit-late", BITS(LONG_NORMAL_VERTEX), WHERE_FRAGMENT, 0,
-        "the normal is normalized only in the fragment shader; the matrix changes the lengths of normals, and longer "
-        "normals weigh more between vertices",
+        "the normal is normalized only in the fragment shader; the matrix changes the lengths of normals, and "
+        "interpolation gives longer normals more weight",
         "N = normalize({normal_matrix} * {normal}); // in the vertex shader too", .demand = DEMAND_UNIT_NORMALS),
     ROW("normal-never-unit", BITS(LONG_NORMAL, LONG_NORMAL_VERTEX), 0, 0,
         "the normal is never normalized, although the matrix changes its length",
@@ -78,11 +78,11 @@ const struct fault faults[] = {
         "the normal is multiplied by the projection, which does not preserve angles",
         "N = normalize({normal_matrix} * {normal}); // no projection"),
     ROW("normal-with-w", BITS(NORMAL_WITH_W, LONG_NORMAL), 0, 0,
-        "the normal is normalized with four components; the translation enters w and shortens it",
+        "the normal is normalized with four components; the translation changes w, so the normal becomes too short",
         "N = normalize(({normal_matrix4} * vec4({normal}, 0.0)).xyz); // .xyz first, then normalize"),
     ROW("normal-with-w-vertex", BITS(NORMAL_WITH_W), WHERE_FRAGMENT, 0,
-        "the normal is normalized with four components in the vertex shader; the translation enters w, so each "
-        "vertex's normal has another length, and longer normals weigh more between vertices",
+        "the normal is normalized with four components in the vertex shader; the translation changes w, so the normals "
+        "have different lengths, and interpolation gives longer normals more weight",
         "N = normalize(({normal_matrix4} * vec4({normal}, 0.0)).xyz); // .xyz first, then normalize"),
     ROW("normal-inward", BITS(INWARD), 0, 0, "the normal points to the wrong side",
         "N = normalize({normal_matrix} * {normal}); // without the minus"),
@@ -122,8 +122,8 @@ const struct fault faults[] = {
     ROW("clip-space-light", BITS(LIGHT_CLIP, POINT_CLIP), 0, 0, "l and the distance are computed after the projection",
         "vec3 L = {light_eye} - ({model_view} * {position}).xyz;"),
     ROW("light-not-moved", BITS(LIGHT_AS_GIVEN), WHERE_OBJECT_LIGHT, 0,
-        "the light's position is in object space and is used as if it were not; if the light should move with "
-        "the camera, check with --light-frame camera",
+        "the light's position is in object space, but no matrix transforms it; if the light should move with the "
+        "camera, check with --light-frame camera",
         "vec3 L = ({model_view} * ({light} - {position})).xyz;"),
     ROW("light-in-object-space", BITS(LIGHT_AS_GIVEN, LIGHT_FROM_OBJECT), WHERE_OBJECT_LIGHT, 0,
         "l is computed in object space, but the normal is not",
@@ -154,10 +154,10 @@ const struct fault faults[] = {
         "the position of a light is used as the direction to it: the lit point is not subtracted",
         "vec3 L = {light_eye} - P;"),
     ROW("light-plus-point", BITS(LIGHT_PLUS_POINT), 0, 0,
-        "l is the sum of the light's position and the point; it is their difference",
+        "l is the sum of the light's position and the point; it must be their difference",
         "vec3 L = {light_eye} - P; // minus"),
     ROW("direction-as-point", BITS(DIRECTION_AS_POINT), 0, NEED_DIRECTIONAL,
-        "a directional light (w = 0) is treated as a point: the vertex is subtracted from a direction",
+        "a directional light (w = 0) is treated as a point light: the vertex is subtracted from a direction",
         "vec3 L = {light}.w == 0.0 ? {light_direction} : {light_eye} - P;"),
     ROW("direction-minus-point", BITS(DIRECTION_AS_POINT, FOUR), WHERE_FOUR, NEED_DIRECTIONAL,
         "a point is subtracted from a directional light (w = 0), and the length includes the resulting w of -1",
@@ -171,7 +171,7 @@ const struct fault faults[] = {
     ROW("light-backwards", BITS(LIGHT_BACKWARDS), 0, 0, "l points from the light to the surface",
         "vec3 L = {light_eye} - P; // light minus point"),
     ROW("eye-at-origin", BITS(EYE_AT_ORIGIN), WHERE_WORLD, 0,
-        "v is computed as if the eye were at the origin, which it is in eye space only", "vec3 V = {v};"),
+        "v is computed as if the eye were at the origin, which is true only in eye space", "vec3 V = {v};"),
     ROW("viewer-infinite", BITS(VIEWER_INFINITE), 0, 0,
         "v is the same at every point, as if the eye were infinitely far away", "vec3 V = normalize({v});"),
     // --- lengths
@@ -215,7 +215,8 @@ const struct fault faults[] = {
         "vec3 R = reflect(-normalize(L), normalize(N)); // in the fragment shader"),
     // --- attenuation
     ROW("distance-interpolated", BITS(MEAN_DISTANCE), WHERE_FRAGMENT, NEED_ATTENUATION,
-        "the distance is computed at the vertices and interpolated; it is not the distance of the point itself",
+        "the distance is computed at the vertices and interpolated; the result differs from the distance of the lit "
+        "point",
         "float d = length(L); // in the fragment shader, with L interpolated"),
     ROW("no-attenuation", BITS(BARE_DIFFUSE, BARE_SPECULAR), WHERE_CLASSIC, NEED_ATTENUATION,
         "the attenuation is missing", "color = ambient + (diffuse + specular) / ({a} + {b} * d + {c} * d * d);"),
@@ -270,7 +271,7 @@ const struct fault faults[] = {
     ROW("lit-from-behind", BITS(ABSOLUTE), WHERE_CLASSIC, 0,
         "abs() is used in place of max(): surfaces that face away are lit too", "float d = max(dot(N, L), 0.0);"),
     ROW("abs-of-n.l", BITS(ABSOLUTE_DIFFUSE), 0, 0,
-        "n.l is taken as abs(n.l) in the diffuse term: surfaces that face away are lit too",
+        "abs(n.l) replaces n.l in the diffuse term: surfaces that face away are lit too",
         "float d = max(dot(N, L), 0.0);"),
     ROW("half-lambert", BITS(HALF_LAMBERT), WHERE_CLASSIC, 0,
         "the diffuse term is n.l / 2 + 1/2 (half Lambert), which lights surfaces that face away",
@@ -302,7 +303,7 @@ const struct fault faults[] = {
     ROW("shininess-divided", BITS(0), WHERE_CLASSIC, 0, "the exponent is too small: it is divided by a number",
         "float s = {S}; // the exponent as given", .fit = FIT_SMALLER),
     ROW("shininess-constant", BITS(0), WHERE_CLASSIC, NEED_SHININESS,
-        "the exponent is a constant instead of the material's", "float s = {S};", .fit = FIT_CONSTANT),
+        "the exponent is a constant instead of the material's exponent", "float s = {S};", .fit = FIT_CONSTANT),
     ROW("blinn-phong-times-4", BITS(OTHER_LOBE), WHERE_PHONG | WHERE_CLASSIC, 0,
         "the highlight is Blinn-Phong's with four times the exponent, which resembles Phong's but is not the same",
         "float s = {S};", .factor = 4),
@@ -380,8 +381,8 @@ const struct fault faults[] = {
         "alpha is the roughness instead of its square, in the normal distribution function and in the masking",
         "float alpha = {roughness} * {roughness};"),
     ROW("alpha-is-roughness-in-d", BITS(ALPHA_IS_ROUGHNESS_D), WHERE_PHYSICAL, 0,
-        "in the normal distribution function, alpha is the roughness instead of its square, or alpha is not squared: "
-        "the second power of the roughness is used instead of the fourth",
+        "the normal distribution function uses the second power of the roughness instead of the fourth: alpha is the "
+        "roughness instead of its square, or alpha is not squared",
         "float a = {roughness} * {roughness}, a2 = a * a, f = dot(N, H) * dot(N, H) * (a2 - 1.0) + 1.0; float D = "
         "a2 / (PI * f * f);"),
     ROW("alpha-is-roughness-in-v", BITS(ALPHA_IS_ROUGHNESS_V), WHERE_PHYSICAL | WHERE_SMITH, 0,
@@ -454,7 +455,7 @@ const struct fault faults[] = {
         "1 - roughness is used as the roughness, as in a file with glossiness",
         "float alpha = {roughness} * {roughness};"),
     ROW("albedo-decoded", BITS(ALBEDO_DECODED), WHERE_PHYSICAL, 0,
-        "the base colour is decoded, pow(x, 2.2), although it is linear; only pictures of it are encoded",
+        "the base colour is decoded, pow(x, 2.2), although it is linear; only the texels of pictures are encoded",
         "vec3 albedo = {base}; // as it is", .maps = MAPS_NO_BASE),
     ROW("n.l-missing", BITS(NO_N_DOT_L), WHERE_PHYSICAL, 0, "n.l is missing: neither part is multiplied by it",
         "Lo += (kD * {base} / PI + specular) * radiance * max(dot(N, L), 0.0);"),
@@ -465,8 +466,8 @@ const struct fault faults[] = {
         "the specular part is not multiplied by n.l",
         "Lo += (kD * {base} / PI + specular) * radiance * max(dot(N, L), 0.0);"),
     ROW("not-encoded", BITS(NOT_ENCODED), WHERE_PHYSICAL | WHERE_ENCODED, 0,
-        "the colour is written unchanged: it is linear, and nothing encodes it; leave it so only if the framebuffer "
-        "encodes (GL_FRAMEBUFFER_SRGB)",
+        "the colour is linear, and nothing encodes it; this is correct only if the framebuffer encodes colours "
+        "(GL_FRAMEBUFFER_SRGB)",
         "color = pow(color, vec3(1.0 / 2.2)); // last"),
     ROW("encoded-twice", BITS(ENCODED), WHERE_PHYSICAL | WHERE_ENCODED, 0, "the colour is gamma-encoded twice",
         "color = pow(color, vec3(1.0 / 2.2)); // once"),
@@ -475,15 +476,15 @@ const struct fault faults[] = {
         "color = color / (color + vec3(1.0)); color = pow(color, vec3(1.0 / 2.2));"),
     // --- maps
     ROW("base-map-not-decoded", BITS(BASE_NOT_DECODED), WHERE_PHYSICAL, 0,
-        "the colour of the base colour map is used unchanged, but it is encoded; leave it so only if the texture has "
-        "an sRGB format (GL_SRGB8)",
+        "the colour of the base colour map is encoded, but the shader does not decode it; this is correct only if the "
+        "texture has an sRGB format (GL_SRGB8)",
         "vec3 albedo = pow(texture({base_map}, {uv}).rgb, vec3(2.2));", .maps = MAPS_BASE | MAPS_ENCODED),
     ROW("base-map-decoded-twice", BITS(BASE_DECODED_TWICE), WHERE_PHYSICAL, 0,
         "the colour of the base colour map is decoded, pow(x, 2.2), twice",
         "vec3 albedo = pow(texture({base_map}, {uv}).rgb, vec3(2.2)); // once", .maps = MAPS_BASE | MAPS_ENCODED),
     ROW("base-map-decoded-twice", BITS(BASE_DECODED_TWICE), WHERE_PHYSICAL, 0,
         "the colour of the base colour map is decoded, pow(x, 2.2), although its texture has an sRGB format and the "
-        "sampler has decoded it; leave it so only if the texture has a plain format",
+        "sampler has decoded it; decode it only if the texture has a plain format",
         "vec3 albedo = texture({base_map}, {uv}).rgb;", .maps = MAPS_BASE | MAPS_LINEAR),
     ROW("base-factor-left-out", BITS(BASE_MAP_ALONE), WHERE_PHYSICAL, 0,
         "the base colour comes only from the map; it must be the product of map and factor",
@@ -582,17 +583,16 @@ const struct fault faults[] = {
         "the bitangent points the wrong way: green of the normal map is reversed, or B is cross(T, N)",
         "vec3 B = cross(N, T); // and bump.y as it is", .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_DOWN),
     ROW("bitangent-reversed", BITS(FRAME_COTANGENT), 0, NEED_NORMAL_MAP,
-        "the bitangent points along v, and green of the normal map with it; here v runs downward in the picture, and "
-        "green points upward",
+        "the bitangent, and therefore green of the normal map, points along v; here v runs downward in the picture, "
+        "and green points upward",
         "bump.y = -bump.y; // or B = -B", .maps = MAPS_NORMAL | MAPS_DERIVATIVES | MAPS_DOWN),
     ROW("tangent-reversed", BITS(TANGENT_REVERSED), 0, NEED_NORMAL_MAP,
         "the tangent points the wrong way: red of the normal map is reversed",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz); // and bump.x as it is",
         .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-reversed", BITS(FRAME_DERIVED), 0, NEED_NORMAL_MAP,
-        "the tangent points the wrong way, so that red of the normal map is reversed: v runs downward in the picture, "
-        "and the expression of derivatives must be divided by the determinant of the derivatives of the texture "
-        "coordinates",
+        "the tangent points the wrong way, so red of the normal map is reversed: because v runs downward in the "
+        "picture, the tangent must be divided by the determinant of the derivatives of the texture coordinates",
         "vec3 T = normalize((dFdx(p) * dFdy({uv}).y - dFdy(p) * dFdx({uv}).y) / (dFdx({uv}).x * dFdy({uv}).y - "
         "dFdy({uv}).x * "
         "dFdx({uv}).y)), B = cross(N, T);",
@@ -631,7 +631,7 @@ const struct fault faults[] = {
         "the tangent stays in the model's space: no matrix transforms it",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("occlusion-dims-lamps", BITS(OCCLUSION_OF_ALL), WHERE_PHYSICAL, 0,
-        "occlusion dims the light of lamps too; it belongs to light from everywhere, the ambient term",
+        "occlusion also dims the light of lamps; it must dim only the ambient term, the light from all directions",
         "color = ambient * texture({occlusion_map}, {uv}).r + Lo;", .maps = MAPS_OCCLUSION_READ),
     ROW("occlusion-left-out", BITS(BARE_KA), WHERE_PHYSICAL, NEED_AMBIENT,
         "the occlusion map has no effect on the ambient term",
@@ -641,8 +641,8 @@ const struct fault faults[] = {
     ROW("no-emission", BITS(NO_EMISSION), WHERE_PHYSICAL, NEED_EMISSION_MAP, "the light of the emission map is missing",
         "color += {emission} * texture({emission_map}, {uv}).rgb;", .maps = MAPS_EMISSION),
     ROW("emission-map-not-decoded", BITS(EMISSION_NOT_DECODED), WHERE_PHYSICAL, NEED_EMISSION_MAP,
-        "the colour of the emission map is used unchanged, but it is encoded; leave it so only if the texture has an "
-        "sRGB format (GL_SRGB8)",
+        "the colour of the emission map is encoded, but the shader does not decode it; this is correct only if the "
+        "texture has an sRGB format (GL_SRGB8)",
         "color += pow(texture({emission_map}, {uv}).rgb, vec3(2.2));", .maps = MAPS_EMISSION | MAPS_ENCODED),
     ROW("emission-map-decoded-twice", BITS(EMISSION_DECODED_TWICE), WHERE_PHYSICAL, NEED_EMISSION_MAP,
         "the colour of the emission map is decoded, pow(x, 2.2), more often than it is encoded",
@@ -791,12 +791,12 @@ const struct fault faults[] = {
         "bitangent differs from the cross product of normal and tangent, and both are in use",
         NULL, .style = true, .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("rim-cut", BITS(RIM_CUT), WHERE_PHYSICAL | WHERE_SMITH, 0,
-        "there is no highlight if n.v is 0 or less; only interpolated normals at rims point so far away, and lambent "
+        "there is no highlight if n.v is 0 or less; this occurs only for interpolated normals at rims, and lambent "
         "uses |n.v| for them, as in glTF's appendix B",
         NULL, .style = true),
     ROW("rim-clamped", BITS(RIM_CLAMPED), WHERE_PHYSICAL | WHERE_SMITH, 0,
-        "n.v is clamped at 0, and the highlight remains, as in Khronos' viewer and three.js; only interpolated normals "
-        "at rims point so far away, and lambent uses |n.v| for them, as in glTF's appendix B",
+        "n.v is clamped at 0, and the highlight remains, as in Khronos' viewer and three.js; this matters only for "
+        "interpolated normals at rims, and lambent uses |n.v| for them, as in glTF's appendix B",
         NULL, .style = true),
     ROW("no-tone-curve", BITS(USE_NO_TONE), WHERE_PHYSICAL | WHERE_TONED, 0,
         "there is no tone curve, but the course uses Reinhard's: the light is clamped at 1", NULL, .style = true),

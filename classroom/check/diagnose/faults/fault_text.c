@@ -78,14 +78,14 @@ static bool is_wide(const struct line *line, enum uniform_semantic semantic) // 
 
 static bool is_world(const struct line *line) { return line->interface->space == LAM_FRAME_WORLD; }
 
-// Returns the matrix from the model's space to the space in which lighting is computed.
+// Returns the matrix from model space to lighting space (eye or world space).
 static const char *to_lighting(const struct line *line)
 {
     const char *name = own_name(line, is_world(line) ? SEMANTIC_MODEL : SEMANTIC_MODEL_VIEW);
     return name ? name : is_world(line) ? "model" : "gl_ModelViewMatrix";
 }
 
-// Writes the matrices from the space in which lighting is computed to clip space.
+// Writes the matrices from lighting space to clip space.
 static void put_to_clip(struct line *line)
 {
     const char *projection = own_name(line, SEMANTIC_PROJECTION), *view = own_name(line, SEMANTIC_VIEW);
@@ -94,8 +94,7 @@ static void put_to_clip(struct line *line)
         put(line, " * %s", view ? view : "view");
 }
 
-// Writes the light's position, or the unit direction to the light, as a vec3 in the space in which lighting is
-// computed.
+// Writes the light's position, or the unit direction to the light, as a vec3 in lighting space.
 static void put_light(struct line *line, bool direction)
 {
     const char *name = own_name(line, SEMANTIC_LIGHT_POSITION), *unit = own_name(line, SEMANTIC_LIGHT_DIRECTION),

@@ -5,6 +5,7 @@
 
 #include <lambent/base.h>
 
+#include <stdlib.h>
 #include <windows.h>
 
 enum { PAGE = 4096 };

@@ -140,8 +140,8 @@ static bool take_sparse(struct gltf *gltf, const struct place *place, const json
     return accessor->sparse_values != NULL;
 }
 
-// Returns the accessor with this index, which must be valid. Checks that its elements lie within the buffer. Returns
-// NULL on error.
+// Returns the accessor with this index, which must be valid. Checks that the accessor's elements are inside the buffer.
+// Returns NULL on error.
 static struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index)
 {
     struct gltf_accessor *accessor = &gltf->accessors[index];

@@ -4,8 +4,8 @@
 
 #include "gltf.h"
 
-// Decodes a compressed bufferView into memory of the scene. Sets *done to whether the bufferView was decoded. If
-// meshoptimizer is not installed, *done is false and the caller must use the bufferView's uncompressed bytes; a
+// Decodes a compressed bufferView into memory of the scene. Sets *done to true if the bufferView was decoded. If
+// meshoptimizer is not installed, sets *done to false, and the caller must use the bufferView's uncompressed bytes. A
 // bufferView without such bytes is an error. Returns false on error.
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done);

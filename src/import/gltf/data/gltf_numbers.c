@@ -120,7 +120,7 @@ struct conversion {
     const struct gltf_accessor *accessor;
     float *out;
     bool required;
-    uint32_t replaced; // atomic; the number of values that were not finite
+    uint32_t replaced; // the number of values that were not finite; atomic
 };
 
 static bool convert_chunk(void *user, size_t index, lam_error *error)

@@ -9,7 +9,8 @@
 bool gltf_textures_start(struct gltf *gltf);
 
 // A request for a material's map, from the textureInfo under `key`. `material` is the material's index in the file. If
-// the key is missing, `material->maps[slot]` is unchanged. *present (may be NULL) is set to whether the key is present.
+// the key is missing, `material->maps[slot]` is unchanged. *present (may be NULL) is set to true if the key is present,
+// otherwise to false.
 struct gltf_map_request {
     int material;
     lam_map slot;

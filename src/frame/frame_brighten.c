@@ -117,7 +117,7 @@ static double percentile(const struct luminances *sum, double share)
 
 static bool is_dark(const lam_rgb *c) { return c->r == 0 && c->g == 0 && c->b == 0; }
 
-// Returns true if only the studio lights the model, and if the model has its own colours.
+// Returns true if the studio is the model's only light, and if the model has its own colours.
 static bool applies(const struct frame *frame, const lam_scene *scene)
 {
     const lam_draw_params *settings = &frame->settings;

@@ -15,7 +15,7 @@
 
 // --- materials
 
-// Returns whether metals selected with --material reflect the studio: the studio lights the picture, and no option
+// Returns whether metals selected with --material reflect the studio: the picture is lit by the studio, and no option
 // requires the classic values.
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {

@@ -16,7 +16,7 @@
 #include "settings_file.h"
 #include "settings_json.h"
 
-// Scans a command line for --json and -o -, so that an error in the command line is reported where the user expects it.
+// Scans a command line for --json and -o -, which determine how an error in the command line is reported.
 static struct options scan_report_options(int count, char **words)
 {
     struct options options = {0};

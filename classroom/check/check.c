@@ -396,7 +396,8 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (!check_reserved("lam_check_params", params, error) ||
         (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
-    lam_check_params own = *params; // a copy, in whose shaders inputs replace the fixed state of GLSL 110 and 120
+    // A copy, in whose shaders inputs replace the fixed-function state of GLSL 110 and 120.
+    lam_check_params own = *params;
     struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)

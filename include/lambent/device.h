@@ -156,8 +156,8 @@ typedef enum lam_output {
 // primaries of sRGB, and returns linear light from 0 to 1, which is then encoded (docs/lighting/tone.md has formulas,
 // sources and plots). Tone curves apply to 8-bit pictures; float pictures store the light itself.
 typedef enum lam_tone {
-    // KHRONOS_NEUTRAL if the frame shows a physical material, CONTRAST if the studio lights a grey curved model or a
-    // terrain, otherwise NONE.
+    // KHRONOS_NEUTRAL if the frame shows a physical material, CONTRAST if the studio illuminates a grey curved model or
+    // a terrain, otherwise NONE.
     LAM_TONE_AUTO = 0,
     LAM_TONE_NONE,     // no curve: each channel is clipped at 1
     LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)
@@ -212,7 +212,7 @@ typedef enum lam_occlusion {
 // lighter to the same degree as valleys become darker (docs/lighting/occlusion.md).
 typedef enum lam_cavity {
     LAM_CAVITY_AUTO = 0, // ON if LAM_OCCLUSION_AUTO means SCREEN, else OFF
-    LAM_CAVITY_OFF,      // valleys and ridges unchanged
+    LAM_CAVITY_OFF,      // no cavity shading
     LAM_CAVITY_ON,       // dark valleys and light ridges
     LAM_CAVITY_COUNT
 } lam_cavity;

@@ -21,7 +21,7 @@ typedef struct lam_explained_light_layers {
     float base_diffuse; // max(n·l, 0) (1 − max F) times the matt part
     lam_rgb base;       // F S; F mixes dielectric and metal
     float sheen_left;   // the fraction of light that passes the sheen; 1: no sheen
-    lam_rgb sheen;      // sheen_color π D V n·l of its fibres
+    lam_rgb sheen;      // sheen_color π D V n·l, with D and V of the fibres
     float coat;         // the share S of the coat; 0: no coat
     LAM_RESERVED(4);
 } lam_explained_light_layers;
@@ -264,7 +264,8 @@ typedef struct lam_explained_fragment {
     // The kind of the ground if the triangle belongs to it; NONE: the triangle belongs to the scene.
     lam_ground ground;
     // LAM_GROUND_SHADOW: the luminance that the point sends to the eye, and the luminance that it would send if nothing
-    // blocked the light. The opacity is the missing share, 1 − received / unobstructed, times the ground's fade-out.
+    // blocked the light. The opacity is the missing share, 1 − received / unobstructed, times the ground's fade-out
+    // factor.
     float received, unobstructed;
     // Four positions: the triangle's corners, and the point with the weights above. NULL: a line or a point, which has
     // no corners in a mesh.

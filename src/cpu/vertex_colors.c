@@ -1,4 +1,4 @@
-// vertex_colors.c: computes the lighting of a frame's vertices, and allocates only the memory that is needed for it.
+// vertex_colors.c: computes the lighting of a frame's vertices, and allocates only the memory that the frame needs.
 #include "vertex_colors.h"
 
 #include "isa.h"

@@ -1,4 +1,4 @@
-// work.h: counts the work of a frame that grows with the number of layers, lights and opaque surfaces per pixel, so
+// work.h: counts the work that grows with the number of layers, lights and opaque surfaces per pixel of a frame, so
 // that a small file cannot cause hours of drawing. The module also stops the frame if the call must stop.
 #ifndef WORK_H
 #define WORK_H
@@ -38,8 +38,8 @@ static inline bool work_continues(const struct work *work)
     return !__atomic_load_n(work->failure, __ATOMIC_RELAXED) && call_should_continue(work->call);
 }
 
-// Adds units of work. Whether a frame fails depends only on their sum, not on the threads. Returns false if the frame
-// must stop.
+// Adds units of work. Whether a frame fails depends only on the sum of the units, not on the threads. Returns false if
+// the frame must stop.
 static inline bool work_add(struct work *work, uint64_t units)
 {
     if (__atomic_add_fetch(&work->done, units, __ATOMIC_RELAXED) > work->limit)

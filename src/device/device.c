@@ -1,4 +1,4 @@
-// device.c: the common entry points of all devices: they check arguments, build the frame and fill the report.
+// device.c: the common entry points of all devices, which check arguments, build the frame and fill the report.
 #include "device_type.h"
 
 #include "fail.h"

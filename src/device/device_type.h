@@ -10,7 +10,7 @@ struct pool;
 struct recorder;
 
 struct device_type {
-    // Draws the frame into the image, which has any format and stride (pixels.h). Fills the times and counters of
+    // Draws the frame into the image. Every format and stride is supported (pixels.h). Fills the times and counters of
     // device->report, except frame_ms and total_ms.
     bool (*draw)(struct lam_device *device, const struct frame *frame, lam_image *image, struct call_control *call,
                  lam_error *error);
@@ -20,7 +20,7 @@ struct device_type {
     bool makes_normals;                      // whether the device can draw frames whose makes_normals is set
 };
 
-// The base of every device; a device's own struct begins with it.
+// The base of every device; a device's own struct begins with this struct.
 struct lam_device {
     const struct device_type *type;
     char name[96];

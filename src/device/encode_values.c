@@ -1,5 +1,5 @@
-// encode_values.c: writes pixels that contain surface properties instead of colours, encoded in 8 bits as lam_output in
-// lambent/device.h defines. All devices use this plain C code.
+// encode_values.c: writes pixels that contain surface properties instead of colours, in the 8-bit encoding that
+// lam_output in lambent/device.h defines. All devices use this plain C code.
 #include "encode_values.h"
 
 #define LANES 4

@@ -61,7 +61,7 @@ bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_came
     drawn.output = LAM_OUTPUT_PICTURE;
     drawn.light_cutoff = -1;
     drawn.ground = LAM_GROUND_NONE;
-    drawn.shadows |= params && params->ground; // a ground receives shadows
+    drawn.shadows |= params && params->ground; // a ground plane receives shadows
     drawn.wireframe = drawn.no_surfaces = false;
     drawn.edges = 0;
     int longer = width > height ? width : height;

@@ -44,7 +44,7 @@ static bool mesh_ray(const struct frame_draw *draw, const struct pick_ray *eye, 
     return true;
 }
 
-// Returns whether a ray meets the box of a mesh, slightly enlarged.
+// Returns whether a ray meets the slightly enlarged box of a mesh.
 static bool meets_box(const lam_mesh *mesh, const struct scene_extent *extent, const struct pick_ray *ray)
 {
     const double from[3] = {ray->from.x, ray->from.y, ray->from.z},

@@ -35,7 +35,7 @@ LANE_FN struct cube_side cube_side(num x, num y, num z)
     return side;
 }
 
-// Returns the point on a face; its coordinates are −1 to 1. For the zero vector they are NaN.
+// Returns the point on a face; its coordinates are −1 to 1. For the zero vector, the coordinates are NaN.
 LANE_FN struct cube_position cube_point(num x, num y, num z)
 {
     struct cube_side side = cube_side(x, y, z);

@@ -18,7 +18,7 @@ typedef double doubles __attribute__((vector_size(32)));
 
 // The texels that LANES points read for a direction, and their weights.
 struct positions {
-    const float *upper, *lower; // the texels of the cube, and the same texels a row further down
+    const float *upper, *lower; // the texels of the cube, and the same texels one row further down
     int32_t first[LANES];       // the index of the upper left texel's red
     float down[LANES];          // the weight of the lower texels
     float across[LANES][2];     // the weights of the left and the right texels

@@ -1,4 +1,4 @@
-// environment_light.c: computes the environment prefiltered for each roughness and the irradiance, and stores both.
+// environment_light.c: computes and stores the irradiance, and the environment prefiltered for each roughness.
 //
 // A texel is a sum over samples. The GGX lobe around the texel's direction is divided into rings, and the rings are
 // divided into cells that are about as wide as high. For each cell, the environment is read from the copy in the chain

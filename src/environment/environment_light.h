@@ -66,7 +66,7 @@ struct cube_chain {
 bool cube_chain_make(struct cube_chain *chain, const struct lam_environment *cube, struct pool *pool,
                      struct call_control *call, lam_error *error);
 void cube_chain_free(struct cube_chain *chain);
-// Returns the copy for which the ratio of its size to `size` is nearest to 1.
+// Returns the copy whose size is nearest to `size`, compared as a ratio.
 const struct lam_environment *cube_chain_near(const struct cube_chain *chain, double size);
 
 // Returns the solid angle of a texel, except for a constant factor.

@@ -134,7 +134,7 @@ struct frame {
     struct frame_edges edges;
     bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer is LAM_VIEWER_INFINITE
     bool orthographic;
-    float pixel_size;       // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
+    float pixel_size;       // size of a pixel in eye units, at distance 1 (in an orthographic view, everywhere)
     float occlusion_radius; // radius of ambient occlusion in eye units; 0 disables it
     float cavity_radius;    // radius of cavity shading in eye units; 0 disables it
     bool ridges;            // cavity shading lightens ridges

@@ -44,11 +44,11 @@ static bool others_check(const lam_draw_params *params, lam_error *error)
     if (!(params->exposure >= -100 && params->exposure <= 100))
         return fail(error, LAM_BAD_ARGUMENT, "exposure is %g, expected stops from -100 to 100", params->exposure);
     if ((unsigned)params->color > LAM_COLOR_RAW || (unsigned)params->rig > LAM_RIG_LECTURE)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of its range");
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: color, rig, shading or reflection is out of range");
     if ((unsigned)params->tone >= LAM_TONE_COUNT)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: tone %d is not one of lam_tone", (int)params->tone);
     if ((unsigned)params->output >= LAM_OUTPUT_COUNT || params->output_light < 0)
-        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: output or output_light is out of its range");
+        return fail(error, LAM_BAD_ARGUMENT, "draw parameters: output or output_light is out of range");
     return true;
 }
 

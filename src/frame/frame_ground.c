@@ -22,7 +22,7 @@
 // a catcher.
 #define PLAIN_SQUARE   0.0625
 #define CATCHER_SQUARE 0.015625
-// The brightness of a checker's dark squares relative to its bright ones.
+// The brightness of a checker's dark squares relative to the bright squares.
 #define DARK_SQUARE 0.45f
 
 // Returns the largest number that is at most x and equals 1, 2 or 5 times a power of ten.
@@ -90,7 +90,7 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane)
 {
-    // The range of the circle's distances from the eye plane: the distance of its centre, plus or minus the radius
+    // The distance of a point of the circle from the eye plane differs from the centre's distance by at most the radius
     // times the sine of the angle between the view direction and `up`.
     lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
     double reach = 1.01 * (ground->end + 2 * ground->square) * math_sqrt(up.z * up.z < 1 ? 1 - up.z * up.z : 0);
@@ -109,7 +109,8 @@ static double fade(double x, double first, double last)
     return t * t * (3 - 2 * t);
 }
 
-// Returns the opacity of a catcher at a point, by its distance from the picture's border; 0 behind the eye.
+// Returns the opacity of a catcher at a point. The opacity depends on the point's distance from the picture's border,
+// and is 0 behind the eye.
 static double border_fade(const struct frame *frame, const lam_mat4 *to_pixel, lam_vec3 at)
 {
     double p[4];

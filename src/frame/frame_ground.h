@@ -1,4 +1,4 @@
-// frame_ground.h: the ground under the scene: a mesh built for each frame.
+// frame_ground.h: the ground under the scene, a mesh that is built for each frame.
 #ifndef FRAME_GROUND_H
 #define FRAME_GROUND_H
 

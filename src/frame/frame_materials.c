@@ -1,5 +1,5 @@
-// frame_materials.c: selects the reflection model of each material, and converts materials to the kind that their model
-// lights.
+// frame_materials.c: selects the reflection model of each material, and converts classic or physical materials if the
+// model needs the other kind.
 #define LANES 1
 #include "lighting.h"
 
@@ -21,7 +21,8 @@ lam_reflection frame_reflection(const struct frame *frame, const lam_material *m
     return material->physical ? LAM_REFLECTION_GGX : LAM_REFLECTION_BLINN_PHONG;
 }
 
-// Returns whether a model lights this kind of material. LAM_REFLECTION_NONE shows the diffuse colour of both kinds.
+// Returns whether a model can be used with this kind of material. LAM_REFLECTION_NONE shows the diffuse colour of both
+// kinds.
 static bool fits(const lam_material *material, lam_reflection model)
 {
     return model == LAM_REFLECTION_NONE || material->physical == frame_is_physical(model);

@@ -61,7 +61,8 @@ static void add_range(struct frame *frame, struct frame_draw_range range, unsign
     const bool shows = !output_is_value(output), masked = traits & SIDE_MASKED;
     range.passes_rays = traits & SIDE_SEEN_THROUGH;
     range.transmits = shows && traits & SIDE_TRANSMITS;
-    // Pictures of values contain no translucent triangles, only masked triangles. Overdraw also counts masked points.
+    // Pictures of surface properties contain no translucent triangles, only masked triangles. Overdraw also counts
+    // masked points.
     range.translucent = range.passes_rays && (shows || (masked && output != LAM_OUTPUT_OVERDRAW));
     frame->transmits |= range.transmits;
     frame->refracts |= shows && traits & SIDE_REFRACTS;

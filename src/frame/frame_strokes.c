@@ -29,8 +29,8 @@ size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners) { return cor
 // The size of a single point, as a fraction of the picture's smaller side. The size shrinks with the square root of the
 // number of points.
 #define POINT_SHARE 0.16
-// The minimum size in pixels, the minimum for few points in pixels, and the maximum for few points as a fraction of the
-// picture's smaller side.
+// The minimum size in pixels. For few points: another minimum in pixels, and the maximum as a fraction of the picture's
+// smaller side.
 #define POINT_LEAST 3.0
 #define FEW_LEAST   8.0
 #define FEW_MOST    0.025
@@ -94,9 +94,8 @@ bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, c
     return !bytes || buffer_reserve(&frame->strokes, bytes, call, error);
 }
 
-// Returns the depth offset of a stroke with this width: a fraction of the stroke's distance or, if orthographic, a
-// distance.
-// `pixel` is a pixel's height in eye space at w = 1.
+// Returns the depth offset of a stroke with this width: in perspective, a fraction of the stroke's distance; in an
+// orthographic view, a distance. `pixel` is a pixel's height in eye space at w = 1.
 static double nearer_by(const struct stroke_view *view, double width, double pixel)
 {
     return view->orthographic || width * pixel < 0.25 ? width * pixel : 0.25;
@@ -176,7 +175,7 @@ struct builder {
     lam_mat4 eye;                        // mesh to eye space
     double normal[3][3];                 // normals to eye space
     double scale[2];                     // width and height of a pixel in eye space at w = 1
-    double nearer;                       // the fraction by which a stroke is nearer or, if orthographic, the distance
+    double nearer;                       // the depth offset of a stroke, from nearer_by
     double near_plane;                   // the depth at which the offset moves a point to the near plane
     double half;                         // half the width, pixels
     size_t corners;                      // corners per polygon

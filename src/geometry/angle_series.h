@@ -1,4 +1,4 @@
-// angle_series.h: approximates the arctangent for angle weights, for doubles and for lanes of doubles.
+// angle_series.h: approximates the arctangent of a double or of lanes of doubles, for angle weights.
 #ifndef ANGLE_SERIES_H
 #define ANGLE_SERIES_H
 

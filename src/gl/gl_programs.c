@@ -129,7 +129,8 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
     for (int i = 0; i < device->program_count; i++)
         if (memcmp(&device->programs[i].choices, choices, sizeof *choices) == 0)
             return &device->programs[i];
-    // The programs may move, so gl_device.c compiles all programs of a frame before it stores pointers to any.
+    // The programs may move in memory, so gl_device.c compiles all programs of a frame before it stores pointers to
+    // any.
     struct gl_program *list =
         gl_grown(device->programs, device->program_count, &device->program_capacity, sizeof *list, error);
     if (!list)
@@ -203,8 +204,8 @@ static const char copy_fragment[] =
     "out vec4 pixel;\n"
     "void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * factor; }\n";
 
-// Like blend_tinted_pixel (src/cpu/shade/blend.c): there is one alpha, the mean of the channels, and the background is
-// tinted by the difference.
+// As in blend_tinted_pixel (src/cpu/shade/blend.c), the only alpha is the mean of the channels, and the difference from
+// this mean tints the background.
 static const char tint_fragment[] =
     "uniform sampler2D picture;\n"
     "uniform sampler2D tint;\n"

@@ -15,7 +15,7 @@
 #include <string.h>
 
 enum { WIDTH = GLSL_LIST_WIDTH, TEXEL = 4 * sizeof(float), NODE = 2 * NODE_CHILDREN, TRIANGLE = 6, STACK = 64 };
-enum { TEXELS_MAX = 1 << 24 };               // floats represent positions up to this exactly
+enum { TEXELS_MAX = 1 << 24 };               // floats represent integers up to this limit exactly
 enum { KIND_FLAT, KIND_CURVED, KIND_APART }; // APART: casts no shadow and blocks no ray
 
 static int children_of(const struct ray_node *node)

@@ -1,4 +1,4 @@
-// gl_state.c: sets the context's state if it differs from the current state, and allocates vertex buffers.
+// gl_state.c: changes the context's state only if necessary, and allocates vertex buffers.
 #include "gl_device.h"
 
 #include "fail.h"

@@ -1,6 +1,6 @@
-// gl_surfaces.c: stores the data with which a shader computes the light that passes a masked, translucent or
-// transmitting triangle (passed_surface in shadows.glsl). These data are the triangle's record, and the records of its
-// materials and their maps at level 0. The data follow the hierarchy in the same texture.
+// gl_surfaces.c: stores the data with which a shader computes the light that passes through a masked, translucent or
+// transmitting triangle (passed_surface in shadows.glsl). These data are the record of the triangle, the records of the
+// triangle's materials, and the materials' maps at level 0. The data follow the hierarchy in the same texture.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -27,7 +27,7 @@ struct packed_pixels {
 };
 
 // Everything is packed twice. The first pass only computes the size and the key. Pictures and meshes are identified by
-// their addresses, because a scene never changes arrays and keeps them as long as it exists.
+// their addresses, because a scene never changes its arrays, and keeps the arrays until the scene is freed.
 struct packer {
     float *out; // if NULL, only the size and the key are computed
     size_t first, used;

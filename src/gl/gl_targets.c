@@ -22,7 +22,7 @@ static void free_target(struct gl_device *device, struct gl_target *t)
     *t = (struct gl_target){0};
 }
 
-// Makes a target with a colour texture and, on request, textures of depth ids and depth.
+// Makes a target with a colour texture, and if requested, with textures for depth ids and for depths.
 static bool make_target(struct gl_frame *f, struct gl_target *t, int width, int height, bool depth_id, bool depth,
                         bool through, lam_error *error)
 {

@@ -1,4 +1,4 @@
-// gl_textures.c: uploads the textures of materials with all their levels, once, and binds the textures of a draw call.
+// gl_textures.c: uploads each texture of a material once, with all levels, and binds the textures of a draw call.
 //
 // Shaders read single texels and filter them (texture.glsl). Numbers in 0…1 are stored in 16 bits, with an error of
 // 2⁻¹⁷; other numbers are stored as floats. If an OpenGL ES driver does not support the 16-bit format, all numbers are
@@ -26,7 +26,7 @@ static uint8_t encoded_byte(float linear) { return (uint8_t)byte_of(srgb_encode(
 // Clamps a number to the range of 16-bit floats.
 static float half_limited(float x) { return x > 65504 ? 65504 : x < -65504 ? -65504 : x; }
 
-// Writes the texels of a level in the form for the upload.
+// Writes the texels of a level in the format that is uploaded.
 static void pack_level(const struct lam_texture *texture, int level, const struct format *format, void *out)
 {
     const struct texture_level *l = &texture->levels[level];

@@ -10,7 +10,7 @@
 
 // --- the key
 
-// Members are added without the padding between them, whose bytes are indeterminate.
+// The padding between members is not added, because the bytes of the padding are indeterminate.
 static void key_add_light(uint64_t *key, const struct frame_light *light)
 {
     const int kind[] = {light->kind, light->falloff};
@@ -45,8 +45,8 @@ static uint64_t key_of(const struct gl_frame *f, const struct gl_mesh *mesh, int
                            frame->settings.flat_normal,
                            (int)mesh->form,
                            frame->translucent};
-    // The key contains the frame's number if the mesh belongs to this frame only, or if shadows, which depend on all
-    // meshes, are drawn.
+    // The key contains the frame's number if the mesh belongs to this frame only, or if shadows are drawn, because
+    // shadows depend on all meshes.
     const uint64_t frame_number = mesh->passing || frame->settings.shadows ? f->device->frame_number : 0;
     const void *pointers[] = {frame->environment, mesh->mesh.positions, mesh->token};
     uint64_t key = 1;

@@ -21,7 +21,7 @@ enum glsl_semantic {
     GLSL_AMBIENT_LIGHT,
     GLSL_LIGHTS,      // array of structs
     GLSL_HEMISPHERES, // array of structs
-    GLSL_PASSED,      // array of the lights' unblocked shares
+    GLSL_PASSED,      // array: the unblocked share of each light
     GLSL_MATERIAL,    // struct
     GLSL_HEAD,        // a field of the material that is not one of the products
     GLSL_DIFFUSE_PRODUCT,
@@ -46,8 +46,8 @@ struct glsl_row {
     const char *block; // NULL for a plain uniform
     const char *meaning;
     bool back; // belongs to the back material
-    // Offset in floats of a member or of a GLSL_HEAD: in struct glsl_light, in the material, or in a hemisphere (up,
-    // sky, ground).
+    // The offset, in floats, of a member or of a GLSL_HEAD in struct glsl_light, in the material, or in a hemisphere
+    // (up, sky, ground).
     int at;
     lam_map map; // the map, for values of the kinds GLSL_MAP…
 };
@@ -136,17 +136,18 @@ void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
 // Returns whether the reflection model uses a parameter of the material, by its name in LOBE_PARAMETERS
 // (src/lighting/lobes.h).
 bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
-// With products and two materials: appends the lines that select these parameters from the front or the back material.
+// Appends the lines that select these parameters from the front or the back material, for shaders with products and two
+// materials.
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
 // Finds the maps that a shader uses; the other facts must be set.
 void glsl_find_maps(struct glsl_facts *facts);
-// Returns the map whose sampler another map uses: itself, or the first map of its side with the same texels.
+// Returns the map whose sampler `map` uses: the first map of the side with the same texels, which may be `map`.
 lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
 // Returns whether the reflection model lights physical materials.
 bool glsl_is_physical(const struct glsl_facts *facts);
 // Returns whether the struct of map values has a member with this name.
 bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
-// A member of struct layer_values that is a field of the material times its map's value (layer_inputs.h).
+// A member of struct layer_values whose value is a field of the material times the value of a map (layer_inputs.h).
 struct glsl_layer_input {
     char member[28], field[28]; // stored as arrays, because pointers would need relocation at program start
     lam_map map;                // LAM_MAP_COUNT: none
@@ -154,9 +155,9 @@ struct glsl_layer_input {
 };
 const struct glsl_layer_input *glsl_layer_input(int index);                             // NULL past the end
 const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *field); // may be NULL
-// Appends the lines that set the variable `given`, of struct layer_values, except for its vectors.
+// Appends the lines that set the members of `given` (struct layer_values), except the vectors.
 void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
-// Appends the struct of values from maps, and the functions that fill it.
+// Appends the struct with the values from maps, and the functions that fill this struct.
 void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
 
 // Append the expression of a parameter of the material: the value from the material and its maps, or the value that

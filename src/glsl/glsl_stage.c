@@ -134,7 +134,7 @@ static void put_output(struct known_table *t, const struct glsl_facts *f)
                              : "out");
 }
 
-// Adds a loop for each group of lights, with its kind and its falloff.
+// Adds a loop for each group of lights that have the same kind and falloff.
 static void put_loops(struct known_table *t, const struct glsl_facts *f)
 {
     const struct glsl_choices *c = f->choices;

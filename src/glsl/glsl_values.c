@@ -146,7 +146,8 @@ size_t glsl_lights_bytes(const struct glsl_choices *c)
     return (all ? all : 4) * sizeof(float);
 }
 
-// Packs data for shaders with shadows. The data replaces w = 1 and, if the light has no position, also the position.
+// Packs data for shaders with shadows. The data replaces w = 1. For lights without a position, the data also replaces
+// the position.
 static void pack_shadow(float position[4], const struct frame_light *light)
 {
     position[3] = light->casts_shadows ? (float)light->radius : -1;

@@ -1,4 +1,4 @@
-// specialize.c: removes branches with a known condition from a source, and names that are then never read.
+// specialize.c: removes from a source the branches with a known condition, and the names that are then never read.
 #include "specialize.h"
 
 #include <stddef.h>
@@ -274,8 +274,8 @@ static const char *add_branch(struct text *text, const char *head, struct span s
     }
 }
 
-// Returns the end of the statement that begins with a line: it continues while brackets are open, and over the lines of
-// a choice (?:).
+// Returns the end of the statement that begins with a line. A statement continues while brackets are open, and includes
+// all lines of a choice (?:).
 static const char *statement_end(const char *at, const char *end)
 {
     for (int open = 0; at < end;) {
@@ -337,7 +337,7 @@ void specialize_branches(struct text *text, const char *source, const struct kno
 
 // --- unread names
 
-// Returns the next name from `at` on, outside comments; it is empty at the end.
+// Returns the next name from `at` on, outside comments. At the end of the source, the name is empty.
 static struct span next_name(const char *at, const char *end)
 {
     while (at < end && !in_name(*at))
@@ -362,8 +362,8 @@ static bool is_statement(const char *at, const char *end)
     return at[-1] == ';';
 }
 
-// Returns the line that begins with `first` if it only sets the variable or the member that ends at `after`, otherwise
-// NULL.
+// Returns the line that begins with `first` if this line does nothing but set the variable or member that ends at
+// `after`. Otherwise, returns NULL.
 static const char *setting_line(const struct source_span *s, const char *first, const char *after)
 {
     while (first > s->start && first[-1] == ' ')

@@ -44,8 +44,8 @@ bool image_working(const lam_image *image, lam_image *out, lam_error *error);
 // Makes a copy of a picture in its working format.
 bool image_copy(const lam_image *image, lam_image *out, lam_error *error);
 
-// Gets two pictures for comparison, in the form of image_working. The pictures must have the same size, and either both
-// must consist of bytes or both must consist of floats.
+// Gets two pictures for comparison, each converted as by image_working. The pictures must have the same size, and
+// either both must consist of bytes or both must consist of floats.
 bool image_pair(const char *what, const lam_image *const given[2], lam_image pair[2], lam_error *error);
 
 #endif

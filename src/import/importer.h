@@ -17,7 +17,7 @@ typedef bool open_companion(const struct import_source *source, const char *name
 
 struct import_source {
     const char *name;     // for messages: the path as the user wrote it
-    const char *path;     // the file's path; NULL if it is in memory or standard input
+    const char *path;     // the file's path; NULL if the file is in memory or is standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last byte
     size_t size;          // the size of the file in bytes
     // Set for a large file that is read in parts (importer.in_parts); `bytes` then contains only its first FILE_HEAD
@@ -43,7 +43,7 @@ struct importer {
     lam_up up;              // the format's up axis
     // the format does not define an up axis; `up` is the most common axis, and the shape of a terrain may override `up`
     bool up_is_habit;
-    // a scene file: it names other models, and its importer prepares their normals and origins itself
+    // a scene file, which names other models; the importer prepares the normals and origins of these models itself
     bool is_scene_file;
     bool flat_normals; // the format requires flat normals for meshes without normals
     // Returns how certain it is that the bytes are in this format: 0 (no), 1 (possibly; the file's extension decides)
@@ -71,7 +71,7 @@ static inline size_t import_held(const struct import_source *source)
 IMPORTERS(IMPORTER)
 #undef IMPORTER
 
-// Returns the crease angle for scene_prepare in a load with these parameters (0 means the default). Flat normals
+// Returns the crease angle that the load parameters select for scene_prepare (0 means the default). Flat normals
 // correspond to FACET_CREASE_RAD.
 static inline double importer_crease(const struct importer *importer, lam_normals normals, double crease_angle_rad)
 {

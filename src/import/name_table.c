@@ -1,4 +1,4 @@
-// name_table.c: maps names to numbers: a hash table with open addressing.
+// name_table.c: maps names to numbers with a hash table (open addressing).
 #include "name_table.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-// name_table.h: maps names to numbers: a hash table with open addressing.
+// name_table.h: maps names to numbers with a hash table (open addressing).
 #ifndef NAME_TABLE_H
 #define NAME_TABLE_H
 

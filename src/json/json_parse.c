@@ -145,13 +145,16 @@ static char *read_escape(struct parser *p, char *to)
         length = 12;
     }
     if (unit < 1 || (unit >= 0xd800 && unit < 0xe000))
-        return fail_at(p, p->at, unit == 0 ? "a string contains a zero character" : "an escape is not one of JSON"),
+        return fail_at(p, p->at,
+                       unit == 0 ? "a string contains a zero character"
+                                 : "a string contains an invalid "
+                                   "escape"),
                NULL;
     p->at += length;
     return put_utf8(to, unit);
 }
 
-// A string: bytes of the file, or, if it contains escapes or characters outside ASCII, a decoded copy.
+// A string: bytes of the file, or a decoded copy if the string contains escapes or characters outside ASCII.
 struct text {
     const char *at;
     size_t length;

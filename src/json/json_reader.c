@@ -1,4 +1,4 @@
-// json_reader.c: positions in a JSON file, and error sentences about values.
+// json_reader.c: positions in a JSON file, and error messages about values.
 #include "json_reader.h"
 
 #include "fail.h"

@@ -1,5 +1,5 @@
-// json_reader.h: gets values of a JSON file and checks each value on access. Each error names the file, the position in
-// the file, the value found and the value expected. The readers of scene files and shader contracts use these
+// json_reader.h: gets values from a JSON file and checks each value on access. Each error names the file, the position
+// in the file, the value found and the value expected. The readers of scene files and shader contracts use these
 // functions.
 #ifndef JSON_READER_H
 #define JSON_READER_H

@@ -1,6 +1,6 @@
-// layer_inputs.h: the members of struct layer_values (layers.h) that are numbers of the material, some of them
-// multiplied by a map. These lists generate the code that fills the struct, the rows of points, and the GLSL text. To
-// add a number, add a line here and a member to the struct.
+// layer_inputs.h: lists the members of struct layer_values (layers.h) that are fields of the material, or fields
+// multiplied by a map. These lists generate the code that fills the struct, the members of batches of points, and the
+// GLSL text. To add a number, add a line here and a member to the struct.
 #ifndef LAYER_INPUTS_H
 #define LAYER_INPUTS_H
 

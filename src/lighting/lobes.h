@@ -369,10 +369,10 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       "blinn-phong", "a highlight computed from the half vector", \
       "max(n·l, 0)", "max(n·h, 0)") \
     X(KAJIYA_KAY, kajiya_kay_lobe(s, l, m.fibre), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT_FIBRE, \
-      "kajiya-kay", "highlights along threads, from the tangents", \
+      "kajiya-kay", "highlights along threads, computed from their tangents", \
       "sin(t,l)", "max(sin(t,l) sin(t,v) − cos(t,l) cos(t,v), 0)") \
     X(KAJIYA_KAY_LECTURE, kajiya_kay_lecture_lobe(s, l), LOBE_HIGHLIGHT | LOBE_TANGENT | LOBE_BACKLIT, \
-      "kajiya-kay-lecture", "kajiya-kay with the plus sign that some lectures print", \
+      "kajiya-kay-lecture", "kajiya-kay with a plus sign in the formula, as printed in some lectures", \
       "sin(t,l)", "max(sin(t,l) sin(t,v) + cos(t,l) cos(t,v), 0)") \
     X(OREN_NAYAR, oren_nayar_lobe(s, l, m.roughness_angle_rad), 0, \
       "oren-nayar", "rough matt surfaces, no highlight", \

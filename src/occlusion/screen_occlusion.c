@@ -6,9 +6,9 @@
 
 enum { LANES_MAX = 16 };
 
-// Rows contain LANES_MAX additional floats at either end, and planes of cells precede the planes of pixels. All threads
-// fill the rows in chunks, because the first use of the memory of a large picture takes seconds, and the call may be
-// stopped during that time.
+// Rows contain LANES_MAX additional floats at either end, and planes of cells precede the planes of pixels. The first
+// use of the memory of a large picture takes seconds. Therefore, all threads fill the rows in chunks, and the call may
+// be stopped after each chunk.
 enum { CHUNK = 1 << 17, CELL_PLANES = 5 };
 struct emptying {
     float *at;
@@ -43,7 +43,8 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                             int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
                             lam_error *error)
 {
-    // Large cells show less of the pattern in the wide shadow at a model's contact with the ground.
+    // With a ground plane, smaller pictures also use large cells, which make the sampling pattern less visible in the
+    // wide contact shadow.
     int64_t fine = frame->ground.kind ? SCREEN_FINE / 2 : SCREEN_FINE;
     int step = (int64_t)frame->width * frame->height > fine ? 2 : 1;
     int across = (frame->width + step - 1) / step, down = (frame->height + step - 1) / step;

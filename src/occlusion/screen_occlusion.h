@@ -17,7 +17,7 @@ struct pool;
 
 // The grid of cells for which occlusion is computed. Usually, each pixel is a cell. In pictures of more than
 // SCREEN_FINE pixels, a cell is two by two pixels, which takes a quarter of the time. The value of a pixel is then the
-// mean of the surrounding cells on its surface.
+// mean of the surrounding cells that show the pixel's surface.
 struct screen_occlusion {
     int width, height;           // the size of the picture
     int step;                    // pixels along the side of a cell: 1 or 2
@@ -25,7 +25,7 @@ struct screen_occlusion {
     int stride;                  // floats from row to row of a plane
     size_t plane;                // floats from plane to plane
     bool orthographic;
-    float pixel_size;    // size of a pixel in eye units, at distance 1 or, if orthographic, everywhere
+    float pixel_size;    // size of a pixel in eye units, at distance 1 (in an orthographic view, everywhere)
     float radius;        // radius of occlusion in eye units; 0 disables occlusion at this radius
     float cavity_radius; // radius of cavity shading (lam_cavity)
     bool ridges;         // whether cavity shading lightens ridges
@@ -35,11 +35,11 @@ struct screen_occlusion {
     // picture.
     float *depth;
     float *cell_depth; // the depth of the first pixel of each cell that shows a surface
-    // The slope of each cell's surface, computed with its occlusion: the change of distance to the next cell.
+    // The slope of each cell's surface, computed together with the occlusion: the change of distance to the next cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
-    // The result, in the order of `depth` and, with step 2, in its memory: 1 if all surrounding light arrives, 0 if
-    // none does, above 1 on ridges.
+    // The result, in the order of `depth` (with step 2, in the memory of `depth`): 1 if all surrounding light arrives,
+    // 0 if none does, above 1 on ridges.
     float *unoccluded;
 };
 
@@ -82,14 +82,15 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
 }
 
 // Initialises a picture's rows in `storage` without any surface, using the threads of `pool` (may be NULL). `lent`
-// lists blocks of memory that nothing else uses during screen_occlusion_find; they store the rows of cells that fit.
+// lists blocks of memory that nothing else uses during screen_occlusion_find. These blocks store the rows of cells that
+// fit.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory *lent,
                             int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
                             lam_error *error);
 
 // The steps (screen_occlusion.inc, compiled for each instruction set), for rows of cells from `first` to before `end`:
-// the depth of each cell (with step 2), its occlusion, the two passes of its filter, and its pixels. Each step
-// processes all rows before the next step begins.
+// the depths of the cells (with step 2), their occlusion, the two passes of the filter, and the pixels of the cells.
+// Each step processes all rows before the next step begins.
 struct occlusion_kernels {
     void (*cell_rows)(const struct screen_occlusion *occlusion, int first, int end);
     void (*occlude_rows)(const struct screen_occlusion *occlusion, int first, int end);

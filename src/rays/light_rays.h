@@ -1,5 +1,5 @@
 // light_rays.h: computes the light that passes along LANES rays (docs/lighting/shadows.md). Define LANES before
-// including it, before or after ray_lanes.h.
+// including this header, before or after ray_lanes.h.
 #ifndef LIGHT_RAYS_H
 #define LIGHT_RAYS_H
 

@@ -8,8 +8,8 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// The fraction of the picture's width or height that the scene fills. If a ground is drawn, the rest leaves space for
-// the shadow.
+// The fraction of the picture's width or height that the scene fills. If a ground plane is drawn, the wider margin
+// leaves space for the shadow.
 #define FILL           0.92
 #define FILL_ON_GROUND 0.8
 
@@ -98,12 +98,12 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
 //
 //  ±(x − ex) ≤ k·(ez − z),   that is   ±x + k·z ≤ ±ex + k·ez
 //
-// With R and L the maxima of x + k·z and −x + k·z, both sides touch the frame for this eye:
+// Let R be the maximum of x + k·z, and L the maximum of −x + k·z. Both sides touch the frame for this eye:
 //
 //  ex = (R − L)/2,   ez = (R + L)/(2k)
 //
 // The result is exact, and computing it needs one pass over the points. The axis with the larger ez determines the
-// distance. The other axis is centred with the smaller k at which it would touch the frame at this ez.
+// distance. The other axis is centred with the smaller k at which this axis would touch the frame at this ez.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;
@@ -128,8 +128,8 @@ static lam_camera fit(const struct fitting *fitting, const struct view_points *p
     return fitting->orthographic ? fit_orthographic(fitting, points, fill) : fit_perspective(fitting, points, fill);
 }
 
-// Prepares the fit of a view. Returns false if a field of the view is unknown, or if the scene has no triangles;
-// `camera` is then the result.
+// Prepares the fit of a view. Returns false if a field of the view is unknown, or if the scene has no triangles. In
+// these cases, the function sets `camera` to the result.
 static bool start(struct fitting *fitting, const lam_scene *scene, int width, int height, const lam_view *view,
                   double fill, lam_camera *camera)
 {

@@ -49,8 +49,8 @@ static bool read_hex(const char *text, uint32_t *rgba)
     return true;
 }
 
-// Parses one number for all three channels, "r/g/b" or "r/g/b/a". The numbers must not be negative, and a must be at
-// most 1.
+// Parses one number for all three channels, "r/g/b" or "r/g/b/a". The numbers must not be negative, and the alpha must
+// be at most 1.
 static bool read_numbers(const char *text, lam_rgba *color)
 {
     float part[4] = {0, 0, 0, 1};

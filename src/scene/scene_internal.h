@@ -141,7 +141,7 @@ enum { SCENE_WARNINGS_MAX = 64 };
 void scene_warn(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Counts a fully transparent material, and keeps the message about the first one. At the end of the load,
-// show_clear_scene warns of these materials.
+// show_clear_scene warns about these materials.
 void scene_note_clear(struct lam_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Records the origin of the meshes and materials that begin at origin.first_mesh and origin.first_material. Returns

@@ -102,7 +102,7 @@ static bool transform_objects(lam_scene *scene, const lam_mat4 *transform, lam_e
 {
     if (!check_transform(transform, error))
         return false;
-    // All products are checked before any object changes, because they may overflow.
+    // Products may overflow, so all products are checked before any object changes.
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < scene->objects.count; i++) {
             lam_object *object = (lam_object *)scene->objects.items + i;

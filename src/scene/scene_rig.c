@@ -1,5 +1,5 @@
-// scene_rig.c: the lights of a rig in a scene: their positions, the changes for the scene's form and materials, and
-// their tone curve.
+// scene_rig.c: places the lights of a rig in a scene, adapts the lights to the scene's form and materials, and selects
+// the tone curve.
 #include "scene_internal.h"
 
 #include "linear.h"
@@ -57,7 +57,7 @@ static lam_rgb grey(double value) { return (lam_rgb){(float)value, (float)value,
 
 // Lights a grey model for LAM_TONE_CONTRAST: the key light is next to the eye and equally strong everywhere. For
 // terrains it comes from below the view's axis (suit_scene). The lights are dimmed for materials with a kd above
-// GREY_SHOWN, so that no part of them is displayed as plain white.
+// GREY_SHOWN, so that no part of these materials is displayed as plain white.
 static void suit_contrast(lam_light *key, lam_light *fill, lam_light *sky, enum scene_form form, double reflectance)
 {
     const double share = reflectance > GREY_SHOWN ? GREY_SHOWN / reflectance : 1;

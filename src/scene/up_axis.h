@@ -1,4 +1,4 @@
-// up_axis.h: rotations between the axes of a model with y up and of a scene with another up axis.
+// up_axis.h: rotates between the axes of a model with y up and the axes of a scene with another up axis.
 #ifndef UP_AXIS_H
 #define UP_AXIS_H
 

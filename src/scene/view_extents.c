@@ -7,8 +7,8 @@
 #include "linear.h"
 #include "scene_internal.h"
 
-// The search in one mesh for the directions [first, end). A component of a vertex in the axes of the view is row ·
-// position + shift.
+// The state of the search in one mesh, for the directions [first, end). A component of a vertex in the axes of the view
+// is row · position + shift.
 struct search {
     const lam_mesh *mesh;
     const struct scene_extent *extent;
@@ -92,7 +92,8 @@ static void search_block(const struct search *s, size_t block, int d)
     }
 }
 
-// Returns the upper bound for the vertices of a box: the value at its centre plus its half extents along the direction.
+// Returns the upper bound for the vertices of a box: the value at the centre of the box plus the half extents along the
+// direction.
 static double bound_of(const struct search *s, const box_of_six box, int d)
 {
     lam_vec3 low = v3((double)box[0], (double)box[1], (double)box[2]);
@@ -101,7 +102,8 @@ static double bound_of(const struct search *s, const box_of_six box, int d)
     return v3_dot(s->axis[d], middle) + v3_dot(s->axis_size[d], half) + s->offset[d];
 }
 
-// Descends to the box with the largest bound and searches it first, because its extents exclude most other boxes.
+// Descends to the box with the largest bound and searches this box first, because the extents of the box exclude most
+// other boxes.
 static void search_best_block(const struct search *s, int d)
 {
     const struct aabb_tree *tree = &s->extent->boxes;

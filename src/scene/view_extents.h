@@ -15,8 +15,8 @@ struct view_axes {
 // The points whose extents are computed.
 struct view_points {
     const lam_scene *scene;
-    // The scene's vertices as seen along each of these axes. A rotating scene is represented by its fixed position,
-    // seen along several axes.
+    // The scene's vertices as seen along each of these axes. Instead of a rotating scene, the fixed scene is measured
+    // along several axes.
     const struct view_axes *axes;
     int axes_count;
     double ball_radius; // if above 0, a ball of this radius around the centre of the axes is measured instead

@@ -202,7 +202,7 @@ static bool read_light(struct scene_reader *r, const struct place *place, const 
     return scene_adopt_light(r->scene, &light, r->error) >= 0;
 }
 
-// Names distinguish lights in reports and tables, so this function warns of the first two lights with the same name.
+// Names distinguish lights in reports and tables, so this function warns about the first two lights with the same name.
 static bool warn_of_names(struct scene_reader *r, const json_t *list)
 {
     json_t *met = json_object();

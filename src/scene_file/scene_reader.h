@@ -1,6 +1,6 @@
 // scene_reader.h: functions that all readers of scene files share: positions in the file, and values that are checked
-// on access. docs/scene-file.md describes the format for users; `lambent generate scene-schema` prints it as a schema
-// for programs.
+// on access. docs/scene-file.md describes the format for users; `lambent generate scene-schema` prints a schema of the
+// format for programs.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 
@@ -31,8 +31,8 @@ bool fail_place(struct scene_reader *r, const struct place *place, const char *f
 // `keys` ends with NULL.
 bool check_keys(struct scene_reader *r, const struct place *place, const json_t *object, const char *const *keys);
 
-// These functions check the value of a key of `object` and store it. *out is unchanged if the key is missing. The
-// functions return false if the value is wrong. Numbers must be in [min, max].
+// These functions check the value of a key of `object` and store the value. *out is unchanged if the key is missing.
+// The functions return false if the value is wrong. Numbers must be in [min, max].
 bool take_number(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, double min,
                  double max, double *out);
 bool take_whole(struct scene_reader *r, const struct place *place, const json_t *object, const char *key, int min,
@@ -61,7 +61,7 @@ void tone_words(struct json_choice words[LAM_TONE_COUNT + 1]);
 enum { WORDS_MAX = 32 };
 void setting_words(const lam_setting *setting, struct json_choice words[WORDS_MAX]);
 
-// Reads the value of a field's key and stores it in a material or light.
+// Reads the value of a field's key and stores the value in a material or light.
 bool take_field(struct scene_reader *r, const struct place *place, const json_t *object, const lam_field *field,
                 void *out);
 
@@ -80,7 +80,7 @@ bool read_lights(struct scene_reader *r, const json_t *root);
 // material's index in the scene.
 bool read_material_value(struct scene_reader *r, const struct place *place, const json_t *value,
                          const lam_material *base, int *index);
-// Reads the keys of a material and sets them in `material`.
+// Reads the keys of a material and stores their values in `material`.
 bool read_material_keys(struct scene_reader *r, const struct place *place, const json_t *value, bool whole,
                         lam_material *material);
 

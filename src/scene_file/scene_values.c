@@ -1,4 +1,4 @@
-// scene_values.c: gets values of a scene file, checks each value on access, and reports wrong values.
+// scene_values.c: gets values from a scene file, checks each value on access, and reports wrong values.
 #include "scene_reader.h"
 
 #include "fail.h"

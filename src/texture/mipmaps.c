@@ -1,8 +1,8 @@
 // mipmaps.c: makes the levels of a texture: each texel is the average of the area that it covers in the previous level.
 //
 // A side of n texels is reduced to n/2 texels, rounded down. If n is even, each new texel covers two texels of the
-// previous level. If n is odd, it covers slightly more than two, and the texels at both ends of this range are weighted
-// by their covered share. Rows and columns are averaged together, in a fixed order.
+// previous level. If n is odd, each new texel covers slightly more than two texels. The texels at both ends of this
+// range are weighted by the share that is covered. Rows and columns are averaged together, in a fixed order.
 #include "texture_levels.h"
 
 #include <stddef.h>

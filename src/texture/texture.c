@@ -26,7 +26,7 @@ static int side_of(int side, int level) { return side >> level ? side >> level :
 // faster.
 #define PAGES_FROM ((size_t)2 << 20)
 
-// Allocates a texture of this size with all its levels, except for level 0 if it consists of bytes. Fails with
+// Allocates a texture of this size with all its levels, except level 0 if level 0 consists of bytes. Fails with
 // LAM_LIMIT.
 static struct lam_texture *allocate(const lam_image *image, int channels, const char *name, struct call_control *call,
                                     lam_error *error)

@@ -7,7 +7,7 @@
 // Checks whether a map can be used. The error message begins with `name`.
 bool texture_map_check(const lam_texture_map *map, const char *name, lam_error *error);
 
-// Returns whether two maps have the same texel everywhere: they may differ in channel, scale and offset.
+// Returns whether two maps use the same texel everywhere. The channel, scale and offset of the maps may differ.
 bool texture_map_same(const lam_texture_map *a, const lam_texture_map *b);
 
 // Returns whether some texel's alpha is below 1.

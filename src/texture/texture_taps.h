@@ -12,7 +12,7 @@
 // Coordinates beyond this limit have no fraction. Such coordinates are treated as 0, like NaN.
 #define COORDINATE_MAX 2.0e9f
 
-// Four texels of a level, in the form of the rows of texture_taps.
+// Four texels of a level, stored like the rows of texture_taps.
 struct tap_lanes {
     inum first, across, down;
     num right, lower;

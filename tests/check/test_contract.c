@@ -163,7 +163,7 @@ static void test_errors(void **state)
     bad(GOOD "\"a\": {\"role\": \"model\", \"type\": \"mat4\", \"space\": \"eye\"}" END,
         "my.json:1: uniforms.a.space: the role model has no space");
     bad(GOOD LIGHT ", \"lampPlace\": {\"role\": \"light_position\", \"type\": \"vec3\"}" END,
-        "my.json:1: uniforms.lampPlace: this name has a role already");
+        "my.json:1: uniforms.lampPlace: this name already has a role");
     bad(GOOD LIGHT ", \"a\": {\"role\": \"model\", \"type\": \"mat4\", \"also\": [\"b\", \"lamp.place\"]}" END,
         "my.json:1: uniforms.a.also[1]: 'lamp.place' has a role already");
     bad(GOOD LIGHT ", \"a\": {\"role\": \"normal\", \"type\": \"vec3\"}" END,

@@ -527,7 +527,7 @@ class Unruly(CheckTest):
         self.assertEqual(reported[1]["tried"], reported[2]["tried"])
         self.assertTrue(1 <= reported[0]["tried"] <= 100 < reported[1]["tried"], [r["tried"] for r in reported])
         text = self.run_program("check", *words, "--scenes", "all", "-s", 48, "--search-limit", 100).stdout.decode()
-        self.assertIn(f"None of {reported[0]['tried']} mistakes and sets of mistakes explains it; the search ended at its limit (--search-limit)", text)
+        self.assertIn(f"None of {reported[0]['tried']} mistakes and sets of mistakes explains the difference; the search ended at its limit (--search-limit)", text)
         words = self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")])
         for limit, ids in ((1, []), (10000, ["no-gate"])):
             self.assertEqual([m["id"] for m in self.report_of(*words, "--search-limit", limit, code=6)["mistakes"]], ids)

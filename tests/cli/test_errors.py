@@ -23,7 +23,7 @@ class Models(Case):
     def test_missing(self):
         self.one_sentence(self.bad(2, "missing.obj", says="missing.obj"))
         self.bad(2, "teapto", says="did you mean 'teapot'?")
-        self.bad(2, "bunny", says="`lambent shapes` lists them")
+        self.bad(2, "bunny", says="`lambent shapes` lists the shapes")
         self.bad(2, "box", says="did you mean 'cube'?")
         self.bad(2, "*.3mf", says="no file matches this pattern")
         self.bad(2, "none.png", says="write the name of the picture after -o")

@@ -102,7 +102,7 @@ class Explain(Case):
         self.assertEqual((line["places"], "line" in line), (None, True))
         (self.folder / "line.obj").unlink()
         text = self.good("explain", "teapot", "30,30", "-s", 64).stdout.decode()
-        for words in ("on the way to the window", "NDC", "clip ÷ w", "winding", "counter-clockwise"):
+        for words in ("from the mesh to the window", "NDC", "clip ÷ w", "winding", "counter-clockwise"):
             self.assertIn(words, text)
 
     def test_matrices(self):

@@ -120,7 +120,7 @@ ROWS = [
     ("docs/internals/cpu.md", "With more than {} lights, Lambent also skips the weakest", FEW_LIGHTS),
     ("docs/internals/cpu.md", "in groups of {}. Lambent tests each group", constant("src/cpu/lights/light_bounds.h", "LIGHTS_IN_GROUP")),
     ("docs/internals/cpu.md", "one block of {}×{} pixels", *2 * [counted("1 << BLOCK_SHIFT of light_cull_blocks.inc", lambda: 2 ** BLOCK.look_up())]),
-    ("docs/internals/normals.md", "until {} of them can be computed", constant("src/geometry/normals/corner_fan_simd.h", "FAN_POSITIONS")),
+    ("docs/internals/normals.md", "number of corners, {} positions are computed together", constant("src/geometry/normals/corner_fan_simd.h", "FAN_POSITIONS")),
     ("docs/show.md", "front blue (0, {}, 255), back red (255, {}, 0)", code("src/device/encode_values.c", r"front\[3\] = \{0, (\d+)"),
      code("src/device/encode_values.c", r"back\[3\] = \{255, (\d+)")),
     ("docs/show.md", "no channel below {}", LEAST_ID),

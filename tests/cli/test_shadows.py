@@ -52,9 +52,9 @@ class Shadows(Case):
         self.assertEqual((light["casts_shadows"], light["passed"], light["in_the_way"]["object"]), (True, [0, 0, 0], 1))
         self.assertGreater(light["in_the_way"]["distance"], 0.1)
         text = self.good("explain", self.scene(), "%d,%d" % SHADOW).stdout.decode()
-        self.assertIn("of object 1 is in the way", text)
-        self.assertIn("nothing is in the way", self.good("explain", self.scene(), "%d,%d" % LIT).stdout.decode())
-        self.assertNotIn("in the way", self.good("explain", self.scene(shadows=False), "%d,%d" % LIT).stdout.decode())
+        self.assertIn("of object 1 blocks the light", text)
+        self.assertIn("nothing blocks the light", self.good("explain", self.scene(), "%d,%d" % LIT).stdout.decode())
+        self.assertNotIn("blocks the light", self.good("explain", self.scene(shadows=False), "%d,%d" % LIT).stdout.decode())
 
     def test_glass_elsewhere_leaves_a_ground_its_shadow(self):
         """If a material transmits light, light is tinted: lights without shadows light a catcher a second time."""

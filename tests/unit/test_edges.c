@@ -494,8 +494,8 @@ static void mistakes(void **state)
     } wrong[] = {
         {{.edge_width = 1e9f}, "edge_width is 1e+09, expected pixels from 0 to 1000"},
         {{.wireframe_width = -1}, "wireframe_width is -1, expected pixels from 0 to 1000"},
-        {{.edges = 8}, "draw parameters: edges or hidden_lines is out of its range"},
-        {{.hidden_lines = LAM_HIDDEN_LINES_COUNT}, "draw parameters: edges or hidden_lines is out of its range"},
+        {{.edges = 8}, "draw parameters: edges or hidden_lines is out of range"},
+        {{.hidden_lines = LAM_HIDDEN_LINES_COUNT}, "draw parameters: edges or hidden_lines is out of range"},
         {{.edge_angle_rad = 4}, "edge_angle is 229.183°, expected 0° to 180°"},
         {{.edge_color = {0, 0, 0, 2}}, "edge_color: a channel is 2, expected a number of at least 0 and at most 1"}};
     assert_true(lam_image_make(&image, SIDE, SIDE, LAM_RGBA8, NULL));

@@ -216,7 +216,7 @@ static void test_sentences(void **state)
         {"[1", "t.json:1: column 3: found the end of the file, expected ',' or ']'"},
         {"[\"a", "t.json:1: column 2: a string without its closing quote"},
         {"[\"a\nb\"]", "t.json:1: column 4: a string contains a control character, expected an escape"},
-        {"[\"\\q\"]", "t.json:1: column 3: an escape is not one of JSON"},
+        {"[\"\\q\"]", "t.json:1: column 3: a string contains an invalid escape"},
         {"[\"\\u0000\"]", "t.json:1: column 3: a string contains a zero character"},
         {"[\"\xc3(\"]", "t.json:1: column 3: a string is not UTF-8"},
         {"[\x1b\xc2\x9b"

@@ -605,7 +605,7 @@ static void test_random(void **state)
     }
 }
 
-// Processor time, not elapsed time: some hundred times the necessary time.
+// Processor time, not elapsed time: several hundred times the necessary time.
 static void within_seconds(clock_t start, double seconds)
 {
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < seconds);

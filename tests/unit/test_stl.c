@@ -297,7 +297,7 @@ static void test_first_mistake(void **state)
     free(bytes);
 }
 
-// Any NaN in a large file is found, also if its bits are those of an unused entry of stl_shared.c.
+// Any NaN in a large file is found, even if an unused entry of stl_shared.c contains the same bits.
 static void test_not_finite(void **state)
 {
     (void)state;

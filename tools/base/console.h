@@ -18,11 +18,11 @@ void say_warning(const char *text);
 // Redirects the messages of this thread to `stream`, so that the caller can print them later, in order. NULL ends the
 // redirection.
 void console_capture(FILE *stream);
-// Prints text. Control characters other than line ends and tabs become "?", because file names may contain them.
+// Prints text. Control characters other than line endings and tabs become "?", because file names may contain them.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // Returns the number of bytes of the character at `text` if the character is invisible, otherwise 0. Invisible
-// characters are control characters except line ends and tabs, and characters that change the direction of the text
+// characters are control characters except line endings and tabs, and characters that change the direction of the text
 // after them.
 size_t text_hidden(const char *text);
 

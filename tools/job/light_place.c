@@ -115,7 +115,7 @@ static struct surroundings surroundings_of(const struct job *job, const lam_ligh
     return s;
 }
 
-// Returns the vector `way` to the light, turned to another azimuth or elevation.
+// Moves a light to another azimuth or elevation. `way` is the vector to the light; returns the new vector.
 static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth, double degrees)
 {
     double height = dot(way, s->up), length = sqrt(dot(way, way));
@@ -127,7 +127,7 @@ static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth,
     return times(turned(ahead, cross(ahead, s->up), degrees), length);
 }
 
-// Applies to `v` the rotation that moves the light from one position to another without roll.
+// Rotates `v` together with the light, which moves from one position to another without roll.
 static lam_vec3 carried(lam_vec3 v, lam_vec3 from, lam_vec3 to, const struct surroundings *s)
 {
     lam_vec3 axes[2][3];

@@ -13,13 +13,13 @@ lam_mat4 light_to_world(const struct job *job, const lam_light *light);
 bool lights_fix_to_world(struct job *job, lam_error *error);
 
 // Sets a swept value of a light. `centre` is the model's centre. Fails with LAM_BAD_ARGUMENT if there is no such light,
-// or the light has no such value.
+// or if the light does not have this value.
 bool light_sweep(const struct job *job, const struct sweep *sweep, double value, lam_vec3 centre, lam_error *error);
 
 // Multiplies all colours of a light.
 void light_brighten(lam_light *light, double factor);
 
-// Gets the scene's up axis and the direction of its front, as unit vectors.
+// Gets unit vectors along the scene's up axis and towards the scene's front.
 void scene_axes(const lam_scene *scene, lam_vec3 *up, lam_vec3 *front);
 
 lam_vec3 matrix_apply(const lam_mat4 *m, lam_vec3 v, double w);

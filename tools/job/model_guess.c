@@ -39,7 +39,7 @@ static void guess_word(const char *model, char *advice)
 {
     const struct option *option = option_find(model);
     if (model[strspn(model, "0123456789")] == 0)
-        snprintf(advice, ADVICE_SIZE, "; the size of the picture is one word: -s 640x480");
+        snprintf(advice, ADVICE_SIZE, "; write the size of the picture as one word: -s 640x480");
     else if (find_command(model))
         snprintf(advice, ADVICE_SIZE, "; a command comes first: lambent %s", model);
     else if (option && option_is_taken(option, command_table->groups))
@@ -53,7 +53,9 @@ static void guess_word(const char *model, char *advice)
         if (nearest.best)
             snprintf(advice, ADVICE_SIZE, "; did you mean '%s'?", nearest.best);
         else
-            snprintf(advice, ADVICE_SIZE, "; no built-in shape has this name either: `lambent shapes` lists them");
+            snprintf(advice, ADVICE_SIZE,
+                     "; no built-in shape has this name either: `lambent shapes` lists the "
+                     "shapes");
     }
 }
 

@@ -1,5 +1,5 @@
-// batch_isolate.c: draws each model of a pass in a separate process. The process sends its results back. If the process
-// ends before it has sent them, its pictures are recorded with the class `crashed`.
+// batch_isolate.c: draws each model of a pass in a separate process. The process sends its results back. If a process
+// ends without sending all results, the pictures of its model are recorded with the class `crashed`.
 #include "batch_isolate.h"
 
 #include <errno.h>
@@ -32,8 +32,8 @@ static double grace_ms(double limit_s) { return limit_s > 5 ? 5000 : limit_s > 0
 
 // --- the process
 
-// A process sends this struct, then for each picture a `sent_picture`, its journal line and its file, then its two
-// output texts.
+// A process sends this struct. Then it sends, for each picture, a `sent_picture`, the journal line and the picture's
+// file. At the end, it sends its standard output and standard error.
 struct sent {
     int code, warnings;
     bool interrupted;

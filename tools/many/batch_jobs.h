@@ -9,15 +9,15 @@
 #include "batch_unit.h"
 #include "job_roots.h"
 
-// Opens the job stream of the batch's options. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT or LAM_LIMIT.
+// Opens the job stream that the batch's options select. Fails with LAM_CANNOT_READ, LAM_BAD_ARGUMENT or LAM_LIMIT.
 struct batch_jobs *batch_jobs_open(struct batch *batch, lam_error *error);
 void batch_jobs_close(struct batch_jobs *jobs); // NULL is allowed
 
 // Returns the folders to which files of jobs are restricted.
 const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
 
-// Reads the next line, waiting up to `wait_ms`, and accepts, rejects or cancels a job. After an interrupt, or if the
-// batch or the answers have failed, cancels all jobs. Only the main thread may call it.
+// Waits up to `wait_ms` for the next line, reads the line, and accepts, rejects or cancels a job. After an interrupt,
+// or if the batch or the answers have failed, cancels all jobs. Only the main thread may call it.
 void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
 
 // Returns the file to poll() for the next line, or −1 if no line is needed now.
@@ -33,7 +33,7 @@ bool batch_jobs_over(struct batch_jobs *jobs);
 // may call it.
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
-// Answers a job with its result, and frees it. Any thread may call it.
+// Answers a job with its result, and frees the job. Any thread may call it.
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit);
 
 #endif

@@ -10,7 +10,7 @@ void batch_page_thumbnails(const struct batch *batch, const struct batch_unit *u
 // Returns whether a thumbnail is missing, or older than its picture.
 bool batch_page_lacks(const struct batch *batch, const struct batch_unit *unit);
 
-// Makes the thumbnail of one picture, unless an up-to-date one exists. With `is_new`, always makes it.
+// Makes the thumbnail of one picture if `is_new` is set or if no up-to-date thumbnail exists.
 void batch_page_thumbnail(const char *page, const char *output, bool is_new);
 
 // Returns whether a path may be a thumbnail of the page.

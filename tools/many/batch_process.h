@@ -9,7 +9,7 @@ struct batch_process {
     struct child_bytes answer;
     double stop_ms; // the clock_ms() at which the process will be killed, or 0
     bool stopped;   // whether the process was killed at `stop_ms`
-    pid_t writer;   // the process that writes files for this process and ends after this process, or 0
+    pid_t writer;   // the writer for this process, which ends after this process; or 0
 };
 
 // Starts `work` in a copy of this process, which must have no other thread. The copy sends back the bytes that `work`
@@ -18,7 +18,7 @@ typedef void batch_work(void *user, struct child_bytes *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 
 // Waits up to `wait_ms` until one of the processes sends data or ends, or until the file `also` (−1 if there is none)
-// is readable. Returns the index of a process that has ended, with its status of waitpid, or −1 if no process has
+// is readable. Returns the index of a process that has ended, with the status from waitpid, or −1 if no process has
 // ended.
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status);
 

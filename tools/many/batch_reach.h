@@ -16,8 +16,8 @@ bool batch_reach_enter(const struct batch *batch, size_t first, size_t count, la
 // Starts the writer for a process that draws one task. Fails with LAM_LIMIT.
 bool batch_reach_write(const struct batch *batch, const struct batch_task *task, lam_error *error);
 
-// Enters the sandbox of a process that draws one job: it may access its model's folder and its pictures' folder, but no
-// other folder of --allow-path.
+// Enters the sandbox of a process that draws one job: the process may access the folders of the job's model and
+// pictures, but no other folder of --allow-path.
 bool batch_reach_enter_job(const struct batch_job *job, lam_error *error);
 
 #endif

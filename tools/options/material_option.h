@@ -1,4 +1,4 @@
-// material_option.h: parses the values of --material and --back-material, and warns about coefficients.
+// material_option.h: parses the values of --material and --back-material, and warns about coefficients above 1.
 #ifndef MATERIAL_OPTION_H
 #define MATERIAL_OPTION_H
 

@@ -15,7 +15,7 @@ struct texts {
 // Selects when the exposure is automatic: only for files with lights in candela or lux, always, or never.
 enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
 
-// Values in addition to lam_rig. RIG_DARK is --rig none, which leaves only the ambient light.
+// Values beside the values of lam_rig. RIG_DARK is --rig none, which leaves only the ambient light.
 enum { RIG_DARK = 100, RIG_DEFAULT };
 
 // Selects whether a turntable's lights turn with the camera or with the model.
@@ -77,9 +77,9 @@ struct view_options {
 
 // Lights.
 struct lighting_options {
-    struct texts lights;         // as typed, checked
-    const char *look;            // as typed; NULL if there is none
-    char *look_text;             // the look's text, into which values point; allocated with malloc
+    struct texts lights; // as typed, checked
+    const char *look;    // as typed; NULL if there is none
+    char *look_text;     // the look's text, which contains the strings of the look's options; allocated with malloc
     int look_first, look_lights; // the range of `lights` that the look added
     int rig;                     // lam_rig, RIG_DARK or RIG_DEFAULT
     bool has_rig;
@@ -246,7 +246,7 @@ struct shader_options {
     bool products;
     int style;           // lam_shader_style
     const char *mistake; // an id, or "list"; NULL if there is none
-    bool lecture_device; // OpenGL draws in the lecture style with this mistake, as on a sheet
+    bool lecture_device; // for a sheet of mistakes: OpenGL draws with the lecture-style shader that contains `mistake`
     int object;          // valid if the next flag is set
     bool has_object;
 };
@@ -256,7 +256,7 @@ struct settings_options {
     const char *file; // NULL means the user's own file
     bool none;
     char *values;                  // the strings to which `values` of struct options points, allocated with malloc
-    const struct options *without; // the same options without the settings, or NULL
+    const struct options *without; // the same options without the settings file, or NULL
 };
 
 // Printed output.

@@ -9,7 +9,7 @@ enum { POOL = 192, NAME_SIZE = 40 };
 static struct choice pool[POOL];
 static int pool_used;
 
-// Returns whether a name equals a key after each _ in the key is replaced by -.
+// Returns whether a name equals a key. A - in the name also matches a _ in the key.
 static bool is_named(const char *name, const char *key)
 {
     while (*name && *key && (*name == *key || (*name == '-' && *key == '_')))
@@ -127,7 +127,7 @@ void option_settings_fill(struct option table[OPTIONS_MAX])
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
         struct option *o = row_of(setting, open, count);
         if (!o && !kinds[setting->type].store)
-            continue; // colours depend on --color-mode, so another option sets them
+            continue; // a colour; another option sets it, depending on --color-mode
         if (!o) {
             snprintf(names[i], NAME_SIZE, "%s", setting->key);
             for (char *c = names[i]; *c; c++)

@@ -185,8 +185,8 @@ static const struct choice tone_words[] = {
 static const struct choice look_words[] = {
     {"studio", 0, "the default"},
     {"classic", 1, "the former studio, with directional lights and without occlusion"},
-    {"catalog", 2, "for web pages: the studio and a ground plane that catches a soft shadow"},
-    {"technical", 3, "for print: feature edges over pale, flat-shaded faces"},
+    {"catalog", 2, "the studio and a ground plane with a soft shadow, for web pages"},
+    {"technical", 3, "feature edges over pale, flat-shaded faces, for print"},
     {NULL, 0, NULL}};
 
 static const struct choice rig_words[] = {
@@ -198,8 +198,7 @@ static const struct choice rig_words[] = {
     {"studio", LAM_RIG_STUDIO, "key, fill and rim lights fixed to the camera, with sky and ground light"},
     {"headlight", LAM_RIG_HEADLIGHT, "one light from the eye"},
     {"three-point", LAM_RIG_THREE_POINT, "key, fill and back lights as in portrait photography, fixed to the camera"},
-    {"lecture", LAM_RIG_LECTURE,
-     "a point light at 1r/2r/3r with ambient 0.1, diffuse and specular 1, and attenuation 1/0/0"},
+    {"lecture", LAM_RIG_LECTURE, "a point light at 1r/2r/3r (ambient 0.1, diffuse 1, specular 1, attenuation 1/0/0)"},
     {NULL, 0, NULL}};
 
 static const struct choice turntable_light_words[] = {
@@ -457,18 +456,19 @@ struct option option_table[OPTIONS_MAX] = {
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
      "The camera: keys such as eye=x/y/z,target=x/y/z,fovy=30, or the name or number of a camera in the model file.",
      "A value without `=` selects a camera of a glTF file, by its name or number (the first camera is 0). Otherwise, "
-     "the value is a list of keys, separated by commas, in the model's own coordinates. `eye` is required, unless "
-     "`fovy` is the only key. By default, `target` is the middle of the model, and `up` is the model's up axis. In a "
-     "perspective projection, `fovy` is the full vertical angle in degrees (default: 30). Without other keys, "
-     "`--camera fovy=60` and `--fov 60` are equivalent. In a parallel projection, `ortho` is the distance from the "
-     "picture's middle to its top, in model units. Give both `near` and `far`, or neither. By default, Lambent fits "
-     "both distances to the scene. You cannot combine this option with `--view`, `--azimuth`, `--elevation`, `--zoom`, "
-     "`--fov` or `--projection`. `--json` reports the camera of any picture with these keys.",
+     "the value is a list of keys, separated by commas. Positions are in the model's own coordinates. `eye` is "
+     "required, unless `fovy` is the only key. By default, `target` is the middle of the model, and `up` is the "
+     "model's up axis. In a perspective projection, `fovy` is the full vertical angle in degrees (default: 30). "
+     "Without other keys, `--camera fovy=60` and `--fov 60` are equivalent. In a parallel projection, `ortho` is the "
+     "distance from the picture's middle to its top, in model units. Give both `near` and `far`, or neither. By "
+     "default, Lambent fits both distances to the scene. You cannot combine this option with `--view`, `--azimuth`, "
+     "`--elevation`, `--zoom`, `--fov` or `--projection`. For any picture, `--json` reports the camera under the same "
+     "keys.",
      .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
-     "A light: point:position=2r/1r/3r, spot, directional, ambient, hemisphere or none; repeatable.",
+     "A light, such as point:position=2r/1r/3r, or none; repeatable.",
      "TYPE is `ambient`, `hemisphere`, `point`, `directional` or `spot`, followed by a colon and keys separated by "
      "commas. These lights replace the model's lights, or the studio if the model has no lights. `+TYPE` adds a light "
      "without replacing others, and `none` removes all lights except ambient light. If you also give `--rig`, Lambent "
@@ -509,9 +509,8 @@ struct option option_table[OPTIONS_MAX] = {
      .kind = VALUE_COLOR, .store = store_opaque_color, .others = "ambient-light", FIELD(lighting.ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
      "Draw a marker at each light: a ball, with a cone in the light's direction.",
-     "The distance between the marker of a directional light and the model's centre is 1.5 radii of the model's "
-     "bounding sphere. Each marker has the colour of its light. The markers do not change the camera. Lambent reports "
-     "markers outside the picture.",
+     "The marker of a directional light is 1.5 bounding-sphere radii from the model's centre. Each marker has the "
+     "colour of its light. The markers do not change the camera. Lambent reports markers outside the picture.",
      .store = store_switch, FIELD(shading.show_lights)},
     {"light-cutoff", 0, GROUP_LIGHTS, "SHARE", NULL, NULL,
      "With more than 16 lights, Lambent skips the weakest lights in each region of the picture. Together, the skipped "
@@ -552,11 +551,11 @@ struct option option_table[OPTIONS_MAX] = {
      .has_field = offsetof(struct options, lighting.has_light_scale), .min = 0, .max = 1e6},
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@NAME]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
-     "The value is a material name from the classic table (with sRGB colours), keys separated by commas, or a name "
+     "The value is the name of a classic material, keys separated by commas, or a name "
      "followed by keys (`gold,shininess=80`). Under the default lights, `brass`, `bronze`, `chrome`, `copper`, `gold` "
      "and `silver` without keys are physical metals that reflect the studio. `glass` is clear glass (`lambent help "
-     "glass`). Properties that you do not list keep the model's values. `lambent help materials` lists the keys (a "
-     "colour is `#rrggbb`, a name, `r/g/b` or one number). `color` sets the ambient and diffuse colour. "
+     "glass`). Properties that you do not list keep the model's values. A colour is `#rrggbb`, a name, `r/g/b` or one "
+     "number. `lambent help materials` lists the keys. `color` sets the ambient and diffuse colour. "
      "`specular_color` sets the specular colour. The factors `ka`, `kd` and `ks` multiply the ambient, diffuse and "
      "specular colour. The factor `kr` multiplies `reflectivity`. Without the key `reflectivity`, the reflectivity is "
      "`kr` times `specular_color` (default: white).\n`@NAME` limits the option to the surfaces of that name: "
@@ -573,7 +572,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(material.model_color),
      .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
-     "The material of back faces, in the form of `--material`; properties that you do not list keep the front's "
+     "The material of back faces, with the syntax of `--material`; properties that you do not list keep the front's "
      "values.",
      NULL, .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
@@ -597,8 +596,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"reflection", 0, GROUP_SHADING, "MODEL", NULL, reflection_summary,
      .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert"},
     {"stage", 0, GROUP_SHADING, "STAGE", "fragment", NULL,
-     "Without `--shading`, `application` and `vertex` imply Gouraud shading, and `fragment` implies Phong shading. On "
-     "the CPU, a shading method draws the same picture at every stage.",
+     "If you omit `--shading`, `application` and `vertex` imply Gouraud shading, and `fragment` implies Phong shading. "
+     "On the CPU, the stage does not change the picture of a shading method.",
      .others = "per-vertex per-pixel per-fragment"},
     {"flat-normal", 0, GROUP_SHADING, "SOURCE", .words = NULL},
     {"viewer", 0, GROUP_SHADING, "KIND", .words = NULL},
@@ -606,8 +605,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"single-scattering", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Rough metals then look darker, as in renderers without multiple scattering.", .words = NULL},
     {"reference", 0, GROUP_SHADING, "N", NULL, NULL,
-     "This option integrates the light numerically, for comparison with the approximation. Most results are within 0.5 "
-     "% of the exact integral with 1024 directions, and within 0.2 % with 4096 directions. The directions are the same "
+     "This option integrates the light numerically, for comparison with the approximation. With 1024 directions, most "
+     "results are within 0.5 % of the exact integral; with 4096 directions, within 0.2 %. The directions are the same "
      "at every point and on every machine. Only the CPU device supports this option.",
      .others = "ground-truth importance-samples"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
@@ -641,8 +640,8 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(shading.wireframe_color)},
     {"edges", 0, GROUP_SHADING, "KINDS", "none", NULL,
      "At a `crease` edge, two faces meet at an angle larger than `angle`, or more than two faces meet. A `boundary` "
-     "edge belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing face. The keys "
-     "`angle` (default: 40 degrees), `width` (default: 1.5 pixels) and `color` (default: black) may follow: `--edges "
+     "edge belongs to only one face. A `silhouette` edge lies between a front-facing and a back-facing face. You can "
+     "add the keys `angle` (default: 40 degrees), `width` (default: 1.5 pixels) and `color` (default: black): `--edges "
      "all,width=2,color=red`. If you give only keys, Lambent draws all edges. `--edges all --surfaces off` makes a "
      "technical drawing.",
      .keyed = true, .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},

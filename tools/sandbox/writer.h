@@ -34,8 +34,8 @@ bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, la
 // Returns whether this process or its parent has started the writer.
 bool writer_is_there(void);
 
-// Returns the writer's process ID, which is part of the names of its unfinished files, or this process's ID if there is
-// no writer.
+// Returns the process ID of the writer, or of this process if there is no writer. The ID is part of the names of
+// unfinished files.
 pid_t writer_process(void);
 
 // Detaches this process from a writer that a child process continues to use. Returns the writer's process ID for
@@ -59,13 +59,13 @@ struct writer_file {
     enum writer_right right;
 };
 
-// Writes all of the files or none. When all files are complete, they receive their names, in the given order. The
-// folders of the files must exist. After a signal, or if the disk is full, the older files are unchanged. Fails with
-// LAM_CANNOT_WRITE or LAM_LIMIT.
+// Writes all of the files or none. When all files are complete, the writer gives the files their names, in the given
+// order. The folders of the files must exist. After a signal, or if the disk is full, the older files are unchanged.
+// Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
 
-// Returns whether the path contains no links after its first `named` bytes, which the user gave. Fails with
-// LAM_CANNOT_WRITE.
+// Returns whether the path contains no links after its first `named` bytes. These bytes were given by the user. Fails
+// with LAM_CANNOT_WRITE.
 bool writer_check_links(const char *path, size_t named, lam_error *error);
 
 // Removes a file whose right is WRITER_REMOVES. Failure is not reported.

@@ -14,7 +14,7 @@
 #include "file_io.h"
 #include "output_folder.h"
 
-#ifdef __wasm__ // wasi-libc lacks chmod, and the files of a page have no permissions
+#ifdef __wasm__ // wasi-libc lacks chmod, and files in a web page have no permissions
 #define chmod(path, mode) 0
 #endif
 
@@ -133,7 +133,7 @@ bool writer_files_stage(const char *path, const lam_bytes *bytes, lam_error *err
     return ok;
 }
 
-// Ends the set. With `renames`, renames the hidden files to their names, otherwise removes them.
+// Ends the set. If `renames` is set, gives the hidden files their final names; otherwise, removes the hidden files.
 static bool finish(bool renames, lam_error *error)
 {
     lock_set();

@@ -1,5 +1,5 @@
-// writer_files.h: checks paths before files are replaced, and replaces sets of files together. The process that writes
-// calls these functions: the writer, or without a sandbox the program itself.
+// writer_files.h: checks paths before files are replaced, and replaces sets of files together. The writer calls these
+// functions. Without a sandbox, the program itself calls these functions.
 #ifndef WRITER_FILES_H
 #define WRITER_FILES_H
 
@@ -15,8 +15,8 @@ bool writer_files_save(const char *path, const lam_bytes *bytes, bool durable, l
 // LAM_LIMIT.
 bool writer_files_stage(const char *path, const lam_bytes *bytes, lam_error *error);
 
-// Renames the hidden files to their names, in the order in which they were staged. Removes the remaining hidden files
-// after a failure.
+// Gives the hidden files their final names, in the order in which they were staged. After a failure, removes the
+// remaining hidden files.
 bool writer_files_commit(lam_error *error);
 
 // Removes the hidden files.

@@ -174,7 +174,7 @@ static bool not_found(const struct material_option *option, bool back, const cha
             offer(&names, lam_scene_mesh(scene, m)->parts[p].name);
     for (int i = 0; !back && i < lam_scene_material_count(scene); i++)
         offer(&names, lam_scene_material(scene, i)->name);
-    char advice[300] = "; nothing in it has a name";
+    char advice[300] = "; the model contains no names";
     if (names.nearest.best)
         snprintf(advice, sizeof advice, "; did you mean '%.60s'?", names.nearest.best);
     else if (names.count)

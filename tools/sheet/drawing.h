@@ -59,7 +59,7 @@ bool draw_image(struct drawing *drawing, const lam_image *image, int left, int t
 // Returns true if the path names an SVG.
 bool drawing_is_svg(const char *path);
 
-// Returns whether a PNG can show a user's text: the script needs no shaping, and the font contains its characters
+// Returns whether a PNG can show a user's text: its script needs no shaping, and the font contains all characters
 // (`has_font` means that the user selected the font). Fails with LAM_UNSUPPORTED; the error names the character and
 // recommends an SVG.
 bool drawing_check_text(const char *option, const char *text, bool has_font, lam_error *error);

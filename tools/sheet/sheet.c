@@ -13,7 +13,7 @@
 #include "sheet_defaults.h"
 #include "suggest.h"
 
-// Suppresses a warning, because most cells do not set `look`.
+// Most cells do not set the field `look`, so the warning about missing initializers is off.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 // A light from the front left, slightly above. Its highlight is visible on any rounded model, left of the centre.
@@ -241,7 +241,7 @@ static void title_of(const char *option, char *title, size_t size)
                 {"color-mode", "encodings of colours"},
                 {"cull", "culled sides of the surface"},
                 {"environment", "environments"},
-                {"environment-rotation", "turns of the environment"},
+                {"environment-rotation", "rotations of the environment"},
                 {"ground", "kinds of ground"},
                 {"hidden-lines", "lines behind surfaces"},
                 {"light", "lights"},
@@ -259,7 +259,7 @@ static void title_of(const char *option, char *title, size_t size)
                 {"shadow-terminator", "shadows at the terminator"},
                 {"shadows", "with and without shadows"},
                 {"shininess", "exponents of the highlight"},
-                {"show", "terms of the light and numbers of the surface"},
+                {"show", "terms of the light and surface quantities"},
                 {"surfaces", "with and without surfaces"},
                 {"tone", "tone curves"},
                 {"viewer", "positions of the eye for highlights"}};
@@ -375,7 +375,7 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
     for (int i = 0; i < 2; i++)
         if (strncmp(across->items[i], "mistake", 7) == 0)
             return complain(error, LAM_BAD_ARGUMENT,
-                            "option '--across': mistakes cannot be combined; expected no other '--across' beside them");
+                            "option '--across': mistakes cannot be combined with another '--across'");
     return choose_across(across->items[0], &lines, &store[0], error) &&
            choose_across(across->items[1], &columns, &store[1], error) && cross(&lines, &columns, sheet, error);
 }

@@ -53,7 +53,7 @@ struct contract_defaults {
     struct default_number ambient_strength, diffuse_strength, specular_strength, shininess, spot_exponent;
     bool has_attenuation, has_direction, has_position;
     float attenuation[3];
-    lam_vec3 direction; // the direction towards the light, or its position if has_position is set
+    lam_vec3 direction; // the direction towards the light or, if has_position is set, the light's position
     int light_space;    // the space of these vectors; by default the contract's space
 };
 
@@ -113,7 +113,7 @@ struct contract {
     const struct contract_varying *varyings; // ends with NULL
     // Built-in names whose use identifies the contract. Ends with NULL.
     const char *const *built_ins;
-    // The structs and arrays of lights, such as "lights[]" and "sun"; "" for names outside them.
+    // The structs and arrays of lights, such as "lights[]" and "sun"; "" for names that belong to no struct or array.
     const char *groups[MAX_LIGHT_GROUPS];
     int group_count;
     unsigned supports;     // bits of reference_need
@@ -134,7 +134,7 @@ struct contract {
     const char *outputs;     // names of the fragment shader's output, separated by blanks; NULL if not stated
     bool has_attenuation;    // names or constants determine the attenuation
     bool material_strengths; // colours and their strengths are separate inputs
-    bool any_strengths;      // shaders contain their own strengths and colours; the check fits them to the pictures
+    bool any_strengths; // shaders contain their own strengths and colours; the check fits these values to the pictures
     // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The check rewrites such shaders
     // (fixed_state.h).
     bool fixed_state;

@@ -80,7 +80,7 @@ static bool find_group(struct contract_reader *r, const struct place *place, con
     return c->groups[c->group_count++] || contract_no_memory(r);
 }
 
-// Returns the name that replaces a name of the fixed state in rewritten sources: fixed_LightSource[].position.
+// Returns the name that replaces a name of fixed-function state in rewritten sources: fixed_LightSource[].position.
 static const char *fixed_state_name(struct arena *arena, const char *name)
 {
     char text[80];
@@ -125,7 +125,7 @@ static bool read_name(struct contract_reader *r, const struct place *place, cons
     if (!json_take_text(&r->json, place, value, "meaning", &meaning))
         return false;
     if (is_taken(r, name, attribute))
-        return json_fail(&r->json, place, "this name has a role already");
+        return json_fail(&r->json, place, "this name already has a role");
     for (size_t i = 0; i < json_array_size(also); i++)
         if (is_taken(r, json_string_value(json_array_get(also, i)), attribute))
             return json_fail(&r->json, ELEMENT_OF(KEY_OF(place, "also"), i), "'%s' has a role already",

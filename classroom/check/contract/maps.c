@@ -3,7 +3,7 @@
 
 #include "elementary.h"
 
-// glTF uses only green and blue. A shader that reads red or alpha instead receives these numbers.
+// glTF uses only green and blue. If a shader reads red or alpha by mistake, the shader receives these numbers.
 static const float unread_red = 0.9f, unread_alpha = 0.7f;
 
 // The maps that can multiply each number.

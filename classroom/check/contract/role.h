@@ -82,7 +82,7 @@ enum uniform_semantic {
     SEMANTIC_COUNT
 };
 
-// The kinds of input that a role suits.
+// The kinds of input to which a role can be assigned.
 enum role_use {
     ROLE_ATTRIBUTE = 1,
     ROLE_UNIFORM = 2,

@@ -69,8 +69,8 @@ static struct uniform_value light_position(const struct reference_light *light, 
                                                 : vector(mat4_point(to, light->position), 1);
 }
 
-// Returns the numbers of a spot light's cone: the cutoff's cosine, the exponent, and, for shaders with two angles, a
-// hard edge at the cutoff or no edge.
+// Returns the numbers of a spot light's cone: the cosine of the cutoff and the exponent. The other two numbers give
+// shaders with two angles a hard edge at the cutoff, or no edge.
 static struct uniform_value cone(const struct reference_light *light)
 {
     if (light->cutoff_deg <= 0)

@@ -57,8 +57,9 @@ enum reference_rule {
 struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
-    // For a directional light, the direction to the light. For a spot, the opposite of its axis. For a point light, the
-    // opposite of the axis for shaders that read an axis; zero means the direction from the camera's target.
+    // For a directional light, the direction to the light. For a spot, the direction opposite to the axis of the spot.
+    // For a point light, the direction opposite to the axis for shaders that read an axis; zero means the direction
+    // from the camera's target.
     lam_vec3 to_light;
     lam_rgb color;        // Ld
     lam_rgb specular;     // Ls
@@ -91,8 +92,8 @@ struct reference_scene {
     // surface. As in filtered maps, the vector does not have exactly unit length.
     lam_vec3 bump;
     lam_rgb emission; // the colour of an emission map
-    // Used by shaders that read maps: the bits (map_bit) of the maps, and of the maps with a separate factor. The
-    // product of factor and texel is the corresponding number above.
+    // Used by shaders that read maps. `maps` contains the bits (map_bit) of all maps, and `factors` the bits of the
+    // maps that have a separate factor. The product of factor and texel is the corresponding number above.
     unsigned maps, factors;
     float occlusion;    // the value of an occlusion map
     bool encoded_maps;  // contract.maps

@@ -86,7 +86,7 @@ bool shader_dialect_lowers_precision(const char *text)
     return find_qualifier(text, &length) != NULL || reads_low(text);
 }
 
-// Appends characters to a text. Returns the position after them.
+// Appends characters to a text. Returns the position after the new characters.
 static size_t copy(char *out, size_t at, const char *letters, size_t count)
 {
     memcpy(out + at, letters, count);

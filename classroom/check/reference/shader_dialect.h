@@ -17,12 +17,12 @@ bool shader_dialect_lowers_precision(const char *text);
 // visible in a picture even if the shader is correct. Returns NULL if memory runs out.
 char *shader_dialect_highp(const char *text);
 
-// Returns the source without a leading byte order mark, which some editors write and compilers reject.
+// Returns the source without a leading byte order mark. Some editors write this mark, but compilers reject it.
 const char *shader_dialect_skip_mark(const char *text);
 
 // Converts a source in desktop GLSL to GLSL ES 3.00. Returns the copy, allocated with malloc. Line numbers do not
-// change. The copy has another version line, a precision, the keywords of ES 3.00 instead of older keywords, and other
-// names for OpenGL's built-in inputs. The compiler reports remaining differences, such as implicit conversion to
+// change. The copy contains another version line, a precision, the keywords of ES 3.00 instead of older keywords, and
+// other names for OpenGL's built-in inputs. The compiler reports remaining differences, such as implicit conversion to
 // floats. Returns NULL and fills
 // `error` on failure.
 char *shader_dialect_es(const char *text, bool is_vertex, lam_error *error);

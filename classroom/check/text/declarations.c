@@ -240,7 +240,7 @@ static int *slot_of(const struct declarations *d, const char *text)
     }
 }
 
-// Returns the first of the words that equal a text, or NULL if there is none.
+// Returns the first word that equals a text, or NULL if there is none.
 static struct word *first_of(const struct declarations *d, const char *text)
 {
     int index = *slot_of(d, text);

@@ -57,8 +57,8 @@ const struct declaration *declarations_find(const struct declarations *d, enum d
 // Returns whether word `i` exists and is equal to `text`.
 bool word_is(const struct declarations *d, int i, const char *text);
 
-// Parses the number at word *at, which may have a minus sign, and advances *at past the number. Returns false if there
-// is none.
+// Parses the number at word *at, which may begin with a minus sign, and advances *at past the number. Returns false if
+// there is none.
 bool word_take_number(const struct declarations *d, int *at, double *out);
 
 // Returns whether a word is an identifier or a keyword.

@@ -1,4 +1,4 @@
-// expectation.c: derives the terms that shaders are expected to compute from their declarations.
+// expectation.c: uses the declarations of shaders to determine the terms that the shaders are expected to compute.
 #include "expectation.h"
 
 #include <stdio.h>
@@ -202,18 +202,20 @@ void expectation_describe(unsigned e, const struct shader_interface *r, unsigned
     int count = 0;
     for (size_t i = 0; !terms && i < sizeof terms_of / sizeof *terms_of; i++)
         if (e & terms_of[i].bit)
-            at += (size_t)snprintf(
-                out + at, capacity - at, "%s%s",
-                count++ ? ", " : "no name of these terms is declared, so they are not expected: ", terms_of[i].name);
+            at += (size_t)snprintf(out + at, capacity - at, "%s%s",
+                                   count++ ? ", "
+                                           : "not expected, because the shaders declare no name of these "
+                                             "terms: ",
+                                   terms_of[i].name);
     if (count)
-        at += (size_t)snprintf(out + at, capacity - at, "; --terms all expects them");
+        at += (size_t)snprintf(out + at, capacity - at, "; --terms all requires these terms");
     count = 0;
     for (size_t i = 0; i < sizeof white / sizeof *white; i++)
         if (e & white[i].bit)
             at += (size_t)snprintf(out + at, capacity - at, "%s%s",
                                    count++ ? ", "
-                                   : at    ? "; not declared and taken as white: "
-                                           : "not declared and taken as white: ",
+                                   : at    ? "; treated as white, because not declared: "
+                                           : "treated as white, because not declared: ",
                                    white[i].name);
     if (e & EXPECT_SPECULAR_LIGHT_AS_DIFFUSE)
         snprintf(out + at, capacity - at, "%sthe light has one colour for both terms", at ? "; " : "");

@@ -1,4 +1,4 @@
-// fixed_state.c: declares the fixed state that a shader reads (GLSL 1.20, section 7.5).
+// fixed_state.c: declares the fixed-function state that a shader reads (GLSL 1.20, section 7.5).
 #include "fixed_state.h"
 
 #include <stdio.h>

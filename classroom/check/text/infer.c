@@ -460,7 +460,7 @@ static bool find_light_in_text(struct inference *f, int guess, int *left)
 
 // --- complete contracts
 
-// Lists the possible spaces of the lighting and of the light, the likeliest first.
+// Lists the possible pairs of the space in which lighting is computed and the space of the light, the likeliest first.
 static int find_spaces(const struct inference *f, const char *out[MAX_SPACES][2])
 {
     int count = 0;

@@ -1,5 +1,5 @@
-// interface_scene.c: converts a reference scene to one that a pair of shaders can express. Undeclared inputs have the
-// contract's values, and terms that are not in the contract are switched off.
+// interface_scene.c: changes a reference scene so that a pair of shaders can express the scene. Undeclared inputs have
+// the contract's values, and terms that are not in the contract are switched off.
 #include "maps.h"
 #include "shader_interface.h"
 
@@ -216,8 +216,7 @@ static unsigned kind_bit(lam_light_type type)
     return type == LAM_LIGHT_DIRECTIONAL ? NEED_DIRECTIONAL : type == LAM_LIGHT_SPOT ? NEED_SPOT : NEED_POINT;
 }
 
-// Returns a group that allows a light of this type and has a free element for it, or −1. `taken` marks the used
-// elements.
+// Returns a group that allows a light of this type and contains a free element, or −1. `taken` marks the used elements.
 static int find_group(const struct shader_interface *r, lam_light_type type, const int taken[MAX_LIGHT_GROUPS])
 {
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)

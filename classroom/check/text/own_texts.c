@@ -1,4 +1,4 @@
-// own_texts.c: normalises line ends, and declares the fixed state.
+// own_texts.c: normalises line endings, and declares the fixed-function state.
 #include "own_texts.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "fail.h"
 #include "fixed_state.h"
 
-// Returns a copy in which line feeds replace single carriage returns, the line ends of old Macs. Returns NULL if the
+// Returns a copy in which line feeds replace single carriage returns, the line endings of old Macs. Returns NULL if the
 // source contains no single carriage return. Also returns NULL, and sets *ok to false, if memory runs out.
 static char *mend_lines(const char *text, bool *ok)
 {

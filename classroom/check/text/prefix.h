@@ -21,8 +21,8 @@ bool prefix_applies(const struct contract *contract, const struct declarations *
 bool prefix_add(const struct contract *contract, const char *vertex, const char *fragment, struct complete_texts *out,
                 lam_error *error);
 
-// Completes the shader sources of a program for a contract: adds the contract's prefix if it applies, and otherwise
-// leaves the sources unchanged.
+// Completes the shader sources of a program for a contract: adds the contract's prefix if the prefix applies, and
+// otherwise leaves the sources unchanged.
 // `vertex` may be NULL. Returns false if memory runs out. The caller frees `out`.
 bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
                      struct complete_texts *out, lam_error *error);

@@ -69,7 +69,8 @@ static bool add_token(struct tokens *t, const char *from, size_t length, int lin
     return true;
 }
 
-// Returns the length of a backslash and the line end after it, or 0 if `c` does not start with them.
+// Returns the length of a backslash and the line ending after it, or 0 if `c` does not start with a backslash and a
+// line ending.
 static size_t continuation(const char *c)
 {
     return c[0] != '\\' ? 0 : c[1] == '\n' ? 2 : c[1] == '\r' && c[2] == '\n' ? 3 : 0;
@@ -219,8 +220,8 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, is kept, because the name is more meaningful than the number. A name that
-// is the size of an array is replaced by its number.
+// The name of a number, such as LIGHT_SPOT, is kept, because the name is more meaningful than the number. If the size
+// of an array is a name, the name's number replaces the name.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;

@@ -109,8 +109,8 @@ static const struct declaration *find_either(const struct declarations *vertex, 
     return item ? item : find_uniform_or_attribute(fragment, name, false);
 }
 
-// Returns the name of the contract that an unknown name probably means. Both names have the same kind and similar
-// types, and the shaders do not declare the contract's name. Returns NULL if there is none.
+// Returns the name in the contract that the author of an unknown name probably meant. Both names have the same kind and
+// similar types, and the shaders do not declare the contract's name. Returns NULL if there is none.
 static const struct contract_name *meant_by(const struct contract *contract, const struct declarations *vertex,
                                             const struct declarations *fragment, const struct declaration *item)
 {

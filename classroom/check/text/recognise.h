@@ -1,4 +1,4 @@
-// recognise.h: finds the contract whose names a program uses, and describes names that do not match it.
+// recognise.h: finds the contract whose names a program uses, and describes names that do not match the contract.
 #ifndef RECOGNISE_H
 #define RECOGNISE_H
 

@@ -13,7 +13,7 @@
 #include "shader_constants.h"
 
 // Returns whether the shader reads a declared uniform. A struct member is read only if its name follows a dot; any
-// other name is read if it occurs.
+// other name is read if the name occurs.
 static bool is_used(const struct declarations *d, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -159,9 +159,10 @@ static bool can_be_checked(const struct shader_interface *r, lam_error *error)
         const char *name, *what;
     } unsupported[] = {
         {DECLARED_UNIFORM, "light_list",
-         "lights in a texture, which the check does not provide; print it with --lights-in array or block"},
+         "lights in a texture, which the check does not provide; print the shader with --lights-in array or block"},
         {DECLARED_INPUT, "provoking_position",
-         "the vertices of flat shading in GLSL 120, which the check does not provide; print it with --glsl 330"},
+         "the vertices of flat shading in GLSL 120, which the check does not provide; print the shader with --glsl "
+         "330"},
         {DECLARED_INPUT, "front_color",
          "colours that the application computes, so the shader contains no lighting to check"}};
     for (int i = 0; r->contract->printed && i < 3; i++)
@@ -249,8 +250,8 @@ static void apply_lambent_rules(struct shader_interface *r)
         r->groups[g].kinds |= NEED_POINT | NEED_DIRECTIONAL | NEED_SPOT;
 }
 
-// Returns the possible kinds of light of a shader with Lambent's names. The kinds follow from the members that the
-// shader reads, such as lights[i].cone.
+// Returns the kinds of light that are possible in a shader with Lambent's names. The kinds follow from the members that
+// the shader reads, such as lights[i].cone.
 static unsigned lambent_light_kinds(const struct shader_interface *r)
 {
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
@@ -404,7 +405,7 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     find_declared(r);
     find_maps(r);
     shader_constants_find(r);
-    // A printed shader also declares members of a material that it does not read.
+    // A printed shader also declares members of a material that are not read.
     uint64_t named = contract->printed ? r->used : r->declared;
     r->physical =
         contract->reflection == LAM_REFLECTION_GGX || named >> SEMANTIC_METALLIC & 1 || named >> SEMANTIC_ROUGHNESS & 1;

@@ -23,7 +23,7 @@ struct shader_interface {
     bool has_tangents; // tangents are attributes, so the frame of a normal map does not require derivatives
     // The contract's values, or the numbers that the shaders contain.
     struct contract_defaults defaults;
-    // The space of the shaders' lighting, CAMERA or WORLD, and of their first light.
+    // The space in which the shaders compute lighting (CAMERA or WORLD), and the space of the first light.
     lam_light_frame space, light_frame;
     unsigned supports; // bits of reference_need, and of reference_rule
     // The groups, in the order of contract->groups. If the shaders declare no light, the first group is the light that
@@ -31,7 +31,7 @@ struct shader_interface {
     struct light_group groups[MAX_LIGHT_GROUPS];
     bool vertex_lit; // the fragment shader declares no name of a material or light
     bool physical;   // the shaders use metalness and roughness; contract->physical describes the lighting
-    // For a shader printed by `lambent shader`: its reflection model, tone curve, and whether it has multiple
+    // For a shader printed by `lambent shader`: its reflection model, its tone curve, and whether it computes multiple
     // scattering. For other shaders and for the Lambert model, the values are AUTO, AUTO and false.
     lam_reflection printed_model;
     lam_tone printed_tone;

@@ -36,14 +36,17 @@ void check_print_no_finding(FILE *file, const lam_check_report *r)
 {
     unsigned long long tried = (unsigned long long)r->tried;
     if (r->search_stopped)
-        fprintf(
-            file,
-            "None of %llu mistakes and sets of mistakes explains it; the search ended at its limit (--search-limit).",
-            tried);
+        fprintf(file,
+                "None of %llu mistakes and sets of mistakes explains the difference; the search ended at its limit "
+                "(--search-limit).",
+                tried);
     else if (tried)
-        fprintf(file, "None of the %llu known mistakes and sets of mistakes that were tried explains it.", tried);
+        fprintf(file,
+                "None of the %llu known mistakes and sets of mistakes that were tried explains the "
+                "difference.",
+                tried);
     else
-        fputs("No known mistake explains it.", file);
+        fputs("No known mistake explains the difference.", file);
 }
 
 static void print_findings(FILE *file, const lam_check_report *r)

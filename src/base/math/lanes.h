@@ -335,7 +335,7 @@ LANE_FN unsigned negative_bits(inum x)
 #endif
 }
 
-// Returns, for each lane, how many bits are set in `bits` for this lane and all earlier lanes.
+// Returns, for each lane, the number of bits that are set in `bits` up to and including this lane.
 LANE_FN inum bits_up_to_lane(unsigned bits)
 {
     inum x = inum_of((int32_t)bits) & ((inum_of(2) << lane_numbers()) - 1);
@@ -411,7 +411,7 @@ LANE_FN num num_load_halves(const float *low, const float *high)
 }
 
 #if LANES == 8 && defined(__AVX2__)
-// For each value of a byte, the indices of its set bits in ascending order, one byte each.
+// For each value of a byte: the indices of the set bits in ascending order, one byte per index.
 #define BIT_NUMBER(b, i) ((b) >> (i) & 1 ? (uint64_t)(i) << 8 * __builtin_popcount((b) & ((1u << (i)) - 1)) : 0)
 #define BIT_NUMBERS(b)                                                                                                 \
     (BIT_NUMBER(b, 0) | BIT_NUMBER(b, 1) | BIT_NUMBER(b, 2) | BIT_NUMBER(b, 3) | BIT_NUMBER(b, 4) | BIT_NUMBER(b, 5) | \
@@ -505,7 +505,7 @@ LANE_FN void igather3(const void *from, const uint32_t *at, int stride, inum out
 #if (LANES == 16 && defined(__AVX512VL__) && defined(__AVX512DQ__)) || (LANES == 8 && defined(__AVX2__))
     enum { QUADS = LANES / 4 };
     __m128i three = _mm_set_epi32(0, -1, -1, -1);
-    inum row[4]; // row[j] contains lanes j, 4 + j …, with four numbers for each, the fourth of which is 0
+    inum row[4]; // row[j] contains four numbers for each of the lanes j, 4 + j …; the fourth number is 0
     for (int j = 0; j < 4; j++) {
         __m128i v[QUADS];
         for (int q = 0; q < QUADS; q++)

@@ -12,8 +12,8 @@ double math_sqrt(double x) { return x > 0 ? __builtin_sqrt(x) : 0; }
 double math_radians(double degrees) { return degrees * (PI / 180); }
 double math_degrees(double radians) { return radians * (180 / PI); }
 
-// π/2 in three summands, the first two with 33 significant bits, so that their products with a number of quarter turns
-// are exact.
+// π/2 as the sum of three numbers. The first two numbers have 33 significant bits, so that multiplying these numbers by
+// a number of quarter turns is exact.
 #define HALF_PI_1 1.57079632673412561417e+00
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21
@@ -119,8 +119,8 @@ double math_acos(double x)
     return math_atan2(math_sqrt((1 - x) * (1 + x)), x);
 }
 
-// The whole part of x is applied by doubling or halving. For the rest of x, at most ½, the series of e^(x ln 2) is
-// used.
+// The integer part of x determines how often the result is doubled or halved. For the rest of x, at most ½, the series
+// of e^(x ln 2) is used.
 double math_exp2(double x)
 {
     int whole = (int)(x < 0 ? x - 0.5 : x + 0.5);

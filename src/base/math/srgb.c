@@ -4,7 +4,7 @@
 #include <string.h>
 
 // Returns the fifth root by Newton's method. The first estimate, computed from the exponent divided by five, has an
-// error of at most 6 %. Five steps, each of which squares the error, reduce it below the precision of a double.
+// error of at most 6 %. Each step squares the error, so five steps reduce the error below the precision of a double.
 static double fifth_root(double x)
 {
     uint64_t bits;

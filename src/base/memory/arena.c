@@ -18,7 +18,7 @@ struct arena_block {
     struct arena_block *next;
     uint8_t *memory;
     size_t capacity, used;
-    bool whole;     // serves one request; nothing else is allocated from it
+    bool whole;     // serves a single request
     size_t held;    // if above 0, the size in bytes of the pages at `memory`, which pages_free must release
     size_t charged; // bytes charged to the call
 };

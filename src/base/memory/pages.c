@@ -96,8 +96,8 @@ void *pages_malloc(size_t bytes)
     size_t rounded = (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
     void *pages = aligned_alloc(HUGE_PAGE, rounded);
 #ifdef MADV_HUGEPAGE
-    // The last page becomes a huge page only if little of it would be unused. If the system does not follow this
-    // advice, only the speed is affected.
+    // The last page becomes a huge page only if most of the page is needed. If the system does not follow this advice,
+    // only the speed is affected.
     if (pages)
         madvise(pages, rounded - bytes <= bytes / 16 ? rounded : rounded - HUGE_PAGE, MADV_HUGEPAGE);
 #endif

@@ -27,7 +27,7 @@ void pages_prepare(void *at, size_t bytes);
 void pages_trim(void *pages, size_t *held, size_t bytes);
 
 // Returns the size of the machine's memory in bytes, or SIZE_MAX if it is unknown. The system grants more memory than
-// it has and kills processes that use too much, so check this size before a large allocation.
+// the machine has, and kills processes that use too much, so check this size before a large allocation.
 size_t pages_of_machine(void);
 
 #endif

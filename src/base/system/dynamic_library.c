@@ -6,7 +6,7 @@
 
 #if defined(__wasm__)
 
-// WebAssembly cannot open libraries; the web page's module contains replacements for some of them
+// WebAssembly cannot open libraries; the web page's module contains replacements for some libraries
 // (src/import/gltf/draco/page_decoders.c).
 __attribute__((weak)) void *page_library(const char *name);
 __attribute__((weak)) bool page_library_find(void *library, const char *name, void *function);
@@ -76,7 +76,8 @@ void *library_open(const char *name, bool resident, const char **reason)
 }
 
 // The folders to search, relative to the folder of this library or program. This library or program may be in the build
-// folder, in its subfolder for tests, in the system's library folder, or in the program folder beside it.
+// folder, in its subfolder for tests, in the system's library folder, or in the program folder beside the library
+// folder.
 static const char *const own_folders[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
 
 static void *open_beside(const char *file, const char *name)
@@ -99,8 +100,7 @@ void *library_open_own(const char *name)
 {
     Dl_info here;
     void *library = NULL;
-    // For the program itself, dladdr returns the name with which the program was started, which may not contain a
-    // folder.
+    // For the program itself, dladdr returns the name with which the program was started. This name may lack a folder.
     if (dladdr((const void *)own_folders, &here) && here.dli_fname && strchr(here.dli_fname, '/'))
         library = open_beside(here.dli_fname, name);
     return library ? library : open_beside("/proc/self/exe", name);

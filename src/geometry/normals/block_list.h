@@ -64,7 +64,7 @@ static inline struct list_block *list_block_with_space(struct block_lists *lists
     return block;
 }
 
-// Makes the blocks of a list available again after it has been read; the list is then empty.
+// Makes the blocks of a list available again after the list has been read. The list is then empty.
 void list_blocks_recycle(struct block_lists *lists, struct list_block **list);
 
 #endif

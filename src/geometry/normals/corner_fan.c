@@ -15,7 +15,7 @@ struct fan_edge {
     uint32_t incoming; // 0: the triangle's edge starts at the position; 1: the edge ends at the position
 };
 _Static_assert(2 * sizeof(struct fan_edge) >= 3 * sizeof(double),
-               "the memory of a corner's two edges must also hold a fan's sum of normals");
+               "the memory of a corner's two edges must be large enough for a fan's sum of normals");
 
 // Tolerance for the rounding of float positions: equal angles between faces may differ in the seventh digit.
 #define CREASE_SLACK 1e-6
@@ -143,8 +143,8 @@ static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_c
         around[x].fan = y;
 }
 
-// Neighbours with consistent winding traverse their common edge in opposite directions: the next corner of one is at
-// the previous corner of the other. Tests every pair, so it is used only for few corners.
+// Neighbours with consistent winding traverse their common edge in opposite directions: one triangle's next corner is
+// the other triangle's previous corner. Tests every pair, so it is used only for few corners.
 static void join_few(struct fan_corner *around, uint32_t count, double min_cosine)
 {
     for (uint32_t i = 0; i < count; i++)

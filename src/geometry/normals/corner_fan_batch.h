@@ -1,6 +1,7 @@
 // corner_fan_batch.h: collects positions by their number of corners. As soon as enough positions have the same number,
-// their normals are computed in parallel lanes (corner_fan_simd.h). Positions with more than FAN_CORNERS_MAX corners,
-// or with a degenerate triangle, are processed one by one by corner_fan.h. The results are bit-identical.
+// the normals at these positions are computed in parallel lanes (corner_fan_simd.h). Positions with more than
+// FAN_CORNERS_MAX corners, or with a degenerate triangle, are processed one by one by corner_fan.h. The results are
+// bit-identical.
 #ifndef CORNER_FAN_BATCH_H
 #define CORNER_FAN_BATCH_H
 
@@ -10,7 +11,7 @@ enum { FAN_ROWS = FAN_CORNERS_MAX * (FAN_CORNERS_MAX + 1) / 2 };
 
 struct corner_fan_batch {
     uint32_t waiting[FAN_CORNERS_MAX + 1]; // number of positions for each number of corners
-    fan_row rows[FAN_ROWS];                // the corners of the fans: one row for count 1, two for count 2 …
+    fan_row rows[FAN_ROWS];                // the corners of the fans: a position with n corners needs n rows
     struct corner_fan_block block;
 };
 
@@ -31,7 +32,7 @@ static inline bool corner_fan_batch_add(struct corner_fan_batch *batch, const ui
     return p + 1 == FAN_POSITIONS;
 }
 
-// Moves the positions with that many corners into batch->block. Returns false if there are none.
+// Moves the positions with `count` corners into batch->block. Returns false if there are none.
 bool corner_fan_batch_take(struct corner_fan_batch *batch, uint32_t count);
 
 #endif

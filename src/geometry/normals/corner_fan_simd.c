@@ -17,7 +17,7 @@ static bool any_of(const fan_row numbers)
     return any != 0;
 }
 
-// Sorts the corners at each position. Usually they are already in order.
+// Sorts the corners at each position. Usually the corners are already in order.
 static void sort(fan_row *rows, uint32_t count)
 {
     fan_row wrong = {0};

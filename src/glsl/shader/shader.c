@@ -78,19 +78,20 @@ static bool fail_nothing_selected(const struct build *m, int object, lam_error *
     }
     if (object < 0)
         return fail(error, LAM_UNSUPPORTED,
-                    strokes ? "the model has only lines and points, which have no shader: they are drawn as rectangles "
-                              "that depend on the camera; expected a model with triangles"
+                    strokes ? "the model contains only lines and points, which have no shader; expected a model with "
+                              "triangles"
                             : "the model has no triangles that a shader could draw");
     if (strokes)
         return fail(error, LAM_UNSUPPORTED,
-                    "object %d has only lines and points, which have no shader; expected an object with triangles",
+                    "object %d contains only lines and points, which have no shader; expected an object with triangles",
                     object);
     return fail(error, LAM_BAD_ARGUMENT, "object is %d, expected an object with triangles, 0 to %d", object,
                 lam_scene_object_count(m->scene) - 1);
 }
 
-// Merges the choices of all ranges, for one pair of sources. Only some of the ranges may use vertex colours, back
-// materials or the environment. All ranges must have the same number of sides, and tangents in all of them or in none.
+// Merges the choices of all ranges, for one pair of sources. A range may use vertex colours, back materials or the
+// environment, even if other ranges do not. All ranges must have the same number of sides. Either all ranges or none
+// must have tangents.
 static bool merge_choices(struct build *m, lam_stage stage, int object, bool hardware_filter, lam_error *error)
 {
     const struct frame *frame = &m->frame;
@@ -150,9 +151,9 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     static const enum glsl_version versions[] = {GLSL_330, GLSL_120, GLSL_300_ES};
     static const enum glsl_storage storages[] = {GLSL_BLOCK, GLSL_ARRAY, GLSL_BLOCK, GLSL_TEXTURE};
     if ((unsigned)params->glsl >= LAM_GLSL_COUNT || (unsigned)params->lights >= LAM_SHADER_LIGHTS_COUNT)
-        return fail(error, LAM_BAD_ARGUMENT, "shader parameters: glsl or lights is out of its range");
+        return fail(error, LAM_BAD_ARGUMENT, "shader parameters: glsl or lights is out of range");
     if ((unsigned)params->style >= LAM_SHADER_STYLE_COUNT)
-        return fail(error, LAM_BAD_ARGUMENT, "shader parameters: style is out of its range");
+        return fail(error, LAM_BAD_ARGUMENT, "shader parameters: style is out of range");
     if (params->mistake && params->style != LAM_SHADER_STYLE_LECTURE)
         return fail(error, LAM_BAD_ARGUMENT, "mistake '%.60s' requires the lecture style", params->mistake);
     if (params->mistake && !mistake_find(params->mistake))
@@ -400,7 +401,8 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     struct call_control call;
     call_start(&call, NULL);
     lam_draw_params without = draw ? *draw : (lam_draw_params){0};
-    without.shadows |= without.ground != LAM_GROUND_NONE; // a ground implies shadows, and is not a draw of the scene
+    without.shadows |=
+        without.ground != LAM_GROUND_NONE; // a ground plane implies shadows, but is not part of the scene
     without.ground = LAM_GROUND_NONE;
     without.brighten = LAM_BRIGHTEN_OFF;
     if (!without.tone && params && params->style == LAM_SHADER_STYLE_LECTURE)

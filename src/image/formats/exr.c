@@ -258,7 +258,7 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
     return (int64_t)((const struct source *)user)->size;
 }
 
-// Returns the index that a channel of the file has in a pixel of the picture, or −1 if the picture does not use the
+// Returns the index, in a pixel of the picture, of a channel of the file, or −1 if the picture does not use the
 // channel. Y is the luminance, which is used for all three colours.
 static int place_of(const char *name)
 {
@@ -408,8 +408,8 @@ static bool exr_read(const struct picture_file *picture, lam_image *image, lam_e
 #else
 
 #define NOT_BUILT                                                                                                      \
-    REMEDY("EXR: this build does not support it; install the Debian package libopenexr-dev and build again",           \
-           "EXR: this page cannot read it; use the program lambent")
+    REMEDY("this build does not support EXR; install the Debian package libopenexr-dev and build again",               \
+           "this page cannot read EXR; use the program lambent")
 
 static bool write_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)
 {
@@ -468,7 +468,7 @@ bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out,
 const struct codec codec_exr = {
     .name = "exr",
     .title = "EXR",
-    .written = "floats, linear, premultiplied by alpha, with alpha; needs OpenEXR",
+    .written = "floats, linear, with premultiplied alpha; needs OpenEXR",
     .pixels = LAM_RGBA32F,
     .write = exr_write,
     .probe = exr_probe,

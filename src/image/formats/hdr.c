@@ -1,7 +1,7 @@
 // hdr.c: reads Radiance pictures (.hdr, RGBE), which store linear light as three mantissas and one exponent per pixel.
 //
-// The file consists of lines of text that end with an empty line, a line with the size ("-Y 512 +X 1024"), and rows of
-// pixels. Each row is encoded by one of three methods:
+// The file consists of text lines, an empty line, a line with the size ("-Y 512 +X 1024"), and rows of pixels. Each row
+// is encoded by one of three methods:
 //  new runs   2, 2, width as two bytes (8 … 32767), then the row's red, green, blue and exponent bytes one after the
 //             other: a count above 128 is a run of count − 128 equal bytes; otherwise that many single bytes follow
 //  old runs   pixels; 1, 1, 1, n repeats the previous pixel n times; directly after another run n · 256 times, and so on
@@ -151,7 +151,7 @@ static void store_row(const struct header *header, const uint8_t *row, const flo
     }
 }
 
-// Fills the table of 2^(exponent − 136). The entry is 0 for exponent 0, and if the power is below the smallest normal
+// Fills the table of 2^(exponent − 136). The entry is 0 if the exponent is 0 or the power is below the smallest normal
 // float.
 static void fill_scale(float scale[256])
 {

@@ -11,9 +11,9 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-enum { MAX_SCANS = 200 }; // a progressive picture has about ten scans; each one covers the whole picture
+enum { MAX_SCANS = 200 }; // a progressive picture contains about ten scans; each scan covers the whole picture
 
-// The structs of libjpeg that its callbacks receive, followed by our own members.
+// The libjpeg structs that the callbacks receive, followed by our own members.
 struct jpeg_decoder {
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;
@@ -65,7 +65,7 @@ static bool jpeg_probe(const uint8_t *bytes, size_t size)
 }
 
 // Checks that the file is large enough for the declared size. A block of 64 pixels needs at least one bit in the
-// component with the most blocks, and this component may have 1/16 of the picture's pixels.
+// component with the most blocks, and this component may contain only 1/16 of the picture's pixels.
 static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
 {
     return (uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) <= size;

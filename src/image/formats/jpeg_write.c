@@ -15,7 +15,7 @@
 // stored once for every four pixels.
 enum { QUALITY_DEFAULT = 90, QUALITY_OF_FULL_COLOR = 90 };
 
-// The error struct of libjpeg that its callbacks receive, followed by our own members.
+// The libjpeg error struct that the callbacks receive, followed by our own members.
 struct writer {
     struct jpeg_error_mgr errors;
     struct jpeg_compress_struct jpeg;

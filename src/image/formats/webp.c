@@ -86,8 +86,8 @@ static bool decode(const struct webp_library *webp, const struct picture_file *f
     return runs && (status == VP8_STATUS_OK || fail_status(file, status, error));
 }
 
-// libwebp 1.2 may dereference a null pointer if an allocation fails. Therefore the largest amount of memory that it may
-// need, including tables, is first allocated and freed.
+// libwebp 1.2 may dereference a null pointer if an allocation fails. Therefore the largest amount of memory that
+// libwebp may need, including tables, is first allocated and freed.
 static bool has_memory(size_t own, lam_error *error)
 {
     const size_t bytes = own + (4 << 20);

@@ -1,5 +1,5 @@
-// byte_masks.h: bit masks of the line ends, white space and special characters in 64 bytes of text. The masks are
-// computed with SSE2 if the compiler targets it. The scalar version returns the same masks.
+// byte_masks.h: bit masks of the line endings, white space and special characters in 64 bytes of text. The masks are
+// computed with SSE2 if the compiler supports SSE2 on the target. The scalar version returns the same masks.
 #ifndef BYTE_MASKS_H
 #define BYTE_MASKS_H
 
@@ -19,8 +19,8 @@ struct byte_masks {
     uint64_t special; // '#' or '\\'
 };
 
-// Counts the set bits. The builtin is used only if the processor has an instruction for it; otherwise it would call a
-// function with a lookup table.
+// Counts the set bits. The builtin is used only if the processor has an instruction that counts bits. Otherwise, the
+// builtin would call a function with a lookup table.
 static inline unsigned byte_masks_count(uint64_t bits)
 {
 #if defined(__POPCNT__) || defined(__aarch64__)

@@ -10,9 +10,10 @@
 //   obj_mesh.c                 the scene's mesh
 //   obj_stream.c               large files on disk: one pass, chunk by chunk
 //
-// The file is split at line ends into chunks of about OBJ_CHUNK bytes, and each pass processes the chunks in parallel.
-// Pass one counts the elements of each chunk. The prefix sums of the counts are the first indices of each chunk in the
-// arrays, so pass two can write each number to its final position. The result does not depend on the number of threads.
+// The file is split at line endings into chunks of about OBJ_CHUNK bytes, and each pass processes the chunks in
+// parallel. Pass one counts the elements of each chunk. The prefix sums of the counts are the first indices of each
+// chunk in the arrays, so pass two can write each number to its final position. The result does not depend on the
+// number of threads.
 #ifndef OBJ_H
 #define OBJ_H
 

@@ -437,7 +437,7 @@ static bool load(struct stream *stream)
         .texcoord_used = obj->texcoords != NULL,
         .normal_used = obj->normals != NULL,
     };
-    // The memory for the triangles of a polygon contains other numbers than the polygon's corners.
+    // The memory for the triangles of a polygon also contains numbers that are not corners of the polygon.
     obj->scene->first_all_used = !stream->total.polygons && !memchr(stream->marks, 0, stream->total.positions);
     obj->chunks = &whole;
     obj->chunk_count = 1;

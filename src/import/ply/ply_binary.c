@@ -2,7 +2,7 @@
 //
 // Rows without lists have a fixed stride and stay in the file. Rows with lists must be in memory: a serial pass indexes
 // them, and then their chunks are read in parallel. In nearly all files, each face is a list of three corners. If the
-// number of remaining bytes matches this layout, the rows are read with its fixed stride, and checked.
+// number of remaining bytes matches this layout, the rows are read with the fixed stride of this layout, and checked.
 #include "fail.h"
 #include "mesh_build.h"
 #include "shown_name.h"

@@ -158,8 +158,8 @@ static bool columns_chunk(void *user, size_t index, const uint8_t *rows, lam_err
     return true;
 }
 
-// Adds a column whose first `numbers` components are properties; the others are 1. Returns its array, or NULL if memory
-// runs out.
+// Adds a column whose first `numbers` components are properties; the others are 1. Returns the array of the column, or
+// NULL if memory runs out.
 static void *add_column(struct columns *columns, struct column column, int numbers, lam_error *error)
 {
     const struct ply_table *table = columns->table;

@@ -40,7 +40,8 @@ static bool split_polygons(const struct import_source *source, const struct ply_
     return mesh_triangulate(source, scene, &split, &mesh->inner_edges, error);
 }
 
-// Uses the normals of the faces if the vertices have no normals. The corners of a face refer to its normal by index.
+// Uses the normals of the faces if the vertices have no normals. The corners of a face refer to the face's normal by
+// index.
 static bool face_normals(const struct import_source *source, const struct ply_table *faces, const uint32_t *face_of,
                          struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {

@@ -1,5 +1,5 @@
 // ply_rows.h: reads the rows of one element, for ply_ascii.c and ply_binary.c. A serial pass finds the start of each
-// chunk of rows and the lengths of its lists; then the chunks are read in parallel.
+// chunk of rows and the lengths of the chunk's lists; then the chunks are read in parallel.
 #ifndef PLY_ROWS_H
 #define PLY_ROWS_H
 
@@ -16,7 +16,7 @@ struct ply_reader {
     uint32_t *items, *starts; // the contents of the requested list (ply_table)
     uint8_t *rows;            // scalars; NULL if not requested
     uint64_t total;           // items so far (ply_table.items)
-    bool has_other_counts;    // a row has more or fewer than three items
+    bool has_other_counts;    // a row contains more or fewer than three items
     // ply_ascii.c
     const uint8_t *end; // the end of the file
     size_t indexed;     // number of rows that index_rows has read without error
@@ -24,7 +24,7 @@ struct ply_reader {
     size_t offset; // the offset of row 0 in the file
     size_t list_offset;
     uint8_t *marks; // mesh_mark_vertices; one byte per vertex, or NULL if there are more vertices than items
-    int mixed;      // atomic; set if a row has more or fewer than the expected three items
+    int mixed;      // atomic; set if a row contains more or fewer than the expected three items
 };
 
 // Allocates the arrays that the serial pass fills.

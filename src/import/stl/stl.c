@@ -20,8 +20,8 @@ enum { SAMPLE = 1024 }; // number of bytes that are inspected
 // byte of its number of facets is zero.
 static bool has_zero(const uint8_t *bytes, size_t size) { return memchr(bytes, 0, size < SAMPLE ? size : SAMPLE); }
 
-// ASCII files begin with "solid" (some with "facet"), and have "facet" or "endsolid" near the start. "solid" alone is
-// not enough, because many binary files also begin with this word. A file with a zero byte is treated as text if the
+// ASCII files begin with "solid" (some with "facet"), and contain "facet" or "endsolid" near the start. "solid" alone
+// is not enough, because many binary files also begin with this word. A file with a zero byte is treated as text if the
 // byte is between the words of a facet; the text reader then reports the byte.
 static bool looks_ascii(const uint8_t *bytes, size_t size)
 {
@@ -57,7 +57,7 @@ static int stl_probe(const uint8_t *bytes, size_t size)
     case BINARY_EXACT:
     case ASCII:
         return 2;
-    // The file is truncated or has bytes after the last facet, so its extension decides.
+    // The file is truncated or contains bytes after the last facet, so the file's extension decides.
     case BINARY_LOOSE:
         return 1;
     default:

@@ -9,7 +9,7 @@
 //  endsolid NAME
 //
 // Keywords may be in upper or lower case, and line breaks may occur between any words, because programs differ. A name
-// extends to the end of the line. The facets' normals are ignored, because they follow from the corners and some
+// extends to the end of the line. The facets' normals are ignored, because the corners determine the normals and some
 // programs write nan.
 #include "stl.h"
 #include "fail.h"
@@ -32,8 +32,8 @@ struct stl_ascii_parser {
     uint32_t part_count;
     uint32_t facets;
     const uint8_t *solid; // the statement that began the current solid, or NULL
-    // The number of solids without "endsolid". For the first of them, the position of its statement, and the position
-    // at which "endsolid" was expected.
+    // The number of solids without "endsolid". For the first such solid: the position of the statement "solid", and the
+    // position at which "endsolid" was expected.
     uint32_t unclosed;
     const uint8_t *first_unclosed, *end_expected;
 };

@@ -18,7 +18,7 @@
 
 enum {
     // With few windows, more facets share vertices. With many windows, more threads are busy.
-    WINDOWS = 16,     // number of windows if a window then has at most WINDOW_CHUNKS chunks
+    WINDOWS = 16,     // number of windows, if each window contains at most WINDOW_CHUNKS chunks
     WINDOWS_MAX = 32, // the maximum number of windows
     WINDOW_CHUNKS = 16,
     FACETS_MIN = 1 << 16, // smaller files gain little
@@ -197,7 +197,7 @@ static bool first_chunk_shares(struct sharing *s, struct arena *scratch)
     return s->indices && share_chunk(s, s->workers, 0, &count) && count <= 3 * PARALLEL_ROWS / 2;
 }
 
-// Releases the unused end of an array and transfers its ownership to the scene. Returns false if memory runs out.
+// Releases the unused end of an array and makes the scene the owner of the array. Returns false if memory runs out.
 static bool pass_to_scene(struct sharing *s, struct lam_scene *scene, void *array, size_t *reserved, size_t bytes)
 {
     pages_trim(array, reserved, bytes);

@@ -26,9 +26,10 @@ struct material_field {
     // are the same as in other shaders; "" means that the field occurs only in the products.
     const char *product, *product_summary;
     enum field_reader reader;
-    bool optional; // a scene file omits the field if it is 0, the default
+    bool optional; // a scene file omits the field if the value is 0, the default
     bool physical; // only physical materials have the field, so writing it makes a material physical
-    // for FIELD_LAYER, the layer (LAYER_…) that reads the field; a scene file omits the field if it has its default
+    // for FIELD_LAYER, the layer (LAYER_…) that reads the field; a scene file omits the field if the field has the
+    // default value
     int layer;
 };
 const struct material_field *material_field(int index); // returns NULL past the end
@@ -40,7 +41,7 @@ int map_layer(lam_map map);
 
 struct light_field {
     lam_field field; // must be the first member
-    bool optional;   // a scene file omits the field if it is 0
+    bool optional;   // a scene file omits the field if the value is 0
     // the kind of cone for which a spotlight uses the field; a cone is soft if outer_rad > 0
     enum { ANY_CONE, HARD_CONE, SOFT_CONE } cone;
 };

@@ -1,4 +1,4 @@
-// khr_layers.h: the members of glTF's material extensions for layers, and the fields and maps of lam_material for them.
+// khr_layers.h: the members of glTF's material extensions for layers, each with its field and map in lam_material.
 #ifndef KHR_LAYERS_H
 #define KHR_LAYERS_H
 

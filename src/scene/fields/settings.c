@@ -44,17 +44,15 @@ WORDS(viewer_words, {"local", LAM_VIEWER_LOCAL, "the eye is at the camera"},
 WORDS(flat_normal_words, {"face", LAM_FLAT_NORMAL_FACE, "the normal of the triangle"},
       {"vertex", LAM_FLAT_NORMAL_VERTEX, "the normal of the triangle's last vertex, as in OpenGL"})
 WORDS(occlusion_words,
-      {"auto", LAM_OCCLUSION_AUTO,
-       "`screen` if the studio's lights or an environment light the model, otherwise `off`"},
+      {"auto", LAM_OCCLUSION_AUTO, "`screen` if the model is lit by the studio or by an environment, otherwise `off`"},
       {"off", LAM_OCCLUSION_OFF, "no occlusion"},
       {"screen", LAM_OCCLUSION_SCREEN, "computed from the depths of visible surfaces around each pixel"},
       {"rays", LAM_OCCLUSION_RAYS,
-       "computed with rays from each point; slower, but surfaces that the camera does not see also occlude; only on "
-       "the CPU"})
-WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto` and computed on the screen"},
-      {"off", LAM_CAVITY_OFF, "valleys and ridges unchanged"},
+       "traced from each point, so surfaces that the camera does not see also occlude; slower, and only on the CPU"})
+WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto` and computed in screen space"},
+      {"off", LAM_CAVITY_OFF, "no cavity shading"},
       {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
-WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the studio's lights or an environment light the model"},
+WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the model is lit by the studio or by an environment"},
       {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
       {"on", LAM_SPECULAR_AA_ON, "the variance of the normals within each pixel increases the roughness"})
 WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "on for model files lit by the built-in studio environment"},

@@ -13,7 +13,7 @@ static bool whole_check(const lam_setting *s, int value, lam_error *error)
     return fail(error, LAM_BAD_ARGUMENT, "%s is %d, expected %s", s->member, value, s->expected);
 }
 
-// The minimum for scene files does not apply to a program: its lines may be thinner than scene files allow.
+// The minimum for scene files does not apply to a program, which may draw thinner lines than scene files allow.
 static bool number_check(const lam_setting *s, float value, lam_error *error)
 {
     double least = s->zero_is_negative ? -3e38 : 0;
@@ -42,7 +42,7 @@ static bool word_check(const lam_setting *s, int value, lam_error *error)
         return true;
     if (strncmp(s->expected, "lam_", 4) == 0)
         return fail(error, LAM_BAD_ARGUMENT, "draw parameters: %s %d is not one of %s", s->member, value, s->expected);
-    return fail(error, LAM_BAD_ARGUMENT, "draw parameters: %s is out of its range", s->expected);
+    return fail(error, LAM_BAD_ARGUMENT, "draw parameters: %s is out of range", s->expected);
 }
 
 bool channels_check(const char *name, const float *channels, int count, lam_error *error)

@@ -70,7 +70,7 @@ static bool picture(struct job *job, struct progress *progress, double from, lam
     return job_make_image(job, LAM_RGBA8, error) && job_draw_frames(job, from, 0.25, 1, &report, progress, error);
 }
 
-// Draws both models with the size, camera and exposure of the new model.
+// Draws both models with the picture size, camera and exposure of the new model.
 static bool draw_both(struct job *old, struct job *new, struct progress *progress, lam_error *error)
 {
     struct job_shared shared = {0};

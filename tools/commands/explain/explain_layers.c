@@ -14,7 +14,7 @@ void explain_light_layers(const lam_explained_light_layers *layers, const lam_ex
     row_color(4, "base", layers->base, "F S");
     if (layers->sheen_left < 1 || !is_black(layers->sheen)) {
         row_number(4, "left", (double)layers->sheen_left, "the smaller 1 − max(sheen_color) E, at |n·v| and at n·l");
-        row_color(4, "sheen", layers->sheen, "sheen_color π D V n·l of its fibres");
+        row_color(4, "sheen", layers->sheen, "sheen_color π D V n·l, with D and V of the fibres");
     }
     if (all->coat > 0)
         row_number(4, "coat", (double)layers->coat, "share · S of the coat");
@@ -29,7 +29,7 @@ void explain_layers(const lam_explained_layers *layers)
     if (layers->matt < 1)
         row_number(4, "matt", (double)layers->matt, "(1 − transmission) (1 − specular_glossiness · max f0)");
     if (!is_black(layers->transmittance))
-        row_color(4, "transmittance", layers->transmittance, "factor of the light behind the surface");
+        row_color(4, "transmittance", layers->transmittance, "multiplies the light from behind the surface");
     if (layers->behind_x != 0 || layers->behind_y != 0)
         row_three(4, "bent by", (double)layers->behind_x, (double)layers->behind_y, 0,
                   "pixels to the right and down: where the light behind enters");

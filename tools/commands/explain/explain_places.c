@@ -80,7 +80,7 @@ void explain_places(const lam_explanation *e, const lam_explained_fragment *f)
         return;
     print_matrices(f->matrices);
     printf("\n");
-    row_label(2, "on the way to the window");
+    row_label(2, "from the mesh to the window");
     printf("%13s %13s %13s %13s\n", "x", "y", "z", "w");
     for (int i = 0; i < 4; i++) {
         printf("  %s\n", names[i]);

@@ -1,4 +1,4 @@
-// explain_text.c: prints an explained pixel as aligned text with units, with the formula of each term (docs/lighting.md
+// explain_text.c: prints an explained pixel as aligned text, with units and the formula of each term (docs/lighting.md
 // lists all formulas).
 #include "explain.h"
 
@@ -81,11 +81,11 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
 // Prints the fraction of the light that passes, and the surface that blocks the rest.
 static void print_shadow(const lam_explained_light *l)
 {
-    char remark[200] = "nothing is in the way";
+    char remark[200] = "nothing blocks the light";
     if (!l->casts_shadows)
         return;
     if (l->shadow_object >= 0)
-        snprintf(remark, sizeof remark, "triangle %u of object %d is in the way, %.7g from the point",
+        snprintf(remark, sizeof remark, "triangle %u of object %d blocks the light, %.7g from the point",
                  l->shadow_triangle, l->shadow_object, (double)l->shadow_distance);
     row_color(4, "passed", l->passed, remark);
 }
@@ -103,7 +103,7 @@ static void product(char text[200], const lam_explained_light *l, const char *wh
                  (double)l->passed.b);
 }
 
-// Prints the computation of a spot light's factor from a cone of OpenGL or glTF (lam_light).
+// Prints how the factor of a spot light is computed, for cones as in OpenGL or in glTF (lam_light).
 static void print_cone(const lam_explained_light *l, const lam_light *given)
 {
     const double c = (double)l->cos_axis, exponent = (double)given->exponent;
@@ -112,7 +112,7 @@ static void print_cone(const lam_explained_light *l, const lam_light *given)
     if (given->outer_rad > 0) {
         const double inner = cos((double)given->inner_rad), outer = cos((double)given->outer_rad);
         row_number(4, "cos inner", inner, "of the half angle within which the light is uniform");
-        row_number(4, "cos outer", outer, "of the half angle at which it ends");
+        row_number(4, "cos outer", outer, "of the half angle at which the light ends");
         snprintf(remark, sizeof remark, "%sclamp((c − cos outer) / max(0.001, cos inner − cos outer), 0, 1)²",
                  l->spot > 0 ? "" : "outside of the cone, c ≤ cos outer: ");
     } else {
@@ -179,7 +179,7 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
         row_color(4, "specular", l->specular_term, text);
     }
     if (e->gl1)
-        row_color(4, "ambient", l->ambient_term, "spot · attenuation · ka ⊙ La, as OpenGL 1 did");
+        row_color(4, "ambient", l->ambient_term, "spot · attenuation · ka ⊙ La, as in OpenGL 1");
 }
 
 static void print_hemisphere(const lam_explained_hemisphere *h, int number_in_list)
@@ -236,7 +236,7 @@ static void print_environment(const lam_explanation *e, const lam_explained_frag
         snprintf(text, sizeof text, "of the prefiltered environment for the roughness: %d %% of %d, %d %% of %d",
                  100 - share, level, share, level + 1);
         row_number(4, "level", (double)p->environment_level, text);
-        row_color(4, "prefiltered", p->prefiltered, "around R, at that level");
+        row_color(4, "prefiltered", p->prefiltered, "mean light around R, at this level");
         row_color(4, "irradiance ÷ π", p->irradiance, "above the surface");
         row_number(4, "scale", (double)p->environment_scale, "");
         row_number(4, "bias", (double)p->environment_bias, "the lobe's integral is f0 scale + bias");
@@ -264,7 +264,7 @@ static void print_terms(const lam_explanation *e, const lam_explained_fragment *
     } else {
         if (p->unoccluded < 1)
             row_number(4, "unoccluded", (double)p->unoccluded,
-                       "ambient occlusion: the fraction of surrounding light that arrives; a factor of ambient and "
+                       "ambient occlusion: the fraction of surrounding light that arrives; multiplies ambient and "
                        "environment light");
         row_color(4, "emission", p->emission, "");
         snprintf(text, sizeof text, "ka ⊙ (La_global + Σ La)%s%s = ka ⊙ (%.7g %.7g %.7g)%s",
@@ -287,7 +287,7 @@ static void print_terms(const lam_explanation *e, const lam_explained_fragment *
     }
     row_color(4, "sum", p->sum, "emission + ambient + diffuse + specular + reflection");
     if (p->result.r != p->sum.r || p->result.g != p->sum.g || p->result.b != p->sum.b)
-        row_color(4, "clamped", p->result, "to 0…1, as OpenGL 1 did");
+        row_color(4, "clamped", p->result, "to 0…1, as in OpenGL 1");
 }
 
 static void print_point(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
@@ -300,12 +300,12 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     const bool bent = f->values && !same(f->values->mesh_normal, p->n);
     row_vector(2, "n", p->n,
                f->flipped       ? "reversed: the back is visible"
-               : bent           ? "bent by a map"
+               : bent           ? "changed by a normal map"
                : f->face_normal ? "the triangle's"
                : p->corner >= 0 ? "the corner's"
                : f->corners < 3 ? ""
                                 : "Σ weight · n of the corners, normalised");
-    row_vector(2, "v", p->v, e->distant_viewer ? "to the eye, infinitely far" : "to the eye");
+    row_vector(2, "v", p->v, e->distant_viewer ? "to the eye, which is infinitely far away" : "to the eye");
     if (!is_zero(p->t) && lam_reflection_describe(f->reflection)->tangents)
         row_vector(2, "t", p->t, "along the threads");
     const char *tinting = f->surface.maps[LAM_MAP_DIFFUSE] ? "texture and vertex colour" : "vertex colour";
@@ -425,10 +425,10 @@ static void print_values(const lam_explained_fragment *f)
         row_number(4, "shininess α", (double)v->shininess, "");
     }
     if (v->occlusion != 1)
-        row_number(4, "occlusion", (double)v->occlusion, "factor of ambient light");
+        row_number(4, "occlusion", (double)v->occlusion, "multiplies ambient light");
     if (!is_zero(v->tangent)) {
         row_vector(4, "n of the mesh", v->mesh_normal, "interpolated");
-        row_vector(4, "tangent", v->tangent, "interpolated, of any length");
+        row_vector(4, "tangent", v->tangent, "interpolated, not normalised");
         row_number(4, "bitangent's sign", (double)v->bitangent_sign, "bitangent = sign · n × t");
     }
     printf("\n");
@@ -477,8 +477,8 @@ static void print_result(const lam_explanation *e, const lam_explained_fragment 
                                                : "the sum");
     if (f->color.a != 1)
         row_number(2, "alpha", (double)f->color.a,
-                   f->ground == LAM_GROUND_SHADOW ? "blocked share · the ground's fade-out"
-                   : f->ground                    ? "the share to which the ground has not faded out"
+                   f->ground == LAM_GROUND_SHADOW ? "blocked share · the ground's fade-out factor"
+                   : f->ground                    ? "the ground's fade-out factor"
                                                   : "opacity · the vertex colour's alpha");
 }
 

@@ -203,7 +203,8 @@ static void tell_state(const struct hash_run *run, json_t *const *records, enum 
         json_close(json, ']');
 }
 
-// Fills `now` with the hashes of the drawn models. The hash of a failed model is 0, because the model is not missing.
+// Fills `now` with the hashes of the drawn models. A failed model gets the hash 0, so the comparison does not treat the
+// model as missing.
 static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error *error)
 {
     run->now = (struct hash_file){.entries = calloc(run->plan.count + 1, sizeof *run->now.entries)};

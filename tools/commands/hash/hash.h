@@ -24,9 +24,9 @@ struct hash_run {
     atomic_int *rows;        // the number of pictures kept for the sheet of --update
 };
 
-// Copies the options of the command line to `own`. Adds the options that the hash file stores if no option of the
-// command line changes the picture. `own` contains pointers into the text *kept. The caller frees both, even after a
-// failure. Fails with LAM_CANNOT_READ or LAM_LIMIT.
+// Copies the options of the command line to `own`. If none of them changes the picture, adds the options from the hash
+// file. `own` contains pointers into the text *kept. The caller frees both, even after a failure. Fails with
+// LAM_CANNOT_READ or LAM_LIMIT.
 bool hash_options_take(const struct hash_file *file, const char *path, const struct options *given, struct options *own,
                        char **kept, lam_error *error);
 
@@ -44,7 +44,8 @@ char *hash_sheet_path(const char *file);
 // NULL if memory runs out.
 char *hash_picture_path(const char *folder, const char *name);
 
-// Stores a model's new picture and its previously kept picture in `found` for the sheet, while the sheet has free rows.
+// Stores a model's new picture and the model's previously kept picture in `found` for the sheet, while the sheet has
+// free rows.
 void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t recorded, const lam_image *picture,
                      json_t *found);
 

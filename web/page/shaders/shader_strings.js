@@ -24,7 +24,7 @@ addStrings({
   shaderEndless: 'It took too long and was stopped. Perhaps a loop does not end.',
   shaderNumbers: 'It writes values that are not finite: NaN or infinity.',
   shaderFails: 'It cannot be checked.',
-  shaderUnknown: 'No known mistake explains it. The page tried {tried} mistakes and combinations of mistakes.',
+  shaderUnknown: 'No known mistake explains the difference. The page tried {tried} mistakes and combinations of mistakes.',
   shaderMistakes: 'This mistake produces the same pictures:',
   shaderMistakesSome: 'The closest known mistake explains {share} % of the difference:',
   shaderWrite: 'Write',

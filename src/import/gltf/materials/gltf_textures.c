@@ -195,7 +195,7 @@ static bool take_transform(struct gltf *gltf, const struct place *place, const j
     return true;
 }
 
-// Returns the index (0 or 1) under which a material uses set `set` of the file's texture coordinates. Returns −1 if the
+// Returns the index (0 or 1) under which a material uses the file's texture coordinates number `set`. Returns −1 if the
 // material already uses two other sets.
 static int place_set(struct gltf *gltf, int material, size_t set)
 {

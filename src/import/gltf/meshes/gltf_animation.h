@@ -4,8 +4,8 @@
 
 #include "gltf.h"
 
-// Sets the transforms and weights of nodes for the requested time. If no animation is requested, they remain as in the
-// file.
+// Sets the transforms and weights of nodes for the requested time. If no animation is requested, the transforms and
+// weights remain as in the file.
 bool gltf_animation_apply(struct gltf *gltf);
 
 #endif

@@ -118,7 +118,7 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
     if (!gltf_take_accessor(gltf, primitive_place, primitive, "indices", &accessor))
         return false;
     if (!accessor)
-        return json_fail(&gltf->json, primitive_place, "indices is missing; a compressed mesh needs it");
+        return json_fail(&gltf->json, primitive_place, "indices is missing; a compressed mesh needs indices");
     if (accessor->width != 1 ||
         (accessor->component != GLTF_U8 && accessor->component != GLTF_U16 && accessor->component != GLTF_U32))
         return true; // gltf_indices reports the wrong type
@@ -153,7 +153,7 @@ static bool is_decoded(struct gltf *gltf, const json_t *primitive, int view)
            gltf->accessors[(size_t)number].draco_view == view + 1;
 }
 
-// Returns whether the primitive's accessors also have uncompressed bytes.
+// Returns whether the primitive's accessors also refer to uncompressed bytes.
 static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
 {
     const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");

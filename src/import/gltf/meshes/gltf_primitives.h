@@ -24,7 +24,7 @@ bool gltf_meshes_start(struct gltf *gltf);
 const struct gltf_mesh *gltf_mesh_at(struct gltf *gltf, int index);
 
 // Returns a separate copy of the mesh for one node, deformed by `skin` (may be NULL) and by morph targets. The weights
-// of the targets are node->weights, or the mesh's own weights if these are NULL.
+// of the targets are node->weights or, if node->weights is NULL, the mesh's own weights.
 const struct gltf_mesh *gltf_mesh_deformed(struct gltf *gltf, int index, const struct gltf_node *node,
                                            const struct gltf_skin *skin);
 

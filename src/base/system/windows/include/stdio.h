@@ -1,4 +1,4 @@
-// stdio.h: extends mingw-w64's header with file names in UTF-8, streams that do not convert line ends, and memory
+// stdio.h: extends mingw-w64's header with file names in UTF-8, streams that do not convert line endings, and memory
 // streams.
 #ifndef WINDOWS_STDIO_H
 #define WINDOWS_STDIO_H

@@ -178,8 +178,8 @@ int interpretations_list(const struct run *r, struct interpretation out[MAX_INTE
     return count;
 }
 
-// Returns whether a fault concerns only the geometry. Faults of colours and strengths are part of the fitted factors,
-// and alpha does not matter.
+// Returns whether a fault concerns only the geometry. The fitted factors compensate for faults of colours and
+// strengths, and alpha does not matter.
 static bool is_geometric(const struct fault *row)
 {
     static const enum fault_bit others[] = {BIT_KD_KS_SWAPPED,

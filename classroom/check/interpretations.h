@@ -25,7 +25,7 @@ struct interpretation {
 int interpretations_list(const struct run *run, struct interpretation out[MAX_INTERPRETATIONS]);
 
 // Returns whether a fault of the table is visible in a shader with its own strengths and colours. Faults of colours and
-// strengths are not visible, because they are part of the factors.
+// strengths are not visible, because the fitted factors compensate for these faults.
 bool interpretations_allow_fault(const struct fault *row);
 
 // Returns whether a word occurs in one of the two sources.

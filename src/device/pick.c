@@ -74,8 +74,8 @@ static lam_vec3 corner(const lam_mesh *mesh, size_t corner)
     return v3((double)p[0], (double)p[1], (double)p[2]);
 }
 
-// Intersects a ray with a triangle (Möller and Trumbore, 1997). Gets the distance and the weights of corners 1 and 2.
-// *facing is below 0 if the front of the triangle is visible. Returns false if there is no intersection.
+// Intersects a ray with a triangle (Möller and Trumbore, 1997). Stores the distance and the weights of corners 1 and 2
+// in `at`. *facing is below 0 if the front of the triangle is visible. Returns false if there is no intersection.
 static bool meet(const struct pick_ray *ray, const lam_mesh *mesh, uint32_t triangle, double *facing, double at[3])
 {
     const size_t first = 3 * (size_t)triangle;

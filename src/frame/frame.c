@@ -62,7 +62,7 @@ static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthog
     }
 }
 
-// Returns the rows X·w, Y·w, z, w: the projection times the viewport transform (conventions 19, y down).
+// Returns the rows X·w, Y·w, z, w: the projection, followed by the transform to pixels (y down).
 static lam_mat4 to_pixels(const lam_mat4 *projection, int width, int height)
 {
     lam_mat4 m = *projection;

@@ -38,8 +38,8 @@ struct frame_draw {
     bool ground;
     bool clear; // all triangles let light through unchanged (colourless glass, for example), so rays ignore them
     lam_cull cull;
-    // If above 0, the mesh has no normals, and the device computes the normals of visible triangles with this crease
-    // angle.
+    // If this crease angle is above 0, the mesh has no normals, and the device uses the angle to compute the normals of
+    // visible triangles.
     double crease_rad;
     // Like crease_rad, but with a crease at every edge: each point uses its facet's normal. Set only if no other step
     // reads normals.
@@ -67,9 +67,9 @@ struct frame_light {
     float inverse_range; // 0 if there is none
     float cos_cutoff, exponent;
     float cos_outer, inverse_width;
-    float ambient[3]; // the light's own ambient term with gl1; otherwise it is part of the frame's sum
+    float ambient[3]; // only with gl1; otherwise, frame->ambient contains this light's ambient term
     float diffuse[3], specular[3];
-    float occluded; // share of the light to which ambient occlusion applies
+    float occluded; // the fraction of the light to which ambient occlusion applies
     int light;      // the index in the scene; −1 for a light of the rig
     const lam_light *source;
     // These members are set only with shadows.
@@ -122,7 +122,7 @@ struct frame {
     struct scene_token *token; // the scene's token; the frame does not own a reference to it
     int width, height;
     // The draw parameters with defaults resolved. samples, tone, stage and occlusion are never AUTO. `shadows` is set
-    // if a light casts shadows and the output shows it. `reflection` may be AUTO, the material's own model
+    // if a light casts shadows and the output shows these shadows. `reflection` may be AUTO, the material's own model
     // (frame_draw_range.reflection). If light_cutoff is 0, every light is evaluated. edge_angle_rad and
     // occlusion_radius are unchanged.
     lam_draw_params settings;
@@ -146,14 +146,14 @@ struct frame {
     bool masked;            // whether any range has a material of LAM_ALPHA_MASK
     // whether the material of any range transmits coloured light, for every output
     bool tints_rays;
-    bool transmits; // whether any range transmits, so that layers need a transmittance per channel
+    bool transmits; // whether the material of any range transmits light; layers then need a transmittance per channel
     // whether any range is rough or thick glass, which blurs and refracts the picture behind it
     // (src/cpu/shade/behind.h)
     bool refracts;
     bool makes_normals; // whether a draw has a crease_rad, and the output needs its normals
-    // The background of transmitting layers without a surface behind them: colour times alpha divided by the exposure,
-    // and alpha. If the background is transparent and the output is the picture, this background is white. Glass then
-    // has the same colour as over white, and its alpha is 1 minus its smallest transmittance.
+    // The background that glass shows if no surface is behind the glass: premultiplied colour divided by the exposure,
+    // and alpha. If the output is the picture and its background is transparent, this background is white. Glass then
+    // has the colour that it has on white, and its alpha is 1 minus its smallest transmittance.
     float glass_background[4];
     float eye_pixel[3][4]; // eye space to pixels: rows X·w, Y·w, w
     // The depth key of a point: 1/w in perspective; (1 − z/w)/2 if orthographic. Larger keys are nearer. The key is an
@@ -242,7 +242,7 @@ bool frame_is_physical(lam_reflection model);
 // Returns the maximum number of materials that frame_materials_build and frame_back_material convert to the other kind.
 size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene);
 void frame_materials_build(struct frame *frame, const lam_scene *scene);
-// Returns the layers of a material that the frame draws: LAYER_…. Transmission works only with Phong shading.
+// Returns which layers of a material the frame draws, as LAYER_… bits. Transmission works only with Phong shading.
 int frame_layers(const struct frame *frame, const lam_material *material);
 
 // Adds the ranges of a draw to the frame, and sets draw->clear. Each range has one material on each side.
@@ -310,7 +310,7 @@ static inline bool output_is_material(lam_output output)
     return output >= LAM_OUTPUT_BASE_COLOR && output <= LAM_OUTPUT_LOD;
 }
 
-// The maps in the order in which LAM_OUTPUT_LOD selects the first one.
+// The maps in order of precedence: LAM_OUTPUT_LOD shows the first of these maps that the material has.
 enum { LOD_MAPS = 9 };
 extern const lam_map frame_lod_maps[LOD_MAPS];
 

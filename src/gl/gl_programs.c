@@ -157,7 +157,7 @@ struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *ch
 
 // --- uniforms, set only if the value has changed
 
-// Returns whether a uniform of the current program needs a new value, and stores the value if it does.
+// Returns whether a uniform of the current program needs a new value. If so, stores the value.
 static bool changes(struct gl_frame *f, struct gl_program *program, int uniform, const void *value, size_t bytes)
 {
     struct gl_uniform *u = &program->uniforms[uniform];

@@ -9,7 +9,7 @@
 #define LANES 8
 #include "picture_pixels.h"
 
-// Encodes premultiplied RGBA pixels of a row into `to`, in a working format.
+// Encodes premultiplied RGBA pixels of a row in a working format, and stores them in `to`.
 static void store_light(const struct gl_frame *f, const float *from, int count, lam_pixel_format format, char *to)
 {
     size_t size = pixel_bytes(format);

@@ -1,9 +1,9 @@
 // gl_textures.c: uploads each texture of a material once, with all levels, and binds the textures of a draw call.
 //
-// Shaders read single texels and filter them (texture.glsl). Numbers in 0…1 are stored in 16 bits, with an error of
-// 2⁻¹⁷; other numbers are stored as floats. If an OpenGL ES driver does not support the 16-bit format, all numbers are
-// stored as floats. With lam_gl_params.hardware_filter, 8-bit texels are not converted (colours remain sRGB-encoded),
-// and sampler objects set wrapping and filtering.
+// Shaders read single texels and filter them (texture.glsl). Numbers in 0…1 are stored in 16 bits, with an error of at
+// most 2⁻¹⁷; other numbers are stored as floats. If an OpenGL ES driver does not support the 16-bit format, all numbers
+// are stored as floats. With lam_gl_params.hardware_filter, 8-bit texels are not converted (colours remain
+// sRGB-encoded), and sampler objects set wrapping and filtering.
 #include "gl_device.h"
 
 #include "fail.h"
@@ -182,7 +182,7 @@ static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
         gl->SamplerParameteri(sampler->name, GL_TEXTURE_MIN_FILTER, minifying[map->mip][map->minify]);
         sampler->anisotropy = 1;
     }
-    // If filters are not linear, drivers use different anisotropic probes.
+    // Without linear filters, the positions of anisotropic samples differ between drivers.
     bool linear = !map->magnify && !map->minify && !map->mip;
     int anisotropy = linear && f->device->anisotropy_max > 1 ? f->frame->settings.anisotropy : 1;
     if (sampler->anisotropy != anisotropy) {

@@ -21,7 +21,7 @@ enum glsl_semantic {
     GLSL_AMBIENT_LIGHT,
     GLSL_LIGHTS,      // array of structs
     GLSL_HEMISPHERES, // array of structs
-    GLSL_PASSED,      // array: the unblocked share of each light
+    GLSL_PASSED,      // array: the fraction of each light that reaches the point
     GLSL_MATERIAL,    // struct
     GLSL_HEAD,        // a field of the material that is not one of the products
     GLSL_DIFFUSE_PRODUCT,
@@ -46,8 +46,7 @@ struct glsl_row {
     const char *block; // NULL for a plain uniform
     const char *meaning;
     bool back; // belongs to the back material
-    // The offset, in floats, of a member or of a GLSL_HEAD in struct glsl_light, in the material, or in a hemisphere
-    // (up, sky, ground).
+    // The offset of a value, in floats, within struct glsl_light, the material, or a hemisphere (up, sky, ground).
     int at;
     lam_map map; // the map, for values of the kinds GLSL_MAP…
 };
@@ -133,7 +132,7 @@ struct glsl_facts glsl_stage_facts(const struct glsl_facts *facts, bool fragment
 // Appends the code of a stage, without its version.
 void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
 
-// Returns whether the reflection model uses a parameter of the material, by its name in LOBE_PARAMETERS
+// Returns whether the reflection model uses the material parameter with this name in LOBE_PARAMETERS
 // (src/lighting/lobes.h).
 bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
 // Appends the lines that select these parameters from the front or the back material, for shaders with products and two
@@ -141,7 +140,7 @@ bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
 // Finds the maps that a shader uses; the other facts must be set.
 void glsl_find_maps(struct glsl_facts *facts);
-// Returns the map whose sampler `map` uses: the first map of the side with the same texels, which may be `map`.
+// Returns the map whose sampler `map` uses: the first map of this side with the same texels, possibly `map` itself.
 lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
 // Returns whether the reflection model lights physical materials.
 bool glsl_is_physical(const struct glsl_facts *facts);

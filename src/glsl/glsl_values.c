@@ -146,8 +146,9 @@ size_t glsl_lights_bytes(const struct glsl_choices *c)
     return (all ? all : 4) * sizeof(float);
 }
 
-// Packs data for shaders with shadows. The data replaces w = 1. For lights without a position, the data also replaces
-// the position.
+// Adds a light's shadow data to its position, for shaders with shadows. w becomes the radius, or −1 if the light casts
+// no shadows. For a directional light, x, y and z become the unit vector along the axis in which the light's direction
+// is smallest.
 static void pack_shadow(float position[4], const struct frame_light *light)
 {
     position[3] = light->casts_shadows ? (float)light->radius : -1;

@@ -1,4 +1,5 @@
-// specialize.c: removes from a source the branches with a known condition, and the names that are then never read.
+// specialize.c: replaces branches whose condition is known by the selected code, and removes the names that are then
+// never read.
 #include "specialize.h"
 
 #include <stddef.h>
@@ -362,8 +363,8 @@ static bool is_statement(const char *at, const char *end)
     return at[-1] == ';';
 }
 
-// Returns the line that begins with `first` if this line does nothing but set the variable or member that ends at
-// `after`. Otherwise, returns NULL.
+// Returns the line that begins with `first` if this line only sets the variable or member that ends at `after`.
+// Otherwise, returns NULL.
 static const char *setting_line(const struct source_span *s, const char *first, const char *after)
 {
     while (first > s->start && first[-1] == ' ')

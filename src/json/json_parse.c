@@ -84,7 +84,7 @@ static void skip_space(struct parser *p)
         p->at++;
 }
 
-// Skips spaces, and also the next character if it is `c`. Returns whether it was `c`.
+// Skips spaces. If the next character is `c`, also skips this character and returns true.
 static bool accept(struct parser *p, char c)
 {
     skip_space(p);

@@ -37,7 +37,7 @@ int lam_scene_find_camera(const lam_scene *scene, const char *name)
     return number < (unsigned long)count && !*end ? (int)number : -1;
 }
 
-// Returns a distance along the line of sight that is behind all triangles.
+// Returns a distance along the line of sight that exceeds the distance of every triangle.
 static double behind_scene(const lam_scene *scene, const lam_camera *camera)
 {
     lam_vec3 low, high, forward = v3_unit(v3_sub(camera->target, camera->eye));

@@ -13,8 +13,8 @@
 #define LEVEL  0.98
 
 // Other scenes are curved if their normals differ: each normal falls into a cell of a cube around all directions, and
-// the six fullest cells contain less than FLAT times the whole area. A box fills six cells completely. The six cells
-// contain 0.05 to 0.3 of the area of scans and figures, and 0.43 to 1 of the area of machine parts and low-poly models.
+// the six fullest cells contain less than FLAT times the whole area. A box fills six cells completely. For scans and
+// figures, these six cells contain 0.05 to 0.3 of the area; for machine parts and low-poly models, 0.43 to 1.
 #define FLAT 0.36
 
 enum {
@@ -25,10 +25,10 @@ enum {
     FULLEST = 6,
 };
 
-// The sums of the sampled triangles.
+// Sums over the sampled triangles.
 struct areas {
     double all, facing;  // area, and the component of the area vectors along the up axis
-    double cells[CELLS]; // area by the direction of the normal
+    double cells[CELLS]; // the area for each direction of the normal
 };
 
 // Multiplies a vector by the upper left 3×3 matrix.
@@ -97,7 +97,7 @@ static void add_triangle(struct areas *sum, const lam_mesh *mesh, size_t triangl
         sum->cells[cell_of(own)] += size;
 }
 
-// Returns the area in the fullest cells. Empties them.
+// Returns the area in the fullest cells, and empties these cells.
 static double take_fullest(struct areas *sum)
 {
     double taken = 0;

@@ -176,8 +176,8 @@ bool scene_copy_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_mesh *co
 // Computes the extent of one mesh. If the mesh is far from zero, also makes the positions relative to an origin.
 bool scene_measure_mesh(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                         lam_error *error);
-// Makes the scene keep the memory of all meshes until the scene is freed, because lam_scene_reset may restore them.
-// Returns false if memory runs out.
+// Makes the scene keep the memory of all meshes until the scene is freed, because lam_scene_reset may restore these
+// meshes. Returns false if memory runs out.
 bool scene_keep_meshes(struct lam_scene *scene, lam_error *error);
 
 // Computes the extents of new meshes, and gives distant meshes an origin (origin.h), which changes their positions in

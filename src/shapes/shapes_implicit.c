@@ -12,7 +12,7 @@
 // face agree and the mesh has no holes. A crossed edge starts a line in one of its two faces and ends a line in the
 // other, so the lines form closed loops. Seen from outside the surface, the loops are counter-clockwise. Loops are
 // triangulated with diagonals that are not in a face, because the neighbouring cell might have the same diagonal. Among
-// these triangulations, the one whose triangles agree best with the normals at their corners is chosen.
+// these triangulations, the code chooses the one whose triangles agree best with the normals at their corners.
 #include "shapes.h"
 
 #include "fail.h"
@@ -225,7 +225,7 @@ static void to_float(const struct march *m, lam_vec3 p, float out[3])
     out[2] = (float)(p.z - m->origin[2] + 0.0);
 }
 
-// Adds a vertex at p. If p rounds to the lattice point `at`, the vertex of that point, *corner, is shared.
+// Adds a vertex at p. If p rounds to the lattice point `at`, uses the vertex of that point, *corner, instead.
 static bool add_vertex(struct march *m, lam_vec3 p, lam_vec3 at, uint32_t *corner, uint32_t *id)
 {
     float position[3], lattice_position[3];
@@ -312,7 +312,7 @@ static bool cross_between(struct march *m, int z, int below, int above)
     return true;
 }
 
-// Returns the vertex on edge `edge` of the cell whose first corner is `at` in its plane.
+// Returns the vertex on an edge of a cell. `at` is the index of the cell's first corner in its plane.
 static uint32_t edge_vertex(const struct march *m, int edge, size_t at, int below, int above)
 {
     size_t row = (size_t)m->cells[0] + 1;

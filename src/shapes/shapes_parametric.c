@@ -28,14 +28,14 @@
 #define COINCIDENT 1e-9
 // A derivative is treated as zero if it is below this fraction of the surface's size divided by the domain's length.
 #define VANISHED 1e-9
-// The distance from the boundary at which the one-sided limit is approximated, as a fraction of the domain.
+// The distance between the boundary and the point whose derivative approximates the limit, as a fraction of the domain.
 #define INSET 1e-4
 // A pole is smooth if the cosine between each of its normals and their mean is above this limit (0.08°).
 #define SMOOTH_POLE (1 - 1e-6)
 
 enum {
     ROWS = 4,            // rows of a parallel task
-    OF_THREAD = 1 << 12, // the fewest vertices for which a thread is started
+    OF_THREAD = 1 << 12, // the minimum number of vertices per thread
 };
 
 // A row of vertices, numbered from left to right. A vertex belongs to the first row and column that contain it.
@@ -316,8 +316,8 @@ static void set_cells(const struct tessellation *t, int j)
     }
 }
 
-// Counts the corners of the cells between row j − 1 and row j. If there are no poles, each cell has two triangles.
-// Surfaces with only one segment are an exception, because their ends may be joined.
+// Counts the corners of the cells between row j − 1 and row j. If there are no poles and at least two segments in u and
+// in v, each cell has two triangles. With a single segment, the ends of the surface may be joined.
 static size_t count_corners(const struct tessellation *t, int j)
 {
     const lam_parametric *s = t->surface;
@@ -467,7 +467,7 @@ static struct pool *make_pool(int threads, uint64_t vertices)
 // The total sizes of a mesh's surfaces.
 struct sizes {
     uint64_t attributes, triangles;
-    int widest, longest; // the most segments of a surface in u and in v
+    int widest, longest; // the largest numbers of segments in u and in v
 };
 
 static bool measure(const lam_parametric *surfaces, int count, struct sizes *sizes, lam_error *error)

@@ -11,7 +11,8 @@
 #include "linear.h"
 #include "teapot_data.h"
 
-// Converts Newell's coordinates to Y up, centred, with a width of 2 from the handle (−3) to the spout (3.434075).
+// Converts Newell's coordinates to Y up, centred and scaled to a width of 2. Newell's teapot extends from −3 (handle)
+// to 3.434075 (spout).
 #define TEAPOT_MIDDLE_X   0.2170375625
 #define TEAPOT_MIDDLE_Z   1.575
 #define TEAPOT_HALF_WIDTH 3.2170375625

@@ -9,8 +9,8 @@
 #include "up_axis.h"
 #include "word_values.h"
 
-// The numbers of the keys. If a key is a field, its number is the index of the field's first row in the table of
-// lam_light_field. The keys below follow the fields.
+// A number identifies each key. If a key is a field, its number is the index of the field's first row in the table of
+// lam_light_field. The other keys have the numbers below.
 enum { TARGET = LAM_FIELDS_MAX, COLOR, INTENSITY, FRAME, NAME, KEYS };
 _Static_assert((int)KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 
@@ -148,8 +148,8 @@ static bool read_range(const char *value, struct parser *parser, lam_error *erro
     return true;
 }
 
-// Parses the radius of a sphere, or the angular radius of a disc in degrees. set_size decides between the two when all
-// keys are known.
+// Parses the radius of a sphere, or the angular radius of a disc in degrees. set_size decides which of the two it is,
+// when all keys are known.
 static bool read_size(const char *value, struct parser *parser, lam_error *error)
 {
     double *number = parser->numbers[field_index("radius")];

@@ -68,9 +68,9 @@ const struct topic topics[] = {
      "between machines.\nThe options under the title are the sheet's defaults, which make the differences visible. "
      "Sheets about shading draw built-in shapes with few segments, unless you give `--segments`. They use one light, "
      "unless you give `--light` or `--rig`, or the model contains lights. Sheets with highlights use a material with a "
-     "highlight (unless you give `--material`, or the model contains materials).\n`--sheet stages` marks the brightest "
-     "highlight (the largest difference from the picture without highlights) and shows this highlight below, three "
-     "times as large. For a picture of one term, `--sheet terms` sets the coefficients of the other terms to black. "
+     "highlight (unless you give `--material`, or the model contains materials).\n`--sheet stages` marks the highlight "
+     "that changes the picture most, and shows this highlight below, three times as large. For a picture of one term, "
+     "`--sheet terms` sets the coefficients of the other terms to 0. "
      "`--sheet ambient` sets the ambient coefficient of the default material."},
     {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
      "`lambent explain MODEL X,Y` accepts the same options as `lambent render` and prints the calculation of one "
@@ -85,14 +85,15 @@ const struct topic topics[] = {
      "`--json` prints the same numbers on one line. `-o figure.svg` draws the numbers as a figure."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
-     "the program that wrote the file, the size and the up axis, triangles, meshes, parts and objects, and the names "
-     "that `--hide` accepts. The command also lists materials (numbers and maps), textures and their sizes, lights, "
+     "the program that wrote the file, the size, the up axis, the numbers of triangles, meshes, parts and objects, and "
+     "the names that `--hide` accepts. The command also lists materials (numbers and maps), textures and their sizes, "
+     "lights, "
      "cameras, scenes, animations and their lengths, variants, and glTF extensions (supported, ignored or unknown). At "
      "the end, the command prints the memory, the loading time and the warnings. Each list is limited to 8 rows; "
      "`--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF files (in metres) and 3MF "
      "files (which state their unit), the command prints the size, area and volume in millimetres. Other formats "
-     "define no unit. `info` prints the volume only for closed surfaces. A surface is closed if, at each edge, equal "
-     "numbers of triangles run along the edge in the two directions. `info` also reads files that require an unknown "
+     "define no unit. `info` prints the volume only for closed surfaces. A surface is closed if, at each edge, as many "
+     "triangles traverse the edge in one direction as in the other. `info` also reads files that require an unknown "
      "extension, as with `--lenient`, and reports the extension. The memory is the sum of the model's size and the "
      "memory needed to draw a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the "
      "depths. If Lambent cannot read a model, Lambent reports the error and continues. The exit code is then the "
@@ -116,7 +117,8 @@ const struct topic topics[] = {
      "the fragment and vertex shaders of the same folder and name. `-o sheets/` then writes a sheet for each shader. "
      "If Lambent cannot check a shader, it reports the error and checks the other shaders. The exit code is 0 if every "
      "scene of every shader matches the reference. Otherwise, the exit code is the highest exit code of all shaders. "
-     "The exit code is 6 for a shader whose pictures differ, or that does not compile, does not end or writes NaN. "
+     "The exit code for a shader is 6 if the shader's pictures differ, or if the shader does not compile, does not end "
+     "or writes NaN. "
      "With `--json`, Lambent prints the report on one line (`docs/check.schema.json`). For details, see "
      "`docs/check.md`."},
     {"shaders", "Shaders for other programs", BIT(SHADER), TOPIC_NO_TABLE, NULL},
@@ -124,15 +126,15 @@ const struct topic topics[] = {
      "`lambent diff A B` reads two pictures of the same size and the same kind (PNG or PPM with 8 bits, or PFM with "
      "floats). The command prints the largest difference of a channel, and the mean and root mean square over all "
      "channels. The channels are red, green, blue and alpha as stored in the files; 1 is the full range. The command "
-     "also prints the PSNR in decibels (`infinite` for equal pictures, null in JSON), and two shares: the pixels in "
-     "which a channel differs by more than 1/255, and by more than 2/255. `-o` draws the difference. With `-o out/`, "
+     "also prints the PSNR in decibels (`infinite` for equal pictures, null in JSON), and the fractions of pixels in "
+     "which a channel differs by more than 1/255 and by more than 2/255. `-o` draws the difference. With `-o out/`, "
      "the file is `A-difference.png` in that folder. Each channel of this picture is the channel's difference times "
      "`--gain`, clamped to 1. Equal pixels are black. A pixel that differs only in alpha is grey. A `.pfm` file stores "
      "the differences as floats without clamping. `--json` prints one line with these keys: `a`, `b`, `width`, "
      "`height`, `maximum`, `mean`, `rmse`, `psnr_db`, `share_over_1`, `share_over_2`, `tolerance`, `differ` (1 if the "
      "difference exceeds the tolerance, otherwise 0) and `picture`. The exit code is 6 if the largest difference "
      "exceeds the tolerance, and 1 if the sizes or kinds differ. If OLD and NEW are two models or two folders, "
-     "`lambent diff OLD NEW` draws the models of both sides with the same camera. `-o report.html` writes a page of "
+     "`lambent diff OLD NEW` draws the old and the new models with the same camera. `-o report.html` writes a page of "
      "added, removed and changed models, with pictures before and after. For details, see `docs/pull-requests.md`."},
     {"hash", "Hashes of pictures", BIT(HASH), TOPIC_NO_TABLE,
      "`lambent hash models/ -o pictures.hash` writes a line for each model. The line contains the XXH64 hash of the "

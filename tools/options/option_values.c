@@ -447,7 +447,7 @@ bool store_list(const struct option *option, const char *value, struct options *
                   : complain(error, LAM_BAD_ARGUMENT, "the value is empty, expected a file with a list of names");
 }
 
-// Accepts "-" or a file. Rejects a number, which is a number of parallel jobs in other programs.
+// Accepts "-" or a file. Rejects numbers, because other programs interpret a number as the number of parallel jobs.
 bool store_jobs(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     if (*value && strspn(value, "0123456789") == strlen(value))

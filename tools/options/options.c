@@ -132,7 +132,7 @@ static const struct option *find_key(const struct option *option, const char *ke
     return NULL;
 }
 
-// Returns whether a text begins with a key of the option's value and an equals sign, and is not a file's name.
+// Returns whether a text begins with one of the option's keys and an equals sign, and does not name an existing file.
 static bool begins_with_key(const struct option *option, const char *text)
 {
     size_t length = strcspn(text, "=,");
@@ -149,7 +149,7 @@ static bool unknown_key(const struct option *option, const char *text, lam_error
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s", text, known);
 }
 
-// Stores a key and its value from the first `length` letters of a text, such as "width=2".
+// Parses the first `length` bytes of a text, a key and its value such as "width=2", and stores the value.
 static bool store_key(const struct option *option, const char *text, size_t length, struct options *options,
                       lam_error *error)
 {
@@ -190,7 +190,7 @@ static bool option_store(const struct option *option, const char *value, struct 
     return option->store(option, own, options, error);
 }
 
-// Options with which other programs name the model.
+// Options that other programs use to specify the model.
 static const char *const model_names[] = {"i", "in", "input", "infile", "model", "mesh", "shape", "load", "open", NULL};
 
 static bool is_one_of(const char *argument, const char *const *words)
@@ -256,8 +256,8 @@ static bool is_known_option(const char *argument)
            find_long(argument + 2, strcspn(argument + 2, "="));
 }
 
-// Returns the option that the user probably meant: the plural form if there are several values, or the option that
-// formerly had this name if that option accepts the value.
+// Returns the option that the user probably meant: option->several if the value contains a comma, option->former if it
+// accepts the value, or otherwise `option`.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
     if (option->several && strchr(value, ','))

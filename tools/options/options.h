@@ -144,7 +144,7 @@ struct option {
     // Stores the value (NULL for a switch) at offset `field` of struct options. On failure, error->text describes the
     // mistake without the option's name.
     option_parser *store;
-    size_t field, has_field;    // offset of a bool that is also set; 0 means no bool
+    size_t field, has_field;    // offset of a bool that the option also sets; 0 means no bool
     double min, max;            // the range of a number that is not a setting of the library
     uint64_t single;            // TAKES_…, if a command may accept the option without its group
     const char *brief;          // a few words for -h; NULL omits the option from -h
@@ -162,7 +162,7 @@ struct option {
     const char *now;    // the option that replaces this obsolete option, or NULL
     const char *key;    // the key that replaces this option in the value of `now`: "width" in "--edges all,width=2"
                         // replaces --edge-width
-    bool keyed;         // whether other options are keys of the option's value
+    bool keyed;         // whether keys in the option's value set other options
     const char *former; // NULL, or the option that formerly had this name; suggested if `former` accepts the value
 };
 
@@ -187,8 +187,8 @@ void options_drop_settings(struct options *options);
 // Returns the option with a long name, or NULL if there is no such option.
 const struct option *option_find(const char *name);
 
-// Returns the index of the first argument that is neither an option nor an option's value. Returns −1 if there is none,
-// or if "--" or an unknown option precedes it.
+// Returns the index of the first operand: an argument that is neither an option nor an option's value. Returns −1 if
+// there is no operand, or if "--" or an unknown option precedes it.
 int options_first_operand(int count, char **words);
 
 // Writes an option's words as "flat, gouraud or phong". Returns `text`.
@@ -199,7 +199,8 @@ const char *option_words_list(const struct option *option, char text[OPTION_WORD
 // option.
 bool option_given(const struct options *options, const char *name);
 
-// Returns true if a command accepts an option. `groups` has bit g set for each complete group, and TAKES_… bits.
+// Returns true if a command accepts an option. `groups` contains bit g for each group whose options the command
+// accepts, and TAKES_… bits.
 bool option_is_taken(const struct option *option, uint64_t groups);
 
 // Returns whether a use includes an option.

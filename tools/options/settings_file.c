@@ -117,7 +117,7 @@ static void put_number(FILE *out, const json_t *value)
     fputs(text, out);
 }
 
-// Writes a list of words, or of numbers: the size of a picture, or a linear colour.
+// Writes a list of strings, or a list of numbers (a picture's size or a linear colour). Returns false for other items.
 static bool put_list(FILE *out, const json_t *list, char between)
 {
     size_t i;

@@ -66,8 +66,8 @@ static bool has_direction(const lam_light *light)
     return light->type != LAM_LIGHT_AMBIENT && light->type != LAM_LIGHT_HEMISPHERE;
 }
 
-// Finds a light by its name or, if no light has this name, by its number (the first light is 1). Finds the first light
-// that has a direction if `wanted` is NULL. Returns −1 if there is no such light.
+// Finds a light by its name or, if no light has this name, by its number (the first light is 1). If `wanted` is NULL,
+// finds the first light that has a direction. Returns −1 if there is no such light.
 static int find(const char *wanted, const lam_light *lights, int count)
 {
     for (int i = 0; i < count; i++)

@@ -12,7 +12,7 @@ struct scene_comparison {
     float *reference;                       // straight alpha
     uint32_t *inside;                       // indices of the compared pixels
     size_t inside_count;
-    float *samples; // the samples of `theirs` (scene_comparison_sample)
+    float *samples; // the samples of `theirs`, from scene_comparison_sample
     bool alpha;     // alpha is also compared
     double mean_difference;
     bool passes;

@@ -124,8 +124,8 @@ static void report_type_mismatch(struct diagnostics *diagnostics, const struct s
                         d->type, d->name, known->type, d->name);
 }
 
-// Returns whether a declared name is active: the driver reports "lights[].a" as "lights[0].a", and a block's member as
-// "Block.a".
+// Returns whether a declared name is active. For "lights[].a", the driver reports "lights[0].a", and for a block's
+// member "Block.a".
 static bool is_active(const struct draw_result *drawn, const char *declared)
 {
     for (int i = 0; i < drawn->unknown_count; i++) {

@@ -1,4 +1,4 @@
-// visible_names.h: finds the names that are declared and in scope at a position of a shader.
+// visible_names.h: finds the names that are declared and in scope at a position in a shader.
 #ifndef VISIBLE_NAMES_H
 #define VISIBLE_NAMES_H
 

@@ -284,7 +284,7 @@ static bool draw_scenes(struct shader_run *run, float *pixels, lam_error *error)
             struct reference_scene scene = shader_interface_scene(&run->interface, &reference_scenes[i]);
             double taken = 0;
             for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
-                 turn++) { // draws again if the first turn is too slow: it may include the driver's compilation
+                 turn++) { // the first turn may include the driver's compilation, so a slow scene is drawn again
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
                 if (!draw_scene(run, &scene, pixels + at, error))
                     return false;

@@ -7,7 +7,7 @@
 enum { MAX_TEXTURE_COORDINATES = 2, MAX_FACTORS = 2 };
 
 struct place {
-    lam_check_painter painter; // a copy, because a cache may keep the context longer than the original
+    lam_check_painter painter; // a copy, because a cache may keep the context after the original is freed
     void *place;               // the painter's context; NULL if not open
     int size;
     char renderer[128];
@@ -32,7 +32,7 @@ extern const struct map_inputs no_map_inputs;
 bool place_draw(struct place *place, enum reference_mesh mesh, const lam_check_drawing *drawing,
                 const struct map_inputs *inputs, float *pixels, lam_error *error);
 
-// The components of a type: matrices have several columns, and vectors one column with several rows.
+// The components of a type. A matrix has several columns; a vector has one column with several rows.
 struct type_shape {
     const char *name;
     int columns, rows;

@@ -19,8 +19,8 @@ void library_close(void *library); // NULL is allowed
 // not contain the function.
 bool library_find(void *library, const char *name, void *function);
 
-// A module lists the library functions that it calls in a macro, FUNCTIONS(each). It declares a struct with a handle
-// and these functions, which have the types of their declarations:
+// In a macro, FUNCTIONS(each), a module lists the library functions that the module calls. The module also declares a
+// struct with a handle and pointers to these functions:
 //  struct zip {
 //      void *handle;
 //      FUNCTIONS(LIBRARY_MEMBER)

@@ -1,4 +1,4 @@
-// number.c: parses numbers in text, correctly rounded, in any locale.
+// number.c: parses numbers in text with correct rounding, independently of the locale.
 //
 // There are three methods. If a method cannot guarantee the last bit of the result, the next method is used:
 //  1. Few digits and a small power of ten: one exact operation (Clinger, "How to Read Floating Point Numbers
@@ -25,7 +25,8 @@ struct format {
     int min_exponent_field;    // −bias: the exponent that the field 0 would represent
     int infinite;              // the exponent field of infinity
     int even_first, even_last; // range of powers of ten for which a product can be a midpoint
-    // The limits of the power of ten: with a smaller power, any 19 digits give 0; with a larger power, infinity.
+    // The limits of the power of ten. With a smaller power, any 19 digits give 0; with a larger power, they give
+    // infinity.
     int min_power, max_power;
 };
 static const struct format format_double = {52, -1023, 0x7ff, -4, 23, -342, 308};
@@ -188,8 +189,8 @@ static bool round_product(uint64_t digits, int64_t power, const struct format *f
 
 // --- method 3: big integers
 
-// Unsigned big integers, lowest limb first. These integers are large enough for 770 digits times 10^308, and for
-// 10^(342 + 770) times up to 2^64.
+// Unsigned big integers, lowest limb first. These integers are large enough for 770 digits times 10^308, and for the
+// product of 10^(342 + 770) and a number below 2^64.
 enum { LIMBS = 160, DIGITS_MAX = 770 };
 struct big {
     uint32_t limb[LIMBS];

@@ -1,4 +1,4 @@
-// number.h: parses numbers in text, correctly rounded, in any locale.
+// number.h: parses numbers in text with correct rounding, independently of the locale.
 #ifndef NUMBER_H
 #define NUMBER_H
 

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-// Loads eight bytes; the first one is the lowest.
+// Loads eight bytes; the first byte becomes the lowest byte of the result.
 static inline uint64_t number_load8(const uint8_t *at)
 {
     uint64_t eight;
@@ -73,7 +73,7 @@ static inline bool number_rounds_surely(double x)
     return ((bits & 0x1fffffff) - 0x0ffffffc) > 8;
 }
 
-// The powers of ten, each rounded once.
+// The powers 10^0 to 10^-15, each rounded once.
 static const double number_tenths[16] = {1e0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
                                          1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
 

@@ -1,10 +1,10 @@
-// spelling.c: finds the most similar of several words.
+// spelling.c: finds the known word that is most similar to a typed word.
 #include "spelling.h"
 
 #include <string.h>
 
-// Returns the smallest edit distance at which a word is no longer similar. A word that is too long to be compared is
-// not similar to any word.
+// Returns the smallest edit distance at which another word is too different from `word`. A word that is too long to be
+// compared is not similar to any word.
 static int limit_of(const char *word)
 {
     enum { COMPARED_MAX = 63 }; // the limit of lam_edit_distance

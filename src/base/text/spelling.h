@@ -13,8 +13,8 @@ struct spelling {
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
 
-// Returns the word of `words` with the smallest edit distance to `word`. Returns NULL if this distance exceeds a third
-// of the length of `word`, plus one.
+// Returns the word of `words` with the smallest edit distance to `word`. Returns NULL if this distance exceeds 1 plus a
+// third of the length of `word`.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
 // Returns the known name among `words` that a typed word most likely means, or NULL if none is close enough.

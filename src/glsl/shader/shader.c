@@ -47,7 +47,7 @@ static bool is_selected(const struct frame *frame, const struct frame_draw_range
 }
 
 // Merges the maps of another material. If one of the materials lacks a map, the map's value is 1 everywhere for that
-// material (glsl_map_values). Returns false if one shader cannot read both.
+// material (glsl_map_values). Returns false if one shader cannot use the maps of both materials.
 static bool merge_maps(struct glsl_choices *all, const struct glsl_choices *own)
 {
     bool same = true;

@@ -1,8 +1,8 @@
 // journal.h: reads and writes journals: files with one JSON line for each finished or failed picture.
 //
-// After a picture is written, a single write() appends the picture's line, so a run may be killed at any time. At
-// worst, the last line is truncated and lacks its line end. During a run, FILE.running beside the journal lists the
-// models in progress and their processes. A killed run leaves that file behind.
+// After a picture is written, a single write() appends the picture's line. If the run is killed, at worst the last line
+// is truncated and lacks its line end. During a run, FILE.running beside the journal lists the models in progress and
+// their processes. A killed run leaves FILE.running behind.
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
@@ -19,7 +19,7 @@ enum journal_way { JOURNAL_START, JOURNAL_RESUME, JOURNAL_SAME };
 // The contents of the line that begins a run.
 struct journal_run {
     const char *options; // batch_options_text, and the names of the pictures
-    const char *folder;  // the common folder of the pictures, with its '/', as in the key `output` of the lines
+    const char *folder;  // the folder of the pictures, ending in '/', as written in the key `output` of the lines
     const char *shard;   // "2/3"; NULL if there are no shards
     size_t pictures;     // the number of pictures of the whole run, including pictures that are already written
 };
@@ -37,7 +37,7 @@ json_t *journal_find(const struct journal *journal, const char *output);
 // Appends a record. Only one thread at a time may call this function. Fails with LAM_CANNOT_WRITE.
 bool journal_add(struct journal *journal, const json_t *record, lam_error *error);
 
-// Returns the text of a record's key, or "" if there is none.
+// Returns the string value of a key, or "" if the record contains no such string.
 const char *journal_value(const json_t *record, const char *key);
 
 // Sets a key of a record to `text` (journal_text), or to null if `text` is NULL.
@@ -61,8 +61,8 @@ void journal_each_running(const struct journal *journal,
 // failure; errno is 0 if the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
-// Closes the journal. `done` means that the run was completed. FILE.running is removed, even after a failed run, unless
-// the run was interrupted while drawing. NULL is allowed.
+// Closes the journal. `done` means that the run was completed. If the run was interrupted while drawing, FILE.running
+// remains; otherwise, the function removes this file. NULL is allowed.
 void journal_close(struct journal *journal, bool done, bool interrupted);
 
 // Converts text for JSON: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. The result is allocated

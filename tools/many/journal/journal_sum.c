@@ -113,8 +113,8 @@ static void begin_run(struct journal_part *part, const json_t *record)
     part->ended = false;
 }
 
-// Ignores a line that is not JSON, because the line was truncated when a run was killed. The next run draws the picture
-// again and writes another line.
+// Ignores lines that are not JSON: if a run is killed, its last line may be truncated. The next run draws that picture
+// again.
 static bool read_lines(struct journal_sum *s, int number, lam_error *error)
 {
     const char *line = s->parts[number].text, *last = line + s->parts[number].size, *end, *folder = NULL;

@@ -39,15 +39,15 @@ void batch_plan_drop_last(struct batch_plan *plan);
 // model is listed twice. Returns false.
 bool batch_same_output(const char *a, const char *b, const char *output, lam_error *error);
 
-// Completes the plan. Rejects pictures with equal names, even in different shards, and names that cannot be written.
-// Then keeps only the models of this shard. Fails with LAM_BAD_ARGUMENT or LAM_UNSUPPORTED.
+// Completes the plan. Rejects pictures with equal names, even in different shards. Then keeps only the models of this
+// shard. Fails with LAM_BAD_ARGUMENT or LAM_LIMIT.
 bool batch_plan_check(struct batch_plan *plan, lam_error *error);
 
 // Returns the path of a picture, allocated with malloc. Returns NULL if memory runs out.
 char *batch_plan_output(const struct batch_plan *plan, size_t model, int view);
 
-// Returns the common folder of all pictures with a final '/', allocated with malloc. The current folder is "". Returns
-// NULL if memory runs out.
+// Returns the path of the folder that contains all pictures, allocated with malloc. The path ends in '/', or is "" for
+// the current folder. Returns NULL if memory runs out.
 char *batch_plan_folder(const struct batch_plan *plan);
 
 void batch_plan_free(struct batch_plan *plan);

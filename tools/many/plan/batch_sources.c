@@ -30,7 +30,7 @@ static bool leads_out(const struct batch_plan *plan, const char *path, const cha
     return out;
 }
 
-// Adds a file without opening it. Pipes and broken links are reported when they are read.
+// Adds a file without opening it, so the errors for pipes and broken links appear only when the file is read.
 static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
 {
     if (!is_model_name(path) || (is_link && path_is_folder(path)))

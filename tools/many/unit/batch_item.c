@@ -24,8 +24,8 @@
 
 // --- messages
 
-// Prints the warnings from index *first on, except repeated texts. Sets *first to the number of warnings. Returns the
-// number of warnings with new texts.
+// Prints the warnings with index *first and above, but each text only once. Sets *first to the number of warnings.
+// Returns the number of warnings with new texts.
 static int print_warnings(const struct job *job, int *first, bool print)
 {
     int count = 0;
@@ -62,8 +62,8 @@ static bool names(const char *sentence, const char *name)
     return *sentence == ':';
 }
 
-// Adds the model's name to an error message that lacks the name. If the time limit was reached, states the limit that
-// the user set, instead of the time that remained for one step.
+// Adds the model's name to an error message that lacks the name. After a timeout, the message names the limit that the
+// user set, not the time that remained for one step.
 static void name_model(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
@@ -184,7 +184,7 @@ static void add_hash(json_t *record, const struct batch_item *item, int view, co
     journal_set_text(record, "hash", text);
 }
 
-// Adds the files that were read, and the key.
+// Adds to a record the files that were read, and the key.
 static void add_key(json_t *record, const struct batch_item *item, int view, const struct job *job,
                     const struct files *files)
 {
@@ -199,7 +199,7 @@ static void add_key(json_t *record, const struct batch_item *item, int view, con
     }
     json_object_set_new(record, "files", list);
     if (files->changed || item->model_bytes || strcmp(item->model, "-") == 0)
-        return; // without a key, the picture is never skipped as unchanged
+        return; // a picture without a key is always drawn again
     const struct job_view *v = &item->views[view];
     struct batch_key_parts parts = {.options = item->options_text,
                                     .parsed = item->options,

@@ -55,7 +55,7 @@ struct batch_result {
 void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result);
 void batch_result_free(struct batch_result *result);
 
-// Returns the record of a failed picture whose drawing ended before it could report the failure.
+// Returns the record of a failed picture if the drawing process ended before it could report the failure.
 json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text);
 
 #endif

@@ -1,7 +1,8 @@
 // streams.c: memory streams, reading of lines, and waiting for pipes.
 //
 // A Windows stream cannot call functions of the program, so a memory stream is a temporary file. Windows keeps the file
-// in its cache, and removes the file when the stream is closed. fflush and fclose copy the file's bytes.
+// in its cache, and removes the file when the stream is closed. fflush and fclose copy the file's bytes to the caller's
+// memory.
 #include "names.h"
 
 #include <errno.h>
@@ -62,8 +63,7 @@ FILE *fmemopen(void *data, size_t size, const char *mode)
     return start((struct memory_stream){.fixed = data, .capacity = size});
 }
 
-// Copies the stream's bytes to the memory that its user reads. Returns false if memory runs out or an earlier write has
-// failed.
+// Copies the stream's bytes to the caller's memory. Returns false if memory runs out or an earlier write has failed.
 static bool give_text(const struct memory_stream *stream)
 {
     if (fflush(stream->file) != 0 || ferror(stream->file))

@@ -54,7 +54,7 @@ struct frame_draw_range {
     // the opacity may be below 1, or the material transmits light: the triangles are blended or masked
     bool translucent;
     lam_reflection reflection; // the model for both sides, never AUTO
-    bool passes_rays;          // rays treat the triangles as translucent, for every output
+    bool passes_rays;          // rays treat the triangles as translucent, regardless of the output
     bool transmits;            // the material transmits light (LAYER_TRANSMISSION), and the output shows this
 };
 
@@ -144,7 +144,7 @@ struct frame {
     bool translucent;       // whether any range is translucent
     bool passes_rays;       // whether passes_rays is set in any range
     bool masked;            // whether any range has a material of LAM_ALPHA_MASK
-    // whether the material of any range transmits coloured light, for every output
+    // whether the material of any range transmits coloured light, regardless of the output
     bool tints_rays;
     bool transmits; // whether the material of any range transmits light; layers then need a transmittance per channel
     // whether any range is rough or thick glass, which blurs and refracts the picture behind it

@@ -136,7 +136,7 @@ static bool applies(const struct frame *frame, const lam_scene *scene)
     return lam_output_is_light(settings->output) || settings->output == LAM_OUTPUT_CLIPPED;
 }
 
-// Returns whether no surface can be dark. In this case, no surface has to be sampled.
+// Returns true if no surface can be dark, so that sampling is unnecessary.
 static bool is_bright(const struct frame *frame)
 {
     for (int i = 0; i < frame->range_count; i++) {

@@ -204,8 +204,9 @@ static const char copy_fragment[] =
     "out vec4 pixel;\n"
     "void main() { pixel = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * factor; }\n";
 
-// As in blend_tinted_pixel (src/cpu/shade/blend.c), the only alpha is the mean of the channels, and the difference from
-// this mean tints the background.
+// As in blend_tinted_pixel (src/cpu/shade/blend.c), the layers reduce alpha by the mean transmittance of the channels.
+// If no opaque surface is behind the layers and there is a background for glass, the smallest transmittance replaces
+// the mean, and the excess of each channel multiplies this background.
 static const char tint_fragment[] =
     "uniform sampler2D picture;\n"
     "uniform sampler2D tint;\n"

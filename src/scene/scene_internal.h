@@ -48,7 +48,8 @@ struct scene_origin {
     int object_count;
     const int *part_materials; // the materials of all parts of the meshes, in order
     int part_count;
-    // a mesh was replaced or removed, or one of several objects was removed, so a scene file cannot describe the rest
+    // the program replaced or removed a mesh, or removed one of several objects, so a scene file cannot describe the
+    // scene
     bool edited;
 };
 
@@ -108,8 +109,8 @@ struct lam_scene {
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
-// Returns whether a scene contains no lights, at least one lit physical material, and no lit classic material. Such a
-// scene is lit by its environment instead of a rig. If the scene has no environment, the built-in studio environment
+// Returns whether a scene contains at least one lit physical material, but no lights and no lit classic material. Such
+// a scene is lit by its environment instead of a rig. If the scene has no environment, the built-in studio environment
 // lights the scene.
 bool scene_lit_by_environment(const struct lam_scene *scene);
 

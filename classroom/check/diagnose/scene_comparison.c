@@ -1,4 +1,4 @@
-// scene_comparison.c: selects the pixels of two pictures to compare, and compares them.
+// scene_comparison.c: selects the pixels to compare in two pictures, and compares these pixels.
 #include "scene_comparison.h"
 
 static float clamped(float x) { return x > 0 ? (x < 1 ? x : 1) : 0; } // NaN: 0

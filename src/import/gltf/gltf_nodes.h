@@ -23,7 +23,7 @@ bool gltf_nodes_read(struct gltf *gltf);
 // Computes node->world and node->visible for all nodes.
 bool gltf_nodes_place(struct gltf *gltf);
 
-// Normalises a quaternion; a zero quaternion becomes the identity.
+// Normalizes a quaternion; a zero quaternion becomes the identity.
 void gltf_unit_quaternion(double q[4]);
 
 lam_mat4 gltf_transform(const double translation[3], const double rotation[4], const double scale[3]);

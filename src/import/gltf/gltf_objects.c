@@ -48,7 +48,7 @@ struct instances {
     size_t count;
 };
 
-// Checks, before any instance is created, that the call's limits allow all of them.
+// Checks that the call's limits allow all instances, before any instance is created.
 static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, size_t count)
 {
     struct call_control *call = gltf->source->call;
@@ -71,7 +71,7 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
     return true;
 }
 
-// Returns false if the call is cancelled or out of time. This is checked once per 1024 objects.
+// Once per 1024 objects, checks whether the call is cancelled or out of time. If so, returns false.
 static bool continues(struct gltf *gltf, size_t number)
 {
     struct call_control *call = gltf->source->call;

@@ -4,8 +4,8 @@
 
 #include "gltf.h"
 
-// Reads the layers of a material into `material`, and requests the maps of these layers. The material has the index
-// `index` and the JSON object `object`.
+// Reads the layers of a material into `material`, and requests the maps of these layers. `index` is the material's
+// index in the file, and `object` is its JSON object.
 bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t *object, int index,
                       lam_material *material);
 

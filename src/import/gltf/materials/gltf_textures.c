@@ -100,8 +100,8 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 
 // --- pictures
 
-// Returns the image of a texture: the image of EXT_texture_webp if WebP can be decoded or the texture has no fallback
-// image, otherwise the fallback image. Returns −1 on error.
+// Returns the image of a texture. If WebP can be decoded, or if there is no fallback image, this is the image of
+// EXT_texture_webp; otherwise, it is the fallback image. Returns −1 on error.
 static int image_of(struct gltf *gltf, int texture)
 {
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture);
@@ -195,8 +195,8 @@ static bool take_transform(struct gltf *gltf, const struct place *place, const j
     return true;
 }
 
-// Returns the index (0 or 1) under which a material uses the file's texture coordinates number `set`. Returns −1 if the
-// material already uses two other sets.
+// Assigns the file's set `set` of texture coordinates to the first (0) or second (1) set of a material, and returns 0
+// or 1. Returns −1 if the material already uses two other sets.
 static int place_set(struct gltf *gltf, int material, size_t set)
 {
     int *sets = gltf->texcoord_sets[material];

@@ -25,7 +25,7 @@ bool gltf_take_map(struct gltf *gltf, const struct place *place, const json_t *o
 // is omitted with a warning.
 bool gltf_textures_finish(struct gltf *gltf);
 
-// Returns the index in the file of a material's first (`which` is 0) or second (1) set of texture coordinates, or −1 if
+// Returns the file's number for a material's first (`which` is 0) or second (1) set of texture coordinates, or −1 if
 // the material does not use that set.
 int gltf_texcoord_set(const struct gltf *gltf, int32_t material, int which);
 

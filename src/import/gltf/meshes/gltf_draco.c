@@ -39,7 +39,7 @@ struct decoding {
     uint32_t vertices, triangles;
 };
 
-// Handles the result of a function of the module. Returns false on error.
+// Checks the result of a function of the module, and reports an error if the function failed. Returns false on error.
 static bool succeeded(const struct decoding *d, const struct place *place, int result, const char *reason)
 {
     return result > 0 ||
@@ -121,7 +121,7 @@ static bool decode_indices(const struct decoding *d, const struct place *primiti
         return json_fail(&gltf->json, primitive_place, "indices is missing; a compressed mesh needs indices");
     if (accessor->width != 1 ||
         (accessor->component != GLTF_U8 && accessor->component != GLTF_U16 && accessor->component != GLTF_U32))
-        return true; // gltf_indices reports the wrong type
+        return true; // gltf_indices reports this error
     if (strip)
         // the file declares the number of indices of a strip, but the decoded mesh contains separate triangles
         accessor->count = count;
@@ -183,8 +183,8 @@ static bool charge_claim(const struct decoding *d, const struct gltf_view *view,
     return true;
 }
 
-// Memory that decoding may use beyond the declared sizes. The memory is granted in steps of one megabyte. Each grant
-// checks whether the call may continue, so that a long decoding can be stopped.
+// Memory that decoding may use beyond the declared sizes. The memory is granted in steps of one megabyte. At each step,
+// grant() checks whether the call may continue, so that a long decoding can be stopped.
 struct grants {
     struct call_control *call;
     size_t refused;

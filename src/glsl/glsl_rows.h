@@ -138,7 +138,7 @@ bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
 // Appends the lines that select these parameters from the front or the back material, for shaders with products and two
 // materials.
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
-// Finds the maps that a shader uses; the other facts must be set.
+// Finds the maps that a shader uses. The other facts must already be set.
 void glsl_find_maps(struct glsl_facts *facts);
 // Returns the map whose sampler `map` uses: the first map of this side with the same texels, possibly `map` itself.
 lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);

@@ -31,13 +31,14 @@ const struct topic topics[] = {
      "`lambent formats` lists the formats that Lambent reads and writes. `docs/formats.md` describes how Lambent draws "
      "each element of each format.\n3MF (`.3mf`): a ZIP archive for 3D printing, with units, components, colours, "
      "textures, layered textures and metals. Lambent loads libzip and expat (Debian's `libzip4` or `libzip5`, and "
-     "`libexpat1`) only for these files. Lambent ignores beams, slices and displacements, with a warning. `--lenient` "
-     "reads files that require unknown extensions or use an undeclared XML prefix.\nSTL (`.stl`): triangles, as text "
-     "or binary data. Z is up. The format defines no unit. Binary files may contain colours.\nOBJ (`.obj`): polygons, "
-     "with `.mtl` materials and textures. Y is up.\nPLY (`.ply`): triangles, points and lines with colours, as text or "
-     "binary data.\nglTF (`.gltf`, `.glb`): scenes with physical materials, lights, cameras, skins and animations, in "
-     "metres. Y is up. `--scene`, `--variant`, `--animation` and `--time` select the scene, the materials and the "
-     "pose. Lambent decodes Draco and meshoptimizer data if their libraries are installed."},
+     "`libexpat1`) only for these files. Lambent ignores beams, slices and displacements, with a warning. With "
+     "`--lenient`, Lambent also reads files that require unknown extensions or use an undeclared XML prefix.\nSTL "
+     "(`.stl`): triangles, as text or binary data. Z is up. The format defines no unit. Binary files may contain "
+     "colours.\nOBJ (`.obj`): polygons, with `.mtl` materials and textures. Y is up.\nPLY (`.ply`): triangles, points "
+     "and lines with colours, as text or binary data.\nglTF (`.gltf`, `.glb`): scenes with physical materials, lights, "
+     "cameras, skins and animations, in metres. Y is up. `--scene`, `--variant`, `--animation` and `--time` select the "
+     "scene, the materials and the pose. Lambent decodes Draco and meshoptimizer data if their libraries are "
+     "installed."},
     {"picture", "The picture", BIT(PICTURE), TOPIC_NO_TABLE, NULL},
     {"output", "Output", 0, TOPIC_NO_TABLE,
      "Without `-o`, Lambent writes the picture of `models/koala.obj` to `koala.png` in the current folder. Lambent "
@@ -70,8 +71,8 @@ const struct topic topics[] = {
      "unless you give `--light` or `--rig`, or the model contains lights. Sheets with highlights use a material with a "
      "highlight (unless you give `--material`, or the model contains materials).\n`--sheet stages` marks the highlight "
      "that changes the picture most, and shows this highlight below, three times as large. For a picture of one term, "
-     "`--sheet terms` sets the coefficients of the other terms to 0. "
-     "`--sheet ambient` sets the ambient coefficient of the default material."},
+     "`--sheet terms` sets the coefficients of the other terms to 0. `--sheet ambient` sets the ambient coefficient of "
+     "the default material."},
     {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
      "`lambent explain MODEL X,Y` accepts the same options as `lambent render` and prints the calculation of one "
      "pixel. X is the pixel's column and Y is its row, counted from 0 at the top left corner. For each visible "
@@ -87,15 +88,14 @@ const struct topic topics[] = {
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
      "the program that wrote the file, the size, the up axis, the numbers of triangles, meshes, parts and objects, and "
      "the names that `--hide` accepts. The command also lists materials (numbers and maps), textures and their sizes, "
-     "lights, "
-     "cameras, scenes, animations and their lengths, variants, and glTF extensions (supported, ignored or unknown). At "
-     "the end, the command prints the memory, the loading time and the warnings. Each list is limited to 8 rows; "
-     "`--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF files (in metres) and 3MF "
-     "files (which state their unit), the command prints the size, area and volume in millimetres. Other formats "
-     "define no unit. `info` prints the volume only for closed surfaces. A surface is closed if, at each edge, as many "
-     "triangles traverse the edge in one direction as in the other. `info` also reads files that require an unknown "
-     "extension, as with `--lenient`, and reports the extension. The memory is the sum of the model's size and the "
-     "memory needed to draw a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the "
+     "lights, cameras, scenes, animations and their lengths, variants, and glTF extensions (supported, ignored or "
+     "unknown). At the end, the command prints the memory, the loading time and the warnings. Each list is limited to "
+     "8 rows; `--json` prints all rows, one line for each model (`docs/info.schema.json`). For glTF files (in metres) "
+     "and 3MF files (which state their unit), the command prints the size, area and volume in millimetres. Other "
+     "formats define no unit. `info` prints the volume only for closed surfaces. A surface is closed if, at each edge, "
+     "as many triangles traverse the edge in one direction as in the other. `info` also reads files that require an "
+     "unknown extension, as with `--lenient`, and reports the extension. The memory is the sum of the model's size and "
+     "the memory needed to draw a picture of 1024x1024 pixels. To measure this memory, Lambent draws a picture of the "
      "depths. If Lambent cannot read a model, Lambent reports the error and continues. The exit code is then the "
      "highest exit code of all models."},
     {"check", "Checking shaders", BIT(CHECK) | BIT(DIFF), TOPIC_NO_TABLE,
@@ -107,8 +107,7 @@ const struct topic topics[] = {
      "smallest set of mistakes that reproduces the shader's pictures, and a corrected line for each mistake. `-o` "
      "writes a sheet that shows, for each scene, the shader's picture, the reference and the difference between them, "
      "amplified by `--gain`. `--tolerance` (default 2) applies to each channel of a pixel. At most one pixel in 200 "
-     "may "
-     "exceed the tolerance. The mean difference may be at most a quarter of the tolerance. The shaders run in a "
+     "may exceed the tolerance. The mean difference may be at most a quarter of the tolerance. The shaders run in a "
      "separate process. `--stop-after` limits the processor time of this process, and `--memory-limit` limits its "
      "memory. `lambent check --class FOLDER --csv grades.csv -o sheets/` checks the submissions of all students in a "
      "class. A submission is a folder with one fragment shader and at most one vertex shader. In a folder with more "
@@ -118,8 +117,7 @@ const struct topic topics[] = {
      "If Lambent cannot check a shader, it reports the error and checks the other shaders. The exit code is 0 if every "
      "scene of every shader matches the reference. Otherwise, the exit code is the highest exit code of all shaders. "
      "The exit code for a shader is 6 if the shader's pictures differ, or if the shader does not compile, does not end "
-     "or writes NaN. "
-     "With `--json`, Lambent prints the report on one line (`docs/check.schema.json`). For details, see "
+     "or writes NaN. With `--json`, Lambent prints the report on one line (`docs/check.schema.json`). For details, see "
      "`docs/check.md`."},
     {"shaders", "Shaders for other programs", BIT(SHADER), TOPIC_NO_TABLE, NULL},
     {"diff", "Comparing pictures", BIT(DIFF), TOPIC_NO_TABLE,

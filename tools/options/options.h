@@ -111,7 +111,7 @@ enum option_use {
 struct choice {
     const char *name;
     int value;
-    const char *summary; // NULL if the name is clear, or is an alias of the previous name
+    const char *summary; // NULL if the name needs no explanation, or is an alias of the previous name
 };
 
 // The syntax of a value that is not one of the option's keywords.

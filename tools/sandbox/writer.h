@@ -19,8 +19,8 @@ enum writer_right {
     WRITER_NEW_OR_OURS, // a new file, or a file that this run wrote or that is marked as Lambent's
     WRITER_ANY,         // replaces any existing file
     WRITER_REMOVES,     // the file may only be removed
-    // Lambent derived the file's name from another name that the user gave. The file must be regular or missing, and
-    // the writer follows no link.
+    // Lambent derived the file's name from another name; the user did not type the file's name. The file must be
+    // regular or missing, and the writer follows no link.
     WRITER_IMPLIED = 8,
 };
 

@@ -1,5 +1,5 @@
-// view_routes.c: decides which requests are answered. A page of another site can send requests here, even if the site's
-// host name resolves to this machine. However, such a page does not know the token, sends other Host and Origin
+// view_routes.c: decides which requests are answered. A page of another site can send requests here, and the site's
+// host name may even resolve to this machine. However, such a page does not know the token, sends other Host and Origin
 // headers, and cannot read the answers (view_answer.c).
 #include "view_routes.h"
 

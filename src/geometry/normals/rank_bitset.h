@@ -1,4 +1,4 @@
-// rank_bitset.h: a set of numbers, as bits, that can also count its members below a given number.
+// rank_bitset.h: a set of numbers, stored as bits, that also counts the members below a given number.
 #ifndef RANK_BITSET_H
 #define RANK_BITSET_H
 

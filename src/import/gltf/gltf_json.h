@@ -29,7 +29,7 @@ bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_
                        size_t count, double *out);
 
 // Gets a factor of `count` numbers whose range the standard limits. Numbers outside [min, max] are clamped. If clamping
-// changes a number by more than a rounding error, the file gets a warning, but only one for all its factors.
+// changes a number by more than a rounding error, a single warning is added for the whole file.
 bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double min, double max, double *out);
 

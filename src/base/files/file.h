@@ -41,7 +41,7 @@ bool file_check_regular(const char *path, lam_error *error);
 // Resolves every link and ".." in a path. If the resolved path is the folder or is inside the folder, returns this
 // path, allocated with malloc. A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is
 // then true) or cannot be resolved (errno is then set). Sets *length to the length of the folder at the start of the
-// result, including its '/', or to 0 if the path is the folder itself.
+// result, including the final '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
 // A large open file, of which any thread may read sections.

@@ -248,7 +248,7 @@ static bool write_named(const struct writing *w)
     bool ok = file >= 0 && fill(file, w, &before);
     int reason = errno;
     if (file >= 0)
-        close(file); // fill has already reported the error
+        close(file); // fill() has already reported the error
     if (ok && rename(name, w->target) != 0) {
         reason = errno;
         ok = false;

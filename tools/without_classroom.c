@@ -1,5 +1,5 @@
 // without_classroom.c: replaces the functions of classroom/ for programs that are built without it (-Dclassroom=false).
-// Each function reports that it is not available.
+// Each replacement reports that the function is not available.
 #include "check.h"
 #include "command.h"
 #include "console.h"

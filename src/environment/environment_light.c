@@ -1,8 +1,8 @@
 // environment_light.c: computes and stores the irradiance, and the environment prefiltered for each roughness.
 //
 // A texel is a sum over samples. The GGX lobe around the texel's direction is divided into rings, and the rings are
-// divided into cells that are about as wide as high. For each cell, the environment is read from the copy in the chain
-// whose texels are about as large as the cell. The cells of a level are the same for all texels.
+// divided into cells that are about as wide as high. For each cell, the environment is read from one of the copies of
+// the cube: the copy with texels about as large as the cell. The cells of a level are the same for all texels.
 #include "environment_light.h"
 
 #include "call_control.h"
@@ -105,7 +105,7 @@ struct making {
     struct call_control *call;
 };
 
-// Returns how many rows of a level's faces are to be computed; `size` returns the level's texels per side.
+// Returns how many rows of a level's faces must be computed. size(level) is the number of texels per side.
 static size_t rows_of(const struct making *work, int level, int (*size)(int level))
 {
     return work->parts >> level & 1 ? (size_t)size(level) * LAM_FACE_COUNT : 0;

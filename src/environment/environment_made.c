@@ -66,13 +66,13 @@ static void sky_row(int face, int t, float *texels)
 }
 
 // The studio for physical materials is a cubic room around the origin. The lamps are small and bright, so that a clear
-// coat mirrors a few clear highlights, and its colour stays saturated between them. The brightest lamp, on the ceiling,
-// lights the tops of objects. The objects' shadows on a ground are therefore short and soft. A tall lamp in front
-// lights the sides that face the viewer. A tall lamp at the right is weaker. The three visible faces of a cube
-// therefore differ in brightness. The lamp behind the object is high: it lights rounded tops and the rims of black
-// objects. Metals mirror a bright horizon between a dark floor and dim walls, and a large dim lamp at the left. A
-// horizontal white surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each face of the cube map
-// is a wall of the room.
+// coat shows a few clear highlights, and the colour below the coat stays saturated between the highlights. The
+// brightest lamp, on the ceiling, lights the tops of objects. The objects' shadows on a ground are therefore short and
+// soft. A tall lamp in front lights the sides that face the viewer. A tall lamp at the right is weaker. The three
+// visible faces of a cube therefore differ in brightness. The lamp behind the object is high, and lights the rims of
+// black objects and rounded tops. Metals mirror a bright horizon between a dark floor and dim walls, and a large dim
+// lamp at the left. A horizontal white surface receives 1.1 (irradiance / π), which the tone curve maps to 0.9. Each
+// face of the cube map is a wall of the room.
 struct lamp {
     double intensity;
     struct rgb color;

@@ -39,7 +39,7 @@ static double weigh_row(const struct lam_environment *cube, int face, int t, dou
     return sum;
 }
 
-// Returns the direction of a point of a face (coordinates −1 to 1), and the light from this direction.
+// Returns the direction of a point on a face (coordinates −1 to 1), and the light from this direction.
 static struct sampled_light light_at(const struct lam_environment *cube, const float to_environment[3][3], int face,
                                      double across, double down, double density)
 {

@@ -18,7 +18,7 @@ struct sampled_light {
     float color[3];     // the light from this direction
 };
 
-// A point of the unit disc; the points are evenly distributed.
+// A point in the unit disc. The points are evenly distributed.
 struct disc_point {
     float x, y;
 };

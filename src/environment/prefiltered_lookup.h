@@ -6,7 +6,7 @@
 #include "cube_lookup.h"
 #include "environment_light.h"
 
-// Returns, for each lane, the light of level `number` at a point of a face (cube_point).
+// Returns, for each lane, the light of level `number` at a point on a face (cube_point).
 LANE_FN struct cube_color level_look(const struct environment_light *light, inum number, struct cube_position point)
 {
     float sizes[LANES], texels[3][4][LANES];

@@ -61,8 +61,8 @@ void export_lose(struct exporting *e, const char *format, ...) __attribute__((fo
 // means that the format supports lights and cameras.
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
-// Records a loss if the scene has several objects or its parts have several names, because a flat format merges objects
-// and drops these names. `reason` is appended to the message.
+// Records a loss if the scene has several objects or several names of parts, because a flat format merges objects and
+// drops the names of parts. `reason` is appended to the message.
 void export_lose_objects(struct exporting *e, const char *reason);
 
 // Adds a file beside the model, and takes ownership of the file's bytes, which malloc allocated. The file's name is the
@@ -73,16 +73,17 @@ const char *export_add_file(struct exporting *e, const char *ending, bool beside
 // Reports that memory has run out. Returns false.
 bool export_no_memory(struct exporting *e, size_t bytes);
 
-// Allocates temporary memory, charged to the call.
+// Allocates temporary memory, which counts towards the memory limit of the call.
 void *export_memory(struct exporting *e, size_t bytes);
 void export_memory_free(struct exporting *e, void *memory, size_t bytes);
 
-// export_continues is the condition of long loops. Every 65,536 items, it checks whether the call may continue.
+// Long loops continue while export_continues returns true. Every 65,536 items, this function checks whether the call
+// may continue.
 bool export_asks(struct exporting *e);
 static inline bool export_continues(struct exporting *e, size_t item) { return item % 65536 || export_asks(e); }
 
-// These functions check that no loop ended early, and that the text is complete. Otherwise, they return false and fill
-// the error.
+// The next two functions check that no loop ended early, and that the text is complete. If a check fails, the function
+// returns false and fills the error.
 bool export_is_whole(struct exporting *e);
 bool export_text_is_whole(struct exporting *e, const struct text *text);
 

@@ -128,7 +128,7 @@ const char *export_add_file(struct exporting *e, const char *ending, bool beside
         make_nameable(file.name);
     if (file.name)
         strcat(file.name, ending);
-    // the model's own text has already been charged
+    // the model's own text already counts towards the memory limit
     bool charged = !beside || !e->call || call_charge(e->call, bytes.size);
     if (charged && file.name && scene_list_append(&e->out->files, &file, sizeof file, &e->out->arena))
         return file.name;

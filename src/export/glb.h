@@ -11,7 +11,8 @@ struct glb_arrays {
     bool ready;
     int position, normal, texcoords[2], tangent, color;
     int first_indices; // accessor of the first part's indices; the other parts follow
-    // the latest mesh in the file that was made from this mesh in the scene, or −1; glb_mesh.before is the previous one
+    // the latest mesh in the file that was made from this mesh in the scene, or −1; glb_mesh.before lists the earlier
+    // meshes
     int first_mesh;
 };
 
@@ -63,11 +64,12 @@ bool glb_error(struct glb *glb);
 
 bool glb_append(struct glb *glb, struct scene_list *list, const void *item, size_t size);
 
-// Writes the mesh for a part of an object (−1: all parts) if necessary, and returns the mesh's index in the file.
-// Returns −1 if memory runs out.
+// Writes the mesh for a part of an object (−1: all parts) unless it is already written, and returns the mesh's index in
+// the file. Returns −1 if memory runs out.
 int glb_mesh_of(struct glb *glb, const lam_object *object, int part);
 
-// Writes a material if necessary (−1 means the scene's default material), and returns the material's index in the file.
+// Writes a material (−1: the scene's default material) unless it is already written, and returns the material's index
+// in the file.
 int glb_material(struct glb *glb, int material, bool double_sided);
 
 // Returns the JSON object for a map's texture, with its texture coordinates and transform. Returns NULL if there is no

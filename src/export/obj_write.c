@@ -93,7 +93,7 @@ static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *pa
     }
 }
 
-// Writes a name on a separate line.
+// Writes a line: `word`, a space and the name.
 static void put_name(struct text *text, const char *word, const char *name)
 {
     char clean[200];
@@ -111,8 +111,8 @@ static size_t object_length(const char *name)
     return slash && slash[1] ? (size_t)(slash - name) : 0;
 }
 
-// Writes the name of a part. `before` is the name of the previous part, or NULL. A program that reads these statements
-// can restore the name "object/group".
+// Writes the name of a part. `before` is the name of the previous part, or NULL. From the statements `o` and `g`, a
+// reader can restore the name "object/group".
 static void put_part_name(struct text *text, const char *name, const char *before)
 {
     size_t length = object_length(name);

@@ -62,7 +62,8 @@ static const char *unit_of(const struct exporting *e)
     return "millimeter";
 }
 
-// Returns the diffuse colour times the mean of its texture, which is the last level.
+// Fills `color` with the diffuse colour times the mean colour of the diffuse texture, which the texture's last level
+// stores.
 static void mean_color(const lam_material *material, float color[4])
 {
     const lam_texture_map *map = material->maps[LAM_MAP_DIFFUSE];

@@ -144,7 +144,7 @@ static void write_rest(struct text *text, const char *at, const char *end)
     }
 }
 
-// Writes a definition. The comments of a struct's members are aligned again, because the names of types have other
+// Writes a definition. The comments of a struct's members are aligned again, because the names of types have different
 // lengths in GLSL.
 static void write_definition(struct text *text, const struct definition *p)
 {

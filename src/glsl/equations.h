@@ -13,8 +13,8 @@ struct stage_source {
 };
 
 // Appends the definitions that the function `main` needs, directly or indirectly: first from the equations, then from
-// the sources. Branches with a known condition are resolved, and names that are then unread are removed (specialize.h).
-// embed.py has translated the dialect of the equations to GLSL.
+// the sources. If the condition of a branch is known, the branch is resolved; names that become unused are removed
+// (specialize.h). embed.py has translated the dialect of the equations to GLSL.
 void equations_add(struct text *text, const struct stage_source *sources, int count, const struct known *known);
 
 #endif

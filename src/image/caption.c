@@ -177,7 +177,7 @@ static void blend_bytes(uint8_t *pixel, lam_rgba color, float cover)
     pixel[3] = (uint8_t)(clamped(alpha) * 255.0f + 0.5f);
 }
 
-// Does the same as blend_bytes for a pixel of premultiplied floats.
+// Like blend_bytes, but for a pixel of premultiplied floats.
 static void blend_floats(float *pixel, lam_rgba color, float cover)
 {
     float from = color.a * cover;

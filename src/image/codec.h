@@ -12,7 +12,7 @@ struct picture_file {
     const uint8_t *bytes;
     size_t size;
     const char *name;          // the file's name in messages
-    struct call_control *call; // decoding checks the call's limits, and charges the pixels to the call; may be NULL
+    struct call_control *call; // the call whose limits apply to decoding; may be NULL
 };
 
 struct codec {
@@ -74,17 +74,18 @@ struct pool *encoding_pool(const lam_image *image, int threads);
 // with LAM_LIMIT (lam_control.pixel_limit).
 bool picture_size_check(const struct picture_file *file, uint32_t width, uint32_t height, lam_error *error);
 
-// Allocates a picture of a checked size for a codec to fill. The bytes of the picture are charged to the file's call.
-// Fails with LAM_LIMIT.
+// Allocates a picture of a checked size for a codec to fill. The bytes of the picture count towards the memory limit of
+// the file's call. Fails with LAM_LIMIT.
 bool picture_make(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                   lam_image *image, lam_error *error);
 
 // Does the same as picture_make, with `more` bytes after the pixels. `more` must be smaller than the number of bytes of
-// pixels. The additional bytes are not charged to the call.
+// pixels. The additional bytes do not count towards the memory limit.
 bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                          size_t more, lam_image *image, lam_error *error);
 
-// Frees a picture and refunds its bytes. `call` may be NULL; an empty picture is allowed.
+// Frees a picture; the picture's bytes no longer count towards the memory limit of `call`. `call` may be NULL; an empty
+// picture is allowed.
 void picture_free(struct call_control *call, lam_image *image);
 
 // Returns whether decoding may continue with row `y`. Fills the error if it may not continue.
@@ -93,8 +94,8 @@ static inline bool picture_continues(const struct picture_file *file, int64_t y,
     return y % 16 != 0 || call_should_continue(file->call) || call_error(file->call, error);
 }
 
-// Decode a picture of any format. picture_decode_linear also converts it to LAM_RGBA32F, linear and premultiplied. The
-// bytes of the picture stay charged to the file's call until picture_free.
+// Decode a picture of any format. picture_decode_linear also converts the picture to LAM_RGBA32F, linear and
+// premultiplied. The bytes of the picture count towards the memory limit of the file's call until picture_free.
 bool picture_decode(const struct picture_file *file, lam_image *image, lam_error *error);
 // Decodes like read_wide; the result may be LAM_RGB8.
 bool picture_decode_wide(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error);

@@ -58,7 +58,7 @@ static const char *list_names(const char *before, char list[LIST_BYTES])
     return list;
 }
 
-// Returns the formats to suggest in place of an unsupported format, or NULL if that format is unknown.
+// Returns the formats to suggest instead of an unsupported format, or NULL if the unsupported format is unknown.
 static const char *instead_of(const char *word)
 {
     static const struct {

@@ -26,7 +26,7 @@ static double log10_of(double x)
     }
     double s = (m - 1.0) / (m + 1.0), square = s * s, series = 0.0;
     for (int k = 23; k >= 1; k -= 2)
-        series = series * square + 1.0 / k; // Σ s²ⁿ/(2n + 1); |s| < 0.172, the omitted terms are below 1e-19
+        series = series * square + 1.0 / k; // Σ s²ⁿ/(2n + 1); |s| < 0.172, so the omitted terms are below 1e-19
     const double log10_2 = 0.30102999566398120, log10_e = 0.43429448190325183;
     return exponent * log10_2 + 2.0 * s * series * log10_e;
 }

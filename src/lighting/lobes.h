@@ -343,10 +343,10 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
     X(metallic)
 // clang-format on
 
-// The table of the reflection models. The dispatch in C and in GLSL, the keywords of the command line and of scene
-// files, reports, explanations and tests are generated from it. A new model needs an enumerator in lambent/reflection.h,
-// a function above and a row here. If the model has its own parameter, it also needs a member of lam_material and a row
-// of LOBE_PARAMETERS. The columns:
+// The table of the reflection models. This table generates the dispatch in C and in GLSL, the keywords of the command
+// line and of scene files, and entries in reports, explanations and tests. A new model needs an enumerator in
+// lambent/reflection.h, a function above and a row here. A model with its own parameter also needs a member of
+// lam_material and a row of LOBE_PARAMETERS. The columns:
 //     the enumerator without LAM_REFLECTION_
 //     the call: `s` is the surface, `l` the direction to the light, `m` the material's lobe_parameters
 //     properties: LOBE_HIGHLIGHT   S is not 0: the lobe returns the base of a power

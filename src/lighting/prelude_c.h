@@ -2,8 +2,8 @@
 //
 // The equations (lobes.h, lights.h, sum.h, point.h, layers.h) are one source for C and GLSL. They use only + − * / and
 // comparisons on num, the functions below, and the functions of lanes.h and functions.h that prelude.glsl lists.
-// prelude.glsl defines the same vocabulary in GLSL. A new function needs one line here, one line there, and one row in
-// tests/lighting/words.h.
+// prelude.glsl defines the same vocabulary in GLSL. A new function needs one line in this file, one line in
+// prelude.glsl, and one row in tests/lighting/words.h.
 #ifndef PRELUDE_C_H
 #define PRELUDE_C_H
 

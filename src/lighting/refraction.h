@@ -1,6 +1,6 @@
-// refraction.h: the effect of a transmitting surface on the picture behind it. The formulas are from the notes of
-// KHR_materials_transmission, KHR_materials_volume and KHR_materials_ior; three.js and the Khronos sample viewer use
-// the same formulas. C only: OpenGL rejects rough and thick glass.
+// refraction.h: the effect of a transmitting surface on the picture behind it. The formulas are from the implementation
+// notes of KHR_materials_transmission, KHR_materials_volume and KHR_materials_ior; three.js and the Khronos sample
+// viewer use the same formulas. C only: OpenGL rejects rough and thick glass.
 #ifndef REFRACTION_H
 #define REFRACTION_H
 
@@ -16,7 +16,7 @@ FN vec3 refracted3(vec3 v, vec3 n, num ior)
 // Returns the width over which a surface blurs the picture behind it, as a fraction of the picture's height: 1024^(r −
 // 1) with r = roughness · min(2 ior − 2, 1), at most 1/8. In a picture 1024 pixels high, this width is one texel of
 // mipmap level r log2(1024), which three.js reads. The limit is reached at r = 0.7. Without the limit, the roughest
-// glass would have the mean colour of the whole picture, including the background. Returns 0 for r = 0.
+// glass would show the mean colour of the whole picture, including the background. Returns 0 for r = 0.
 FN num transmission_blur(num roughness, num ior)
 {
     num r = roughness * min_of(positive(2.0f * ior - 2.0f), num_of(1.0f));

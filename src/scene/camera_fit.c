@@ -20,7 +20,7 @@ static struct view_axes axes_of(const lam_scene *scene, const lam_view *view, la
     double sin_azimuth = math_sin(azimuth), cos_azimuth = math_cos(azimuth), sin_elevation = math_sin(elevation),
            cos_elevation = math_cos(elevation);
     lam_up up = lam_scene_up(scene);
-    // Seen from above, `right` still follows the azimuth, so that the view does not roll.
+    // If the camera looks straight down, `right` still follows the azimuth, so that the view does not roll.
     return (struct view_axes){
         .right = from_y_up(up, v3(cos_azimuth, 0, -sin_azimuth)),
         .above = from_y_up(up, v3(-sin_azimuth * sin_elevation, cos_elevation, -cos_azimuth * sin_elevation)),
@@ -69,14 +69,14 @@ static lam_camera fit_orthographic(const struct fitting *fitting, const struct v
                         .ortho_half_height = size / fill};
 }
 
-// Centres the horizontal (vertical) axis for an eye at ez. The function finds the k at which the points touch x = ex ±
-// k·(ez − z) on both sides. That k is the root of R(k) + L(k) − 2k·ez. This function is convex, and piecewise linear
-// for vertices; the points with the maxima R and L determine its slope. A step of Newton's method is:
+// Centres the horizontal (vertical) axis for an eye at ez. Finds the k at which the points touch x = ex ± k·(ez − z) on
+// both sides: the root of F(k) = R(k) + L(k) − 2k·ez. F is convex, and piecewise linear for vertices; the points with
+// the maxima R and L determine the slope of F. A step of Newton's method is:
 //
 //  k = (x_R − x_L) / (2ez − z_R − z_L)
 //
 // The first step therefore ends at the root or to its left, and further steps only increase k. When k no longer
-// increases, the root is found. The position of the scene does not affect the numbers.
+// increases, the root is found.
 static void centre_axis(const struct view_points *points, bool horizontal, double ez, struct view_extents *extents)
 {
     double k = horizontal ? extents->kx : extents->ky;
@@ -103,7 +103,7 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
 //  ex = (R − L)/2,   ez = (R + L)/(2k)
 //
 // The result is exact, and computing it needs one pass over the points. The axis with the larger ez determines the
-// distance. The other axis is centred with the smaller k at which this axis would touch the frame at this ez.
+// distance. The other axis is centred for this ez, with the smaller k at which its points touch both sides.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;
@@ -129,7 +129,7 @@ static lam_camera fit(const struct fitting *fitting, const struct view_points *p
 }
 
 // Prepares the fit of a view. Returns false if a field of the view is unknown, or if the scene has no triangles. In
-// these cases, the function sets `camera` to the result.
+// these cases, `camera` is already the result of the fit.
 static bool start(struct fitting *fitting, const lam_scene *scene, int width, int height, const lam_view *view,
                   double fill, lam_camera *camera)
 {
@@ -172,7 +172,7 @@ static void apply_zoom(const struct fitting *fitting, lam_camera *camera)
 // most 1 − cos(π/48) = 0.2 % of its distance from the axis.
 enum { TURNS = 48 };
 
-// Returns whether all points are within this fraction of the camera's picture.
+// Returns whether all points are within the central fraction `fraction` of the camera's picture.
 static bool holds(const struct fitting *fitting, const lam_camera *camera, const struct view_points *points,
                   double fraction)
 {
@@ -211,7 +211,8 @@ static void fit_turning(const struct fitting *fitting, const lam_scene *scene, l
                                      .back = mat4_vector(&turn, fitting->axes.back),
                                      .centre = centre};
     }
-    // A quarter of the margin remains, which is larger than any change between two tested angles.
+    // A quarter of the margin remains unused, because points move outwards between two tested angles, but by less than
+    // this quarter.
     if (!holds(fitting, camera, &points, fitting->fill + 0.75 * (1 - fitting->fill)))
         *camera = fit(fitting, &points, fitting->fill);
 }

@@ -2,7 +2,7 @@
 // Define LANES before including this file.
 //
 // Every lookup mixes four texels of a level and four texels of the next level, with three weights. Lookups of fewer
-// texels use weights of 0, which do not change any bit.
+// texels use weights of 0, so the other texels do not change the result.
 #ifndef TEXTURE_TAPS_H
 #define TEXTURE_TAPS_H
 
@@ -79,8 +79,8 @@ LANE_FN struct tap_lanes tap_of(const lam_texture_map *map, num s, num t, inum w
 
 // --- level of detail
 
-// Returns the side length at given levels: `side` texels at level 0, halved and rounded down, at least 1. The result is
-// exact, because side lengths have at most 15 bits.
+// Returns the side length at given levels: `side` texels at level 0, halved and rounded down at each further level, but
+// at least 1. The result is exact, because side lengths have at most 15 bits.
 LANE_FN inum side_at(int side, inum level)
 {
     return imax_of(floor_of((float)side * num_of_bits(shift_left(127 - level, 23))), inum_of(1));

@@ -4,8 +4,8 @@
 
 #include "options.h"
 
-// The word that the user is typing. The first `before_length` bytes of `before` are complete. `prefix` is the rest of
-// the word.
+// The word that the user is typing: the first `before_length` bytes of `before`, which are complete, and the incomplete
+// text `prefix`.
 struct typed_word {
     const char *before, *prefix;
     int before_length;
@@ -15,7 +15,7 @@ struct typed_word {
 // NULL.
 void complete_offer(const struct typed_word *typed, const char *candidate, const char *ending, const char *summary);
 
-// Lets the shell add the names of files that begin with `prefix`.
+// Tells the shell to complete the names of files.
 void complete_files(void);
 
 // Prints the candidates for the value of an option.

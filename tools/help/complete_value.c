@@ -25,13 +25,13 @@ void complete_offer(const struct typed_word *typed, const char *candidate, const
 
 void complete_files(void) { printf(":files\n"); }
 
-// Returns the word in which the first `complete` bytes of `prefix` are also complete.
+// Returns the word, with the first `complete` bytes of `prefix` moved to the complete text.
 static struct typed_word after(const struct typed_word *typed, size_t complete)
 {
     return (struct typed_word){typed->before, typed->prefix + complete, typed->before_length + (int)complete};
 }
 
-// Returns the word in which the text up to the last comma is complete.
+// Returns the word, with the prefix's text up to the last comma moved to the complete text.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
     const char *comma = strrchr(typed->prefix, ',');
@@ -41,8 +41,7 @@ static struct typed_word after_comma(const struct typed_word *typed)
 static void complete_words(const struct choice *words, const struct typed_word *typed)
 {
     for (const struct choice *w = words; w->name; w++) {
-        // A name in capitals, as in "light:NAME", represents text that the user types, so it is removed from the
-        // candidate.
+        // A name in capitals, as in "light:NAME", represents the user's own text, so the candidate omits the name.
         char fixed[64];
         snprintf(fixed, sizeof fixed, "%s", w->name);
         char *colon = strchr(fixed, ':');

@@ -32,7 +32,7 @@ void print_help(const struct command *command)
     printf("\nMore: lambent help TOPIC (lambent help lists the topics), man lambent\n");
 }
 
-// Prints an option on one line. Prints only the first form of a long value, and omits a default that does not fit.
+// Prints an option on one line. Shortens a long placeholder for the value, and omits a default that does not fit.
 static void brief_option(const struct option *o, const struct command *command)
 {
     char left[64], text[512], letter[8] = "    ";

@@ -8,8 +8,8 @@
 
 enum { WIDTH = HELP_WIDTH, LETTER_COLUMN = 6 };
 
-// Prints a paragraph, wrapped at `width` columns. The first line begins at column `at`, further lines begin at
-// `indent`. Omits back quotes. Returns the text after the paragraph.
+// Prints a paragraph, wrapped at `width` columns. The first line begins at column `at`, and further lines begin at
+// column `indent`. Omits back quotes. Returns the text after the paragraph.
 static const char *print_paragraph(const char *text, int at, int indent, int width)
 {
     while (*text && *text != '\n') {

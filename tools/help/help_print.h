@@ -22,7 +22,7 @@ void help_option(const struct option *option, const struct command *command, boo
 // shared options.
 void help_options(const struct command *command);
 
-void help_commands(void);   // commands that must be named explicitly
+void help_commands(void);   // all commands except the default command
 void help_exit_codes(void); // table of exit codes
 
 // Prints the command's usage, its summary and its examples.

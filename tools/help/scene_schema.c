@@ -48,7 +48,7 @@ static void print_field(const lam_field *field)
     case LAM_FIELD_DIRECTION:
         printf("\"$ref\": \"#/$defs/vector\"");
         break;
-    case LAM_FIELD_POINT: // a fourth number would be w
+    case LAM_FIELD_POINT: // the fourth number is optional: w
         printf("\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": 3, \"maxItems\": 4");
         break;
     case LAM_FIELD_TRIPLE:

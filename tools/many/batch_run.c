@@ -2,8 +2,7 @@
 //
 // A worker is a thread with its own device. If there are enough models, each device draws with one thread. With
 // --isolate, a separate process draws each model. Another thread reads files ahead of the workers, so that reading and
-// drawing overlap. A worker's messages are printed in the order of the models, but its journal lines are written
-// immediately.
+// drawing overlap. Messages are printed in the order of the models, but journal lines are written immediately.
 #include "batch_run.h"
 
 #include <fcntl.h>
@@ -111,8 +110,8 @@ static void warm(const char *path)
         close(file);
 }
 
-// Reads files ahead of the workers. Each wake-up of this thread costs processor time and needs the lock, so N workers
-// wake it only once for N models.
+// Reads files ahead of the workers. Each wake-up of this thread costs processor time and needs the lock, so with N
+// workers, this thread wakes only once per N models.
 static void *read_ahead(void *user)
 {
     struct batch *b = user;
@@ -317,7 +316,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     return ok && (!o->batch.jobs || (b->jobs = batch_jobs_open(b, error)));
 }
 
-// Returns false if a picture was neither drawn nor recorded because memory ran out.
+// Returns false if a picture has no outcome, because memory ran out.
 static bool has_every_outcome(const struct batch *b)
 {
     size_t pictures = b->plan->count * (size_t)b->plan->view_count, i = 0;
@@ -386,9 +385,8 @@ static void free_batch(struct batch *b)
     pthread_mutex_destroy(&b->lock);
 }
 
-// Successive models need about the same memory. The process therefore keeps released memory instead of returning it to
-// the system. The system would have to clear the memory again, under a lock that all workers share. This saves 7 % of
-// the processor time for pictures of 256 pixels.
+// Lets the process keep released memory for the next model. The system would clear returned memory before its next use,
+// under a lock that all workers share. Keeping the memory saves 7 % of the processor time for pictures of 256 pixels.
 static void keep_memory(void)
 {
 #ifdef __GLIBC__
@@ -425,7 +423,8 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
-    // Reports an interrupt that came before a single model was drawn. Later interrupts are reported while drawing.
+    // Reports an interrupt of a run with a single model if it came before the drawing. Later interrupts are reported
+    // during the drawing.
     if (interrupted() && ok && !is_batch && plan->count == 1 && !b.interrupted &&
         b.pictures[0].outcome == PICTURE_OPEN) {
         complain(&error, LAM_CANCELLED, "%.400s: interrupted", plan->models[0].path);

@@ -15,7 +15,7 @@ struct texts {
 // Selects when the exposure is automatic: only for files with lights in candela or lux, always, or never.
 enum exposure_kind { EXPOSURE_BY_FILE, EXPOSURE_AUTO, EXPOSURE_LITERAL };
 
-// Values beside the values of lam_rig. RIG_DARK is --rig none, which leaves only the ambient light.
+// Rigs in addition to the values of lam_rig. RIG_DARK is --rig none, which leaves only the ambient light.
 enum { RIG_DARK = 100, RIG_DEFAULT };
 
 // Selects whether a turntable's lights turn with the camera or with the model.
@@ -41,16 +41,16 @@ enum sheet_name {
 
 // The picture and its output file.
 struct picture_options {
-    const char *output;     // NULL means <model's name>.png, "-" means standard output
+    const char *output;     // NULL means <model's name>.png; "-" means standard output
     int width, height;      // pixels
-    bool has_size;          // true if the size was given
+    bool has_size;          // whether the user gave a size
     const char *background; // as typed; NULL means transparent
     int color_mode;         // lam_color_mode
     int compress;           // lam_compress
     int quality;            // 0 means the format's default
     bool durable;
     int term;               // enum term_kind
-    double exposure;        // stops, if the kind is EXPOSURE_LITERAL
+    double exposure;        // in stops; valid if the kind is EXPOSURE_LITERAL
     int exposure_kind;      // enum exposure_kind
     const char *show;       // as typed (show_option.h); NULL means the picture
     const char *save_scene; // the scene file to write, or NULL
@@ -109,7 +109,7 @@ struct shading_options {
     int cull; // lam_cull
     bool has_cull;
     struct texts rotations; // as typed, checked
-    // The rotations of all pictures on a sheet, which share one camera. Set by `compare`, not by an option.
+    // The rotations of all pictures on a sheet. The pictures share one camera. Set by `compare`, not by an option.
     struct texts sheet_rotations;
     int slices, stacks; // for built-in shapes and formulas; 0 means the shape's default
     bool flip;
@@ -122,7 +122,7 @@ struct shading_options {
 // Surfaces defined by formulas (shape).
 struct shape_options {
     // The formulas and the ranges of the command `shape`, as typed; NULL if not given. `parametric` uses the ranges of
-    // u and v, `implicit` uses the ranges of x, y and z. The model is named after the option.
+    // u and v, `implicit` uses the ranges of x, y and z. The model's name is the option's name.
     const char *parametric, *u_range, *v_range, *implicit, *x_range, *y_range, *z_range;
 };
 
@@ -149,14 +149,14 @@ struct work_options {
 
 // Limits (limit_options.h).
 struct limits_options {
-    double time_limit_s;         // 0 means the default, infinity means no limit
-    uint64_t memory_limit_bytes; // 0 means the default, UINT64_MAX means no limit
+    double time_limit_s;         // 0 means the default; infinity means no limit
+    uint64_t memory_limit_bytes; // 0 means the default; UINT64_MAX means no limit
     uint64_t triangle_limit;     // here and in the next fields, 0 means the library's default
     uint64_t pixel_limit;
     uint64_t file_limit_bytes;
     uint64_t expansion_limit, object_limit, layer_limit; // 0 means a limit that depends on the file size
     int json_depth_limit;
-    bool files_inside; // restricts the files that a scene file names to the folder of the scene file
+    bool files_inside; // a scene file may only use files in its own folder
     int sandbox;       // enum sandbox_mode
     struct texts allow_paths;
     // The number of models in progress at the same time, which share the default memory limit. Set by the loop over the
@@ -195,7 +195,7 @@ struct diff_options {
 // Hashes of pictures (hash).
 struct hash_options {
     const char *check;    // the file to compare with, or NULL
-    const char *pictures; // the folder for the pictures; NULL keeps none
+    const char *pictures; // the folder for the pictures; NULL means that pictures are not kept
     bool update;
 };
 
@@ -245,7 +245,7 @@ struct shader_options {
     int host;      // 1 means that C code is also written
     bool products;
     int style;           // lam_shader_style
-    const char *mistake; // an id, or "list"; NULL if there is none
+    const char *mistake; // the id of a mistake, or "list"; NULL if not given
     bool lecture_device; // for a sheet of mistakes: OpenGL draws with the lecture-style shader that contains `mistake`
     int object;          // valid if the next flag is set
     bool has_object;

@@ -95,8 +95,8 @@ static const struct {
     [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
-// Collects the rows that lack a parser or a summary, because the table of settings completes these rows. Returns the
-// number of these rows, and sets *rows to the number of all rows.
+// Collects the rows that lack a parser or a summary, which the table of settings supplies. Returns the number of these
+// rows, and sets *rows to the number of all rows.
 static int open_rows(struct option *table, struct option *open[LAM_SETTINGS_MAX], int *rows)
 {
     int count = 0;
@@ -127,7 +127,7 @@ void option_settings_fill(struct option table[OPTIONS_MAX])
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
         struct option *o = row_of(setting, open, count);
         if (!o && !kinds[setting->type].store)
-            continue; // a colour; another option sets it, depending on --color-mode
+            continue; // a colour setting; another option parses its value, depending on --color-mode
         if (!o) {
             snprintf(names[i], NAME_SIZE, "%s", setting->key);
             for (char *c = names[i]; *c; c++)

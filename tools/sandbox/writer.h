@@ -19,8 +19,8 @@ enum writer_right {
     WRITER_NEW_OR_OURS, // a new file, or a file that this run wrote or that is marked as Lambent's
     WRITER_ANY,         // replaces any existing file
     WRITER_REMOVES,     // the file may only be removed
-    // The file's name was derived from another name, and not given by the user. The file must be regular or missing,
-    // and the writer follows no link.
+    // Lambent derived the file's name from another name; the user did not type the file's name. The file must be
+    // regular or missing, and the writer follows no link.
     WRITER_IMPLIED = 8,
 };
 
@@ -49,7 +49,8 @@ void writer_finish(void);
 void writer_end(void);
 
 // Writes a file completely or not at all. Creates the folder if it is missing. Without a writer, this process writes
-// the file. Any thread may call it. `durable` is as in lam_save_params. Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
+// the file. Any thread may call this function. `durable` is as in lam_save_params. Fails with LAM_CANNOT_WRITE or
+// LAM_LIMIT.
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
 // A file of a set. Without a writer, `right` is checked; otherwise the writer's own rule decides.
@@ -60,12 +61,12 @@ struct writer_file {
 };
 
 // Writes all of the files or none. When all files are complete, the writer gives the files their names, in the given
-// order. The folders of the files must exist. After a signal, or if the disk is full, the older files are unchanged.
+// order. The folders of the files must exist. After a signal, or if the disk is full, any existing files are unchanged.
 // Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
 
-// Returns whether the path contains no links after its first `named` bytes. These bytes were given by the user. Fails
-// with LAM_CANNOT_WRITE.
+// Returns whether the path contains no links after its first `named` bytes, which are the user's own path. Fails with
+// LAM_CANNOT_WRITE.
 bool writer_check_links(const char *path, size_t named, lam_error *error);
 
 // Removes a file whose right is WRITER_REMOVES. Failure is not reported.

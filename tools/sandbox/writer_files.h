@@ -11,8 +11,8 @@ bool writer_files_check(const char *path, enum writer_right right, lam_error *er
 // Writes a file completely or not at all. Creates the folder if it is missing.
 bool writer_files_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
-// Writes the contents to a hidden file beside the path. Any thread may call it. Fails with LAM_CANNOT_WRITE or
-// LAM_LIMIT.
+// Writes the contents to a hidden file beside the path. Any thread may call this function. Fails with LAM_CANNOT_WRITE
+// or LAM_LIMIT.
 bool writer_files_stage(const char *path, const lam_bytes *bytes, lam_error *error);
 
 // Gives the hidden files their final names, in the order in which they were staged. After a failure, removes the

@@ -6,7 +6,8 @@
 
 #include <lambent/material.h>
 
-// Replaces the default material with a copy in the scene, so that a scene file can store it.
+// Replaces the default material with the scene's material number `material`, because a scene file cannot store the
+// default material.
 static bool replace_default(lam_scene *scene, int material, lam_error *error)
 {
     for (int i = 0; i < lam_scene_object_count(scene); i++) {

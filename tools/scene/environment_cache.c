@@ -25,7 +25,7 @@ struct entry {
     char *text; // NULL if the entry is free
     lam_color_mode color;
     struct identity identity;
-    lam_environment *environment; // NULL while a thread reads it
+    lam_environment *environment; // NULL while a thread reads the environment
     uint64_t used;                // the time of the entry's last use
 };
 
@@ -65,7 +65,7 @@ void environment_cache_free(struct environment_cache *cache)
 }
 
 // Identifies the files of an environment. Returns false if a file cannot be found or the text is not a list of files.
-// Reading the environment reports the cause.
+// Reports no error, because reading the environment then fails with an error message.
 static bool identify(const char *text, struct identity *identity)
 {
     const char *paths[LAM_FACE_COUNT] = {text};

@@ -11,10 +11,10 @@ struct environment_cache;
 struct environment_cache *environment_cache_make(void);
 void environment_cache_free(struct environment_cache *cache); // accepts NULL
 
-// Sets the environment of a scene with the colour mode `color`. `text` is a value of --environment: a built-in name, one
-// file or six files. A cached environment is reused while its files are unchanged. The cache keeps only the most recent
-// environments. If `cache` is NULL, the environment is always read. The memory counts towards the limit of the call
-// that reads the environment. Fails like lam_environment_load, and with LAM_BAD_ARGUMENT.
+// Reads an environment with the colour mode `color`, and sets the scene's environment. `text` is a value of
+// --environment: a built-in name, one file or six files. A cached environment is reused if its files are unchanged. The
+// cache keeps only the most recent environments. If `cache` is NULL, the environment is always read. The memory counts
+// towards the limit of the call that reads the environment. Fails like lam_environment_load, and with LAM_BAD_ARGUMENT.
 bool environment_cache_set(struct environment_cache *cache, const char *text, lam_color_mode color, lam_scene *scene,
                            double rotation_rad, const lam_control *control, lam_error *error);
 

@@ -146,7 +146,7 @@ static int set_materials(const struct material_option *option, lam_scene *scene,
     return found;
 }
 
-// The names in a model that the user may have meant by a target.
+// The names in a model, for an error message about an unknown target.
 struct target_names {
     struct suggestion nearest;
     char first[200]; // the first few: "'body', 'head'"

@@ -80,8 +80,8 @@ static void blend(uint8_t *pixel, uint32_t color, double cover)
     }
 }
 
-// Returns the fraction of a pixel that a line with this half width covers. The edge is a ramp one pixel wide, which is
-// exact for horizontal and vertical edges and approximate for other edges.
+// Returns the fraction of the pixel at (x, y) that a line from a to b covers; `half` is half the line's width. The edge
+// is a ramp one pixel wide, which is exact for horizontal and vertical edges and approximate for other edges.
 static double cover_at(struct point a, struct point b, double half, double x, double y)
 {
     double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;

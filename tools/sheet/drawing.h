@@ -10,12 +10,12 @@
 struct drawing {
     int width, height; // pixels
     lam_image image;   // the page of a PNG
-    lam_font *font;    // the font of a PNG; NULL draws no text
+    lam_font *font;    // the font of a PNG; NULL: no text is drawn
     FILE *svg;         // the file of an SVG; NULL for a PNG
     char *svg_text;    // the SVG's contents without the first and last lines
     size_t svg_size;
     char *title, *description; // for screen readers, in an SVG; may be NULL
-    bool words;                // false draws no text
+    bool words;                // whether text is drawn
     lam_compress compress;     // for a PNG
     int quality;               // the quality of a JPEG or WebP; 0 means the format's default
     bool durable;
@@ -44,15 +44,15 @@ bool draw_line(struct drawing *drawing, const struct point *points, int count, d
 bool draw_dot(struct drawing *drawing, struct point middle, double radius, uint32_t color, lam_error *error);
 void draw_text(struct drawing *drawing, struct point baseline, double size, enum align align, uint32_t color,
                const char *text);
-// Draws centred text rotated by 90 degrees, to be read upwards. The baseline is vertical.
+// Draws centred text, rotated by 90 degrees, that runs upwards. The baseline is vertical.
 bool draw_text_upwards(struct drawing *drawing, struct point baseline, double size, uint32_t color, const char *text,
                        lam_error *error);
 
 // Returns the width of text: exact for PNG, and an estimate for SVG, because the viewer of an SVG selects the font.
 double text_width(const struct drawing *drawing, double size, const char *text);
 
-// Draws a picture (LAM_RGBA8) onto the page, clipped at the page's edges. An SVG embeds it as a PNG with the label as
-// its title. Returns false if memory runs out.
+// Draws a picture (LAM_RGBA8) onto the page, clipped at the page's edges. In an SVG, the picture is an embedded PNG,
+// with the label as its title. Returns false if memory runs out.
 bool draw_image(struct drawing *drawing, const lam_image *image, int left, int top, const char *label,
                 lam_error *error);
 

@@ -147,8 +147,8 @@ static bool add_words(struct sheet *sheet, const char *dashed, const struct opti
     return true;
 }
 
-// Returns true if commas separate the lights. The correct separator is a semicolon. In "point,spot:cutoff=9", the type
-// of a light follows a comma.
+// Returns true if commas separate the lights, instead of semicolons: a comma precedes the type of a light, as in
+// "point,spot:cutoff=9".
 static bool lacks_semicolons(const struct option *option, const char *values)
 {
     if (strcmp(option->name, "light") != 0 || strchr(values, ';'))

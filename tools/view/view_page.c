@@ -111,8 +111,8 @@ static bool put_data(FILE *out, const struct view_page *page, const char *model,
     return ok;
 }
 
-// The policy in the page's file forbids all connections. own_policy replaces it and allows connections to the page's
-// own server.
+// The policy in the page's file forbids all connections. own_policy replaces this policy, and allows connections to the
+// page's own server.
 static const char *const policy = "; base-uri 'none'", *const own_policy = "; connect-src 'self'; base-uri 'none'";
 
 static bool fill(struct view_page *page, const char *text, const char *model, lam_error *error)

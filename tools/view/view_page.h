@@ -10,7 +10,7 @@ struct view_page {
     size_t size;
     char *words; // the options of the command line, each word with a terminating zero
     size_t words_size;
-    char *module; // the module that supports threads, allocated with malloc, or NULL; the page requests it
+    char *module; // the WebAssembly module with threads, which the page requests; allocated with malloc, or NULL
     size_t module_size;
     char *fragment; // the options as the end of an address, "&--background%3Dwhite"; or ""
 };

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-// Open files: the kernel's tables of connections, /proc/net/tcp and tcp6. −1 if a table is missing.
+// The file descriptors of the kernel's tables of connections, /proc/net/tcp and tcp6; −1 if a table is missing.
 struct view_peers {
     int tables[2];
 };

@@ -1,6 +1,6 @@
-// view_routes.c: decides which requests are answered. A page of another site can send requests here, and its host name
-// can resolve to this machine. However, that page does not know the token, its requests contain other Host and Origin
-// headers, and it cannot read the answers (view_answer.c).
+// view_routes.c: decides which requests are answered. A page of another site can send requests here, and the site's
+// host name may even resolve to this machine. However, such a page does not know the token, sends other Host and Origin
+// headers, and cannot read the answers (view_answer.c).
 #include "view_routes.h"
 
 #include <arpa/inet.h>
@@ -64,7 +64,7 @@ static bool is_own_host(const struct view *view, const char *host)
 }
 
 // Returns whether, according to the browser's headers, the request is for this server and comes from one of its pages.
-// Each header may occur only once, because a relay may have checked another occurrence.
+// Refuses repeated headers, because a relay may have checked only one of them.
 static bool is_from_here(const struct view_connection *c)
 {
     const struct header host = header(c, "Host"), origin = header(c, "Origin"), site = header(c, "Sec-Fetch-Site");
@@ -106,7 +106,7 @@ static enum MHD_Result begin(struct view_connection *c, enum view_kind kind, con
                              const char *client)
 {
     struct view *view = c->view;
-    if (view->ends) // a request suspended now would never be answered
+    if (view->ends) // the loop ends without answering new requests
         return view_answer_text(view, c->connection, 503, "the viewer has ended");
     struct view_request request = {.kind = kind, .x = number_of(c, "x"), .y = number_of(c, "y"), .size = (int)size};
     request.threads = client ? view->options->work.threads : 1;
@@ -289,7 +289,7 @@ enum MHD_Result view_routes_answer(void *user, struct MHD_Connection *connection
         c->finished = false;
         return view_answer_result(c);
     }
-    if (c) { // a later call for the same request: the library passes the body, or a task is running
+    if (c) { // a repeated call for the same request: the library passes the body, or a task is still running
         *upload_size = 0;
         return MHD_YES;
     }

@@ -1,4 +1,4 @@
-// view_waiting.c: limits the connections whose next request has not arrived completely.
+// view_waiting.c: limits the number of connections whose next request has not arrived completely.
 #include "view_waiting.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// view_watch.h: reports changed files in the viewer's folder with the kernel's inotify.
+// view_watch.h: uses the kernel's inotify to report changed files in the viewer's folder.
 #ifndef VIEW_WATCH_H
 #define VIEW_WATCH_H
 
@@ -20,8 +20,8 @@ struct view_watch {
 void view_watch_start(struct view_watch *watch);
 void view_watch_end(struct view_watch *watch);
 
-// Watches the folder of a file, given by its path in the page. Ignores paths that cannot be watched. A folder that is
-// removed or replaced is watched again when it reappears.
+// Watches the folder of a file. `path` is the file's path in the page. Ignores paths that cannot be watched. A folder
+// that is removed or replaced is watched again when it reappears.
 void view_watch_add(struct view_watch *watch, const struct view_files *files, const char *path);
 
 // Calls `changed` with the path in the page of each file that was written, replaced or removed since the last call. The

@@ -1,4 +1,4 @@
-// compiler_hints.h: explains compiler messages about mistakes of spelling and grammar that occur in lectures and in
+// compiler_hints.h: explains compiler messages about spelling and syntax mistakes that occur in lectures and in
 // students' shaders.
 #ifndef COMPILER_HINTS_H
 #define COMPILER_HINTS_H

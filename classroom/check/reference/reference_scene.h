@@ -40,7 +40,7 @@ enum reference_need {
 };
 
 // Restrictions that follow from the shader's source: the kind of each light, whether the light is attenuated, a missing
-// specular term, and flat shading. They are stored in the same integer as reference_need.
+// specular term, and flat shading. The bits of reference_rule share an integer with the bits of reference_need.
 enum reference_rule {
     RULE_POINT = 1,
     RULE_DIRECTIONAL = 2,
@@ -57,9 +57,9 @@ enum reference_rule {
 struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
-    // For a directional light, the direction to the light. For a spot, the direction opposite to the axis of the spot.
-    // For a point light, the direction opposite to the axis for shaders that read an axis; zero means the direction
-    // from the camera's target.
+    // For a directional light, the direction to the light. For a spot, the direction opposite to the spot's axis. Some
+    // shaders also read an axis for point lights: the direction opposite to this axis; zero means the direction from
+    // the camera's target.
     lam_vec3 to_light;
     lam_rgb color;        // Ld
     lam_rgb specular;     // Ls

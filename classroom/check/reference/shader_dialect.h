@@ -12,9 +12,9 @@ lam_check_language shader_dialect_language(const struct shader_interface *interf
 // samplers in OpenGL ES.
 bool shader_dialect_lowers_precision(const char *text);
 
-// Returns a copy of the source, allocated with malloc. In the copy, `highp` replaces every `mediump` and `lowp`, and is
-// the precision of samplers. Line numbers do not change. Drivers may compute lower precisions with 16 bits, which is
-// visible in a picture even if the shader is correct. Returns NULL if memory runs out.
+// Returns a copy of the source, allocated with malloc. In the copy, `highp` replaces every `mediump` and `lowp`, and
+// samplers are `highp`. Line numbers do not change. For lower precisions, drivers may compute with 16 bits. The
+// pictures of a correct shader would then differ visibly. Returns NULL if memory runs out.
 char *shader_dialect_highp(const char *text);
 
 // Returns the source without a leading byte order mark. Some editors write this mark, but compilers reject it.

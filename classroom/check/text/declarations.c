@@ -42,7 +42,7 @@ static bool take(struct declaration_parser *r, const char *text)
     return there;
 }
 
-// Skips past the bracket that closes the previous opening bracket.
+// Skips to the word after the bracket that closes an opening bracket that was already read.
 static void skip_to(struct declaration_parser *r, const char *open, const char *close)
 {
     for (int depth = 1; r->at < r->d->word_count && depth > 0; r->at++)
@@ -164,7 +164,8 @@ static void read_struct(struct declaration_parser *r, char name[32])
         r->struct_types[r->struct_type_count++] = shape;
 }
 
-// Parses { members } [instance]; after the name of a uniform, in or out block.
+// Parses the rest of a uniform, in or out block after the block's name: `{ members } instance;`, where the instance is
+// optional.
 static bool read_block(struct declaration_parser *r, enum declared kind)
 {
     struct declaration member = {.kind = kind, .in_block = true};

@@ -1,4 +1,4 @@
-// expectation.c: uses the declarations of shaders to determine the terms that the shaders are expected to compute.
+// expectation.c: determines the terms that shaders must compute, from the declarations of the shaders.
 #include "expectation.h"
 
 #include <stdio.h>

@@ -1,8 +1,8 @@
 // expectation.h: the result expected from a pair of shaders: the terms that the exercise requires, and the values of
 // undeclared colours.
 //
-// A term is not expected if none of its names is declared. An undeclared colour is white. If the declarations do not
-// determine whether a term is expected, several expectations are valid.
+// A term is expected only if one of the term's names is declared. An undeclared colour is white. If the declarations do
+// not determine whether a term is expected, several expectations are valid.
 #ifndef EXPECTATION_H
 #define EXPECTATION_H
 
@@ -30,8 +30,8 @@ enum { MAX_EXPECTATIONS = 16 };
 // suggest. Returns the number of expectations, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
-// Returns whether a fault of the table is not a mistake, because the declarations leave the choice open. This is so if
-// some of the possible expectations include the change, and others do not.
+// Returns true if a fault of the table is an allowed choice instead of a mistake, because only some of the possible
+// expectations include the fault's change.
 bool expectation_permits(const struct shader_interface *interface, unsigned terms, const char *fault);
 
 // Changes a scene from shader_interface_scene to the expected scene.

@@ -27,7 +27,7 @@ static bool is_name(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-// Returns the state whose name is at `at`, or −1 if there is none.
+// Returns the state whose name begins at `at`, or −1 if there is none.
 static int state_at(const char *text, const char *at)
 {
     for (int i = 0; i < STATES; i++) {
@@ -49,7 +49,7 @@ static bool has_word(const char *text, const char *word)
 }
 
 // Declares a state with the members that at least one of the two sources uses. The declaration is the same in both
-// sources. Members that neither source uses remain undeclared, so that their terms are not expected.
+// sources. Other members remain undeclared, so the check does not expect the terms of these members.
 static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
 {
     size_t at = strlen(out);

@@ -356,7 +356,7 @@ static bool find_role(struct inference *f, const struct declaration *item)
     }
     if (json_object_get(f->uniforms, item->name))
         return true;
-    if (!used || strcmp(item->type, "uint") == 0) { // a driver may still recognise the attribute
+    if (!used || strcmp(item->type, "uint") == 0) { // unused, but a driver may still report the attribute
         give(f->uniforms, item->name, "zero", strcmp(item->type, "uint") == 0 ? "int" : item->type, NULL);
         return true;
     }
@@ -434,8 +434,8 @@ static bool find_vector_of_light(const struct declarations *d, int number, const
     return false;
 }
 
-// Adds a light whose position or direction is a constant. `guess` selects the constant, and *left receives the
-// remainder, which selects the spaces.
+// Adds a light whose position or direction is a constant. `guess` selects the constant, and *left receives the rest of
+// the guess, which selects the spaces.
 static bool find_light_in_text(struct inference *f, int guess, int *left)
 {
     double v[3];

@@ -94,7 +94,7 @@ struct parallel_read {
 };
 
 // Reads the bytes [at, end). Returns 0 on success, an errno, or −1 if the file ends early. On failure, *reached is the
-// offset that was reached.
+// offset of the first byte that was not read.
 static int read_range(int file, uint8_t *to, size_t at, size_t end, size_t *reached)
 {
     while (at < end) {
@@ -209,7 +209,7 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
         file_release(out);
         return false;
     }
-    // The unused bytes after the end stay zero, and are no longer charged to the call.
+    // The unused bytes after the end stay zero, and no longer count towards the memory limit of the call.
     if (call)
         call_refund(call, out->size - used);
     call_add_input(call, fresh ? used : 0);

@@ -7,16 +7,16 @@
 #include "pool.h"
 
 // Files are read into memory in parallel chunks. Files are not mapped into memory, because SIGBUS would kill the
-// process if another program shortened a mapped file. Mapping would not be faster: its page faults take at least as
-// long as copying from the page cache into huge pages. At least FILE_PADDING zero bytes follow the last byte, so a
-// parser may read past the end.
+// process if another program shortened a mapped file. Mapping would not be faster: page faults take at least as long as
+// copying from the page cache into huge pages. At least FILE_PADDING zero bytes follow the last byte, so a parser may
+// read past the end.
 enum { FILE_PADDING = 64 };
 
 struct file_bytes {
     const uint8_t *data;
     size_t size;
     size_t held;               // size of the address range at `data`; 0 if `data` is not owned
-    struct call_control *call; // the bytes are charged to this call until they are released; may be NULL
+    struct call_control *call; // the bytes count towards this call's memory limit until they are released; may be NULL
 };
 
 // Reads a regular file, or standard input if the path is "-". Folders, pipes, devices and sockets are never opened,
@@ -29,8 +29,8 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 // Reads a regular file that another file refers to. Messages use `shown` as the path (NULL means the path itself), and
 // "-" is an ordinary name. `folder` is the length of the folder at the start of the path, as path_within returns it.
 // The rest of the path is opened below that folder without following links, even links created since path_within was
-// called. If `folder` is 0, the path is opened directly. `fresh` means that the call has not read this file before, so
-// its bytes count as input (call_add_input).
+// called. If `folder` is 0, the path is opened without this restriction. `fresh` means that the call has not read this
+// file before, so its bytes count as input (call_add_input).
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error);
 
@@ -38,10 +38,10 @@ bool file_read_named(const char *path, size_t folder, const char *shown, bool fr
 // a regular file.
 bool file_check_regular(const char *path, lam_error *error);
 
-// Resolves every link and ".." of a path. If the resolved path is the folder or is inside the folder, returns this
+// Resolves every link and ".." in a path. If the resolved path is the folder or is inside the folder, returns this
 // path, allocated with malloc. A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is
 // then true) or cannot be resolved (errno is then set). Sets *length to the length of the folder at the start of the
-// result, including its '/', or to 0 if the path is the folder itself.
+// result, including the final '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
 // A large open file, of which any thread may read sections.
@@ -84,7 +84,8 @@ enum file_way { FILE_UNNAMED = 0, FILE_NAMED = 1, FILE_DURABLE = 2 }; // FILE_DU
 bool file_write_by(unsigned way, const char *path, const void *data, size_t size, struct call_control *call,
                    lam_error *error);
 
-// These functions return the last component of a path, and its extension after the last '.' ("" if there is none).
+// These functions return the last component of a path, and the path's extension after the last '.' ("" if there is
+// none).
 const char *path_name(const char *path);
 const char *path_ending(const char *path);
 

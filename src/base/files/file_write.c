@@ -4,7 +4,8 @@
 // If the file system supports it, the bytes are written to an unnamed file (O_TMPFILE), which the kernel removes when
 // the process ends for any reason. The finished file is linked to its name. If that name exists, the file is linked to
 // a temporary name and renamed over the old file. All signals are blocked between the link and the rename. SIGKILL
-// cannot be blocked, but it leaves a temporary file only if it arrives within those microseconds.
+// cannot be blocked, but leaves a temporary file only if the signal arrives in the few microseconds between the link
+// and the rename.
 //
 // Other file systems (NFS, vfat, some FUSE file systems) need a temporary name from the start. Signals are blocked
 // while the temporary file exists, but are checked after each chunk. The file is removed before a fatal signal takes
@@ -117,8 +118,8 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
 {
     if (!write_all(file, w, before))
         return false;
-    // Keeps the read and write permissions of the existing file, but not its execute permission: the new file is never
-    // a program. EPERM means that the file system does not support permissions.
+    // Keeps the read and write permissions of the existing file, but removes the execute permission: the new file is
+    // never a program. EPERM means that the file system does not support permissions.
     if (w->existing && fchmod(file, w->existing->st_mode & 0666) != 0 && errno != EPERM)
         return false;
     if (w->durable && !sync_file(file))
@@ -247,7 +248,7 @@ static bool write_named(const struct writing *w)
     bool ok = file >= 0 && fill(file, w, &before);
     int reason = errno;
     if (file >= 0)
-        close(file); // fill has already reported the error
+        close(file); // fill() has already reported the error
     if (ok && rename(name, w->target) != 0) {
         reason = errno;
         ok = false;

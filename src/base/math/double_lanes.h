@@ -5,7 +5,7 @@
 //
 // As in lanes.h, only + − × ÷ and comparisons are used. Each operation is correctly rounded, so the results are
 // bit-identical for every width. One vector twice as wide as a register could replace the two vectors, but compilers
-// would then use scalar instructions for its comparisons.
+// would then use scalar instructions for comparisons.
 #ifndef DOUBLE_LANES_H
 #define DOUBLE_LANES_H
 

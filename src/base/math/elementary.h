@@ -1,8 +1,8 @@
 // elementary.h: exponentials, logarithms, powers and related functions in double, bit-identical on every machine.
 //
 // These functions evaluate formulas that users write (src/shapes/formula.h). As in linear.h, the order of operations is
-// fixed and libm is not used. tests/unit/test_formula.c measures the errors against libm; they are relative to the
-// result unless stated otherwise. Outside a function's domain, the result is NaN.
+// fixed and libm is not used. tests/unit/test_formula.c measures the errors by comparison with libm. All errors are
+// relative to the result unless stated otherwise. Outside a function's domain, the result is NaN.
 #ifndef ELEMENTARY_H
 #define ELEMENTARY_H
 

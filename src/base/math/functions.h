@@ -1,8 +1,8 @@
 // functions.h: powers, logarithms and inverse square roots, many at a time, bit-identical on every machine.
 //
 // The functions use only + − × and integer operations on the bits (lanes.h), without libm, tables or divisions. Each
-// function's comment states its range and its error; tests/lighting/test_functions.c measures both. Unless its comment
-// states otherwise, a function never returns NaN.
+// function's comment states its range and its error; tests/lighting/test_functions.c measures both. A function never
+// returns NaN, unless the function's comment states otherwise.
 #ifndef FUNCTIONS_H
 #define FUNCTIONS_H
 
@@ -96,8 +96,8 @@ LANE_FN struct two_parts scaled_log2(struct binary_parts b, num exponent)
 LANE_FN num min_base(num exponent) { return pick(exponent > 0.0f, num_of(SMALLEST_NORMAL), num_of(-__builtin_inff())); }
 
 // Computes base^exponent for a base in 0…1 (a larger base is treated as 1) and any finite exponent ≥ 0. 0⁰ is 1. For
-// other exponents, the result is 0 if the base is 0, negative, below the smallest normal number, or NaN. A result below
-// the smallest normal number becomes 0, because calculations with denormals take two to three times as long. The
+// exponents above 0, the result is 0 if the base is 0, negative, below the smallest normal number, or NaN. A result
+// below the smallest normal number becomes 0, because calculations with denormals take two to three times as long. The
 // relative error is at most 2e-6 for exponents up to 128, and 3e-6 for all others.
 //
 // Three functions compute the three steps, so that a loop over many powers overlaps the latencies of the steps. The
@@ -138,8 +138,8 @@ LANE_FN num power(num base, num exponent)
 
 // Computes 1/√x for normal x > 0 with a relative error of at most 9e-8. The result at 0 is about 3.6e19, so that 0 ·
 // rsqrt(0) = 0. The first estimate is computed from the bits of x, by halving and negating the exponent. The constants
-// of the first step are chosen to make its result slightly too small, because x·y² then has a smaller rounding error.
-// The last step is of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
+// of the first step make the step's result slightly too small, because x·y² then has a smaller rounding error. The last
+// step is of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
 //
 // Two functions compute the approximation and its refinement, so that loops can overlap the latencies of the two steps.
 LANE_FN num rsqrt_near(num x)

@@ -42,7 +42,7 @@ static void mark_first_corners(void *user, size_t index, int thread)
         rank_bitset_add(&n->first_corners, n->made.first_corners[e]);
 }
 
-// Computes the number of each normal, which replaces the normal's first corner in the array.
+// Computes the final number of each normal. In the array, this number replaces the normal's first corner.
 static void number_normals(void *user, size_t index, int thread)
 {
     (void)thread;
@@ -62,7 +62,7 @@ static void number_corners(void *user, size_t index, int thread)
         n->indices[c] = n->made.first_corners[n->indices[c]];
 }
 
-// Makes a set of all numbers below `size`, or an empty set.
+// Makes a set with space for `size` numbers: with all numbers if `full` is set, otherwise empty.
 static bool make_set(struct rank_bitset *set, size_t size, bool full, struct arena *arena)
 {
     size_t words = rank_bitset_words(size);

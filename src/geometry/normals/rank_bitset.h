@@ -1,4 +1,4 @@
-// rank_bitset.h: a bit set that also counts the members below a number.
+// rank_bitset.h: a set of numbers, stored as bits, that also counts the members below a given number.
 #ifndef RANK_BITSET_H
 #define RANK_BITSET_H
 
@@ -16,7 +16,7 @@ struct rank_bitset {
 
 static inline size_t rank_bitset_words(size_t size) { return (size + 63) / 64; }
 
-// Adds members: for each bit set in `bits`, the number with this bit in the word `word`. Any thread may call this
+// Adds the numbers whose bits are set in `bits`; bit i represents the number 64 `word` + i. Any thread may call this
 // function.
 static inline void rank_bitset_add_bits(struct rank_bitset *set, size_t word, uint64_t bits)
 {
@@ -45,7 +45,7 @@ static inline uint32_t count_bits(uint64_t x)
     return (uint32_t)(x * UINT64_C(0x0101010101010101) >> 56);
 }
 
-// Returns the number of members below a number. If this number is a member, the result is its index.
+// Returns how many members are below `number`. If `number` is a member, the result is the member's index.
 static inline uint32_t rank_bitset_rank(const struct rank_bitset *set, size_t number)
 {
     return set->ranks[number / 64] + count_bits(set->bits[number / 64] & (((uint64_t)1 << number % 64) - 1));

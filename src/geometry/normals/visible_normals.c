@@ -166,7 +166,7 @@ static void make_bin(void *user, size_t index, int thread)
         no_memory(&l->search->loop);
 }
 
-// Computes the normals at the collected positions that remain in a worker.
+// Computes the normals at the positions in a worker's incomplete blocks.
 static void make_rest(void *user, size_t index, int thread)
 {
     (void)thread;

@@ -35,7 +35,7 @@ static int gltf_probe(const uint8_t *bytes, size_t size)
     return memmem(bytes + at, size - at, key, sizeof key - 1) ? 2 : 0;
 }
 
-// Warns of primitives that are not drawn. Fails if the file contains no other primitives.
+// Warns about primitives that are not drawn. Fails if the file contains no other primitives.
 static bool report_skipped(struct gltf *gltf)
 {
     struct lam_scene *scene = gltf->scene;

@@ -65,7 +65,7 @@ struct gltf {
     struct arena *scratch; // freed after the load
     struct json_reader json;
     json_t *root;
-    size_t json_bytes;     // size of the memory that `root` uses, charged to the call
+    size_t json_bytes;     // the memory of `root`, which counts towards the memory limit of the call
     const uint8_t *binary; // the .glb's BIN chunk, or NULL
     size_t binary_size;
     bool source_kept; // the scene's arrays point into the model file's own bytes
@@ -75,8 +75,8 @@ struct gltf {
     struct gltf_accessor *accessors;
     void *meshopt;        // the library, opened when a bufferView needs it; NULL until then
     void *draco;          // the module, opened when a primitive needs it; NULL until then
-    int first_material;   // index in the scene of the file's first material
-    int default_material; // index in the scene of the material for primitives without a material; −1 if not created yet
+    int first_material;   // the scene's index of the file's first material
+    int default_material; // the scene's index of the material for primitives without a material; −1 if not created yet
     int variant;          // the requested variant, or −1
     // The number of clamped factors (gltf_take_factors), and the name and values of the first clamped factor.
     size_t cut_factors;
@@ -86,8 +86,8 @@ struct gltf {
     lam_file_image *file_images;   // one element for each image (gltf_file_info.h)
     struct gltf_picture *pictures; // gltf_textures.h: two for each image of the file
     struct gltf_map *maps;         // the maps of materials, latest first
-    // For each material, the numbers of the one or two texture coordinate sets in the file that the material uses. −1
-    // means that there is no such set.
+    // For each material, the file's numbers of the texture coordinate sets that the material uses, at most two; −1
+    // marks an unused element.
     int (*texcoord_sets)[2];
 
     struct gltf_node *nodes; // gltf_nodes.h

@@ -5,7 +5,7 @@
 #include "gltf.h"
 
 // Checks "asset" (section 3.2), and the extensions that the file requires (section 3.12). Fails with LAM_UNSUPPORTED if
-// the file needs a later version, or an unknown extension (unless the load is lenient).
+// the file requires a later version, or (unless the load is lenient) an unknown extension.
 bool gltf_check_asset(struct gltf *gltf);
 bool gltf_check_extensions(struct gltf *gltf);
 

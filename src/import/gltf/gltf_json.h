@@ -21,15 +21,15 @@ bool gltf_take_whole(struct gltf *gltf, const struct place *place, const json_t 
 // Gets an index into a top-level list of the file. *index is −1 if the key is missing.
 bool gltf_take_index(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                      const char *list, int *index);
-// Like gltf_take_index, but for a value that is not the value of a key.
+// Like gltf_take_index, but for a given value instead of the value of a key.
 bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *value, const char *list, int *index);
 
 // Gets `count` numbers. *out is unchanged if the key is missing.
 bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double *out);
 
-// Gets a factor of `count` numbers whose range the standard limits. Numbers outside [min, max] are clamped. If the
-// difference is more than a rounding error, one warning is added for the whole file.
+// Gets a factor of `count` numbers whose range the standard limits. Numbers outside [min, max] are clamped. If clamping
+// changes a number by more than a rounding error, a single warning is added for the whole file.
 bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double min, double max, double *out);
 

@@ -115,7 +115,7 @@ bool field_fits(const lam_field *field, const void *object, struct field_fault *
     const char *const *parts = types[field->type].parts;
     if (field->type == LAM_FIELD_ANGLE) {
         min = math_radians(min);
-        max = math_radians(max) + 1e-6; // π and π/2, rounded to float, may be 1e-7 larger
+        max = math_radians(max) + 1e-6; // π and π/2, rounded to float, may exceed the exact values by 1e-7
     }
     for (int i = 0; i < count; i++) {
         double highest = field->type == LAM_FIELD_RGBA && i == 3 ? 1 : max;

@@ -56,11 +56,11 @@ struct field_fault {
 bool field_fits(const lam_field *field, const void *object, struct field_fault *fault);
 
 bool field_equal(const lam_field *field, const void *a, const void *b);
-// Returns whether the bytes of the field are 0, which is the default of a flag.
+// Returns whether all bytes of the field are 0, as for a flag with its default value.
 bool field_is_zero(const lam_field *field, const void *object);
 // Returns whether the field has its default value. Numbers are compared as floats.
 bool field_is_standard(const lam_field *field, const void *object);
-// These functions set a field to its default, or to any numbers, with angles in degrees.
+// Set a field to its default, or to the given numbers (angles in degrees).
 void field_set_standard(const lam_field *field, void *object);
 void field_set_written(const lam_field *field, void *object, const double numbers[4]);
 

@@ -45,7 +45,7 @@ lam_material lam_material_as_classic(const lam_material *material)
     return m;
 }
 
-// Returns the metallic share for which a base colour gives kd and f0: the solution of
+// Returns the metalness for which some base colour gives kd and f0: the solution of
 //    kd = base (1 − metallic),   f0 = 0.04 (1 − metallic) + base metallic
 // for the brightest channel of f0.
 static double metallic_of(double kd, double f0)

@@ -17,7 +17,7 @@ struct batch_job {
     lam_bytes bytes;        // the model's bytes; data is NULL for a file
     bool in_answer;         // the answer contains the pictures' files
     char *output;           // the job's output name, to which `options` points
-    char *options_text;     // the options as text, from which the pictures' keys are computed; or NULL
+    char *options_text;     // the options as text, for the pictures' keys; or NULL
     lam_cancel cancel;      // set to cancel the job
     bool cancelled;         // whether the job was cancelled
 };
@@ -25,7 +25,7 @@ struct batch_job {
 // Settings common to all jobs.
 struct batch_job_rules {
     const struct options *options; // the options of the worker
-    int threads, in_flight;        // threads per job, and jobs that are drawn at the same time
+    int threads, in_flight;        // threads per job, and the number of jobs that are drawn at the same time
     const struct job_roots *roots; // allowed folders for files
     bool has_keys;                 // whether there is a journal
 };
@@ -33,8 +33,9 @@ struct batch_job_rules {
 // The kind of a line. LINE_REFUSED means that the line is invalid; `error` contains the reason.
 enum batch_line { LINE_JOB, LINE_CANCEL, LINE_REFUSED };
 
-// Parses a line of JSON. Sets *id to the id in the line, which names a new job or the job to cancel, even if the line
-// is refused. Sets *id to NULL if the line contains no valid id. The caller calls json_decref, and frees the job.
+// Parses a line of JSON. Sets *id to the id in the line, even if the line is refused, and to NULL if the line contains
+// no valid id. The id belongs to a new job or to the job to cancel. The caller calls json_decref for the id, and frees
+// the job.
 enum batch_line batch_job_read(const char *line, size_t size, const struct batch_job_rules *rules,
                                struct batch_job **job, json_t **id, lam_error *error);
 

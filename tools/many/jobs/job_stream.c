@@ -8,7 +8,7 @@
 
 enum { CHUNK = 64 << 10, KEPT = 1 << 20 };
 
-// Makes space for more bytes: consumed bytes are removed first, and a large buffer is freed once it is empty.
+// Makes space for more bytes: removes consumed bytes, frees a large buffer that is empty, and enlarges a full buffer.
 static bool make_room(struct job_stream *s)
 {
     if (s->start) {

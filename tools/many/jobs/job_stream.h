@@ -10,7 +10,7 @@ struct job_stream {
     int file;
     char *data; // unconsumed bytes, from `start` on
     size_t start, end, capacity;
-    size_t searched; // the number of bytes after `start` that contain no line end
+    size_t searched; // the first bytes after `start`, in which no line end was found
     size_t limit;    // bytes per line
     uint64_t line;   // number of the last line taken, from 1
     bool skips;      // the rest of a line that is too long is being skipped

@@ -176,7 +176,7 @@ char *batch_options_given(const struct options *o)
     return NULL;
 }
 
-// Formats a line as a typed option.
+// Formats a line `name=value` as `--name value`.
 static int typed(const char *line, char *text, size_t size)
 {
     int length = (int)strcspn(line, "\n"), name = (int)strcspn(line, "=\n");

@@ -6,7 +6,7 @@
 #include "options.h"
 
 // Returns the options that determine a picture, allocated with malloc: one `name=value` per line, including defaults,
-// but without side and size. If an option names files, the text contains their hashes. Returns NULL on failure;
+// but without side and size. If an option names files, the text contains the files' hashes. Returns NULL on failure;
 // LAM_CANNOT_READ means that a file named by an option cannot be read.
 char *batch_options_text(const struct options *options, lam_error *error);
 

@@ -24,7 +24,7 @@
 
 enum { SLOT = 8192 };
 
-// The latest line of a picture.
+// The journal's latest line for a picture.
 struct entry {
     uint64_t output;  // the hash of the picture's path
     const char *line; // NULL if the entry is free

@@ -130,17 +130,17 @@ struct fault {
     const char *id;
     uint8_t bits[MAX_FAULT_BITS]; // values of fault_bit, ends with BIT_NONE
     unsigned where;               // bits of fault_where
-    unsigned needs;               // a reference_need: the fault can occur only if one of the used scenes has it
-    const char *explanation;      // a clause for the report, expanded like the correction
-    const char *correction;       // one line; {place} is replaced by the shader's own name (fault_text)
-    unsigned maps;                // bits of fault_maps
-    float factor;                 // the factor of the exponent, or 0
+    unsigned needs;          // a reference_need: the fault can occur only if one of the used scenes also has this need
+    const char *explanation; // a clause for the report, expanded like the correction
+    const char *correction;  // one line; {place} is replaced by the shader's own name (fault_text)
+    unsigned maps;           // bits of fault_maps
+    float factor;            // the factor of the exponent, or 0
     enum fault_fit fit;
     bool rare;       // a rare fault: the report omits this fault if a more common fault produces the same pictures
     bool style;      // not a mistake: a form that is as correct as the reference
     bool whole_term; // one or more terms are missing completely
-    unsigned demand; // bits of contract_demand: the fault is a mistake only if the contract requires one of these
-                     // forms; otherwise it is a style
+    // bits of contract_demand: the fault is a mistake if the contract requires one of these forms, and a style if not
+    unsigned demand;
 };
 
 extern const struct fault faults[];

@@ -61,8 +61,8 @@ bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_er
     return true;
 }
 
-// The parent of a candidate is the set without the last fault. Returns whether, in the first `count` scenes that this
-// fault changes, the candidate explains no more than its parent. The search then drops the candidate.
+// The parent of a candidate is the set without the last fault. Returns whether, in the first `count` scenes that the
+// last fault changes, the candidate explains hardly more than its parent. The search then drops the candidate.
 static bool is_idle(const struct state *t, const struct candidate *c, const struct candidate *parent, const int *order,
                     int count)
 {

@@ -6,7 +6,7 @@
 
 // A scene, or the set of all scenes, is explained if at most this fraction of the difference without faults remains.
 static const double max_ratio_explained = 0.125;
-// This limit of a mean difference excludes nothing.
+// No mean difference exceeds this limit.
 static const double no_limit = 1e9;
 
 // A set of faults, and the remaining difference.
@@ -62,7 +62,7 @@ bool candidate_try(struct state *t, struct candidate *c, double max_mean, lam_er
 bool candidate_try_child(struct state *t, const struct candidate *parent, const struct outcome *o, struct candidate *c,
                          double max_score, bool *useful, lam_error *error);
 
-// Recomputes the set from its members.
+// Recomputes the candidate's set from the candidate's members.
 void candidate_rebuild(struct candidate *c);
 
 // Makes the member that adds the fault `row` to the set `base`. Sets `possible` to false if this fault cannot be added.

@@ -52,8 +52,8 @@ static void order_scenes(struct fault_measure *t)
 bool fault_measure_open(struct fault_measure *t, struct fault_search *s, lam_error *error)
 {
     // In large pictures, every second or third pixel of every second or third row is enough (35² to 48² pixels). If a
-    // GPU may round corners to 1/16 of a pixel, all pixels are measured, because this error is larger in a smaller
-    // picture.
+    // GPU may round corners to 1/16 of a pixel, all pixels are measured, because this error would be larger in a
+    // picture with fewer pixels.
     int stride = s->size >= 96 ? (s->size + 20) / 43 : s->size >= 70 ? 2 : 1;
     *t = (struct fault_measure){.s = s, .stride = s->painter->es_only ? 1 : stride};
     t->size = fault_shader_size(s->size, t->stride);

@@ -29,8 +29,8 @@ bool fault_measure_scene(struct fault_measure *measure, int scene, const fault_s
 // Returns the set, extended by one fitted fault.
 fault_set fault_measure_with(const fault_set *set, const struct found_fault *fault);
 
-// Fits the number of a fault that is added to `base`: the factor of the exponent, or the constant exponent. Uses the
-// scene whose highlight depends most on this number. *exponent is 0 if no value fits.
+// Finds the best number for a fault that is added to `base`: the factor of the exponent, or the constant exponent. Uses
+// the scene whose highlight depends most on this number. *exponent is 0 if no value fits.
 bool fault_measure_fit(struct fault_measure *measure, const fault_set *base, const struct fault *row, float *exponent,
                        lam_error *error);
 

@@ -77,8 +77,8 @@ static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_er
     return true;
 }
 
-// Tries each fault of the table alone, until the fault fails to explain a scene. `best` receives the best fault that
-// explains everything.
+// Tries each fault of the table alone, up to the first scene that the fault does not explain. `best` receives the best
+// fault that explains everything.
 static bool try_each(struct state *t, struct candidate *best, lam_error *error)
 {
     struct fault_search *s = t->s;
@@ -88,7 +88,8 @@ static bool try_each(struct state *t, struct candidate *best, lam_error *error)
     for (int m = 0; m < fault_count && !search_is_spent(t); m++) {
         struct outcome *o = &t->outcomes[m];
         bool exact = best->fits && best->mean <= same_mean; // fitting a number cannot improve an exact explanation
-        // An input without a value also removes a term, and the report already mentions it.
+        // A fault that removes a whole term is not tried if inputs without values may remove the term; the report
+        // already mentions these inputs.
         o->applies = fault_applies(&faults[m], s->interface, s->frame, s->reflection, s->needs) &&
                      !(faults[m].whole_term && s->has_unset_names) && !(faults[m].fit && exact);
         if (o->applies && !candidate_prepare(t, &none, &faults[m], &o->fault, &o->applies, error))
@@ -175,7 +176,7 @@ static bool find_also(struct state *t, const struct candidate *best, int i, stru
     return true;
 }
 
-// Stores a candidate as the result, and puts the fault that explains most first.
+// Stores a candidate as the result, beginning with the fault that explains most.
 static bool store(struct state *t, struct candidate *c, lam_error *error)
 {
     struct fault_search *s = t->s;

@@ -47,9 +47,9 @@ struct fault_search {
 };
 
 // Searches for the smallest set of faults that explains every picture or, if there is none, for faults that explain
-// some pictures. A fault is only reported if pictures support it. Either the fault alone explains at least one scene
-// and spoils no scene that passes, or a set that explains everything exactly needs the fault. The caller allocates
-// `scene_faults`. For a shader that differs only by a style, `certain` is set and the count is 0.
+// some pictures. A fault is reported only if pictures confirm the fault. Either the fault alone explains at least one
+// scene and spoils no scene that passes, or a set that explains everything exactly needs the fault. The caller
+// allocates `scene_faults`. For a shader that differs only by a style, `certain` is set and the count is 0.
 bool fault_search_run(struct fault_search *search, lam_error *error);
 
 // Draws a scene in the styles of search->styles. `pixels` has size² × 4 floats.

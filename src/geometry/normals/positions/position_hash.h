@@ -25,7 +25,7 @@ struct position_hash {
 void position_hash_plan(struct position_hash *table, size_t vertices);
 
 // Returns the size of the table in bytes, for this many vertices in all sections together. `strict` doubles the bits of
-// the filter, so that fewer positions outside the table pass it.
+// the filter, so that fewer positions outside the table pass the filter.
 size_t position_hash_size(struct position_hash *table, size_t vertices, bool strict);
 void position_hash_place(struct position_hash *table, void *memory);
 
@@ -53,8 +53,8 @@ static inline void copy_bits(uint32_t to[3], const uint32_t from[3])
     to[2] = from[2];
 }
 
-// Returns the vertex that represents a position, or NONE if the position is not in the table. Adds the number of probes
-// after the first cache line to *probes.
+// Returns the vertex that represents a position, or NONE if the position is not in the table. Increases *probes by the
+// number of cache lines searched after the first cache line.
 uint32_t position_hash_find(const struct position_hash *table, const uint32_t bits[3], uint32_t hash, size_t *probes);
 
 // Fills one section of the table with the entries of its bin in each thread's list, then empties these bins. With

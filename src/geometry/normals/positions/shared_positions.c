@@ -252,8 +252,8 @@ static bool fill_table(struct position_search *s)
 
 // --- the other vertices of indexed meshes
 
-// Looks up the vertices in the words [word, end) of the set that are not wanted but pass the filter; they are few.
-// Returns the number of probes.
+// Looks up the few vertices in the set's words [word, end) that are not wanted but pass the filter. Returns the number
+// of probes.
 static size_t place_some(const struct position_search *s, size_t word, size_t end)
 {
     uint32_t looked_up[WORD * TOGETHER], hash[WORD * TOGETHER], lookups = 0;

@@ -38,7 +38,7 @@ struct position_search {
     struct rank_bitset done;   // vertices whose normals are already computed; it has no bits if there are none
 
     // Output. The number of a position is the rank of its representative vertex among `wanted`. In meshes without
-    // indices, it is the rank of the representative corner among the corners of the set's triangles.
+    // indices, this number is the rank of the representative corner among the corners of the set's triangles.
     struct rank_bitset wanted; // vertices of the set's triangles, for indexed meshes
     // For each vertex, the number of its position, or NONE. NULL if corners are looked up in the table instead.
     uint32_t *position_of;
@@ -89,7 +89,8 @@ static inline uint32_t triangles_before(const struct position_search *s, size_t 
            s->triangles_of_others;
 }
 
-// Checks the number of probes that `searches` searches needed. Returns false if the probe limit is reached.
+// Checks a number of probes; `searches` is the number of searches that needed these probes. Returns false if the probe
+// limit is reached.
 bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
 #endif

@@ -8,9 +8,9 @@
 // are returned directly; otherwise the numbers are converted and kept for the next call. Normalised integers become
 // −1…1 or 0…1 (section 3.6.2.2). Returns NULL on error.
 enum {
-    GLTF_KEEP = 1,     // the array lives as long as the scene, not only until the load ends
-    GLTF_REQUIRED = 2, // with this flag, a number that is not finite is an error at `place`; without it, the number
-                       // becomes 0 with a warning
+    GLTF_KEEP = 1, // the array lives as long as the scene, not only until the load ends
+    // a number that is not finite is an error at `place`; without this flag, the number becomes 0 with a warning
+    GLTF_REQUIRED = 2,
 };
 const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor, int flags);
 

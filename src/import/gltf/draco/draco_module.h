@@ -15,8 +15,8 @@ enum { DRACO_MODULE_VERSION = 2 };
 
 enum { DRACO_REASON_SIZE = 160 };
 
-// The memory budget for decoding a mesh. A file of a few kilobytes can declare thousands of attributes for each of
-// thousands of vertices, so the sizes in the header give no useful bound.
+// The memory budget for decoding a mesh. A file of a few kilobytes can declare thousands of vertices with thousands of
+// attributes each, so the sizes in the header give no useful bound.
 struct draco_memory {
     size_t granted; // bytes
     // Requests more memory and adds the bytes to `granted`. Returns 0 if the request is refused; decoding then fails as
@@ -28,7 +28,7 @@ struct draco_memory {
 struct draco_functions {
     int version;
     // Decodes a mesh. Returns 1 if *mesh and its numbers of vertices and triangles are set. Returns 0 if the bytes are
-    // damaged, and explains this in `reason`. Returns −1 if memory or the granted memory ran out.
+    // damaged, and explains this in `reason`. Returns −1 if the system's memory or the granted memory ran out.
     int (*decode)(const uint8_t *bytes, size_t size, struct draco_memory *memory, void **mesh, uint32_t *vertices,
                   uint32_t *triangles, char reason[DRACO_REASON_SIZE]);
     // Writes the attribute with this unique id to `out`: `width` numbers of a glTF component type for each vertex,
@@ -40,8 +40,8 @@ struct draco_functions {
     void (*free)(void *mesh);
 };
 
-// The only exported function of the shared object. It also exports the C++ operators new and delete, which count the
-// memory that Draco allocates.
+// The only C function that the shared object exports. The object also exports the C++ operators new and delete, which
+// count the memory that Draco allocates.
 const struct draco_functions *lambent_draco_functions(void);
 
 #ifdef __cplusplus

@@ -11,8 +11,7 @@
 void *page_library(const char *name);
 bool page_library_find(void *library, const char *name, void *function);
 
-// Returns whether the module is loaded. If it is not loaded, the page downloads the module and then reads the file
-// again.
+// Returns whether the module is loaded. If not, the page downloads the module and then reads the file again.
 int web_decoders(void) IMPORT(web_decoders);
 // Stores the mesh's handle and its numbers of vertices and triangles in `out`. This function and the next one return
 // the same results as the members of draco_functions.

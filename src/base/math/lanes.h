@@ -103,7 +103,7 @@ LANE_FN mask either(mask a, mask b) { return a | b; }
 LANE_FN mask negate(mask a) { return !a; }
 LANE_FN int any_lane(mask m) { return m != 0; }
 LANE_FN int all_lanes(mask m) { return m != 0; }
-LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i is lane i
+LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i represents lane i
 // Rounds towards zero. |x| must be below 2³¹ and not NaN, so clamp x first.
 LANE_FN inum int_of(num x) { return (int32_t)x; }
 LANE_FN num num_of_int(inum i) { return (float)i; }
@@ -325,7 +325,7 @@ LANE_FN inum floor_of(num x)
 #endif
 }
 
-// Returns a bit mask of the lanes that are below 0: bit i is lane i.
+// Returns a bit mask of the lanes that are below 0: bit i represents lane i.
 LANE_FN unsigned negative_bits(inum x)
 {
 #if LANES == 16 && defined(__AVX512DQ__)

@@ -13,8 +13,7 @@ enum {
     THREADS_MAX = 1024,
     WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would depend on
                             // `ulimit -s`.
-    SPIN_NS = 50000,        // the time that a thread waits before it sleeps, which is about the time for waking a
-                            // thread
+    SPIN_NS = 50000,        // a thread waits this long before it sleeps: about the time for waking a thread
 };
 
 struct pool {

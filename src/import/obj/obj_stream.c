@@ -63,7 +63,7 @@ struct stream {
     size_t next_chunk; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
     struct obj_counts total;
     size_t charged;
-    int layout; // 0 before the first face; then 1, plus 1 if faces have texture coordinates, plus 2 if faces have normals
+    int layout; // 0 before the first face; then 1, plus 1 if faces have texture coordinates, plus 2 for normals
     float low[3], high[3];
     struct stream_statement *statements;
     uint8_t *texts; // the texts of the statements, concatenated

@@ -33,8 +33,7 @@ static bool fail_header(const struct ply_import *reader, const struct ply_elemen
                      expected);
 }
 
-// Ignores the edges, with a warning, if one of the integer properties vertex1 and vertex2 (their end vertices) is
-// missing.
+// Ignores the edges, with a warning, if they lack an integer property vertex1 or vertex2 for their end vertices.
 static void check_edges(struct ply_import *reader)
 {
     static const char *const ends[] = {"vertex1", "vertex2"};

@@ -37,8 +37,8 @@ static struct reference_scene visible_scene(const struct run *r, int index)
     return s;
 }
 
-// Returns whether these shaders draw a scene exactly like one of `scenes`. Shaders that declare no name for a strength
-// draw every term in every scene.
+// Returns whether, for these shaders, a scene is identical to one of the earlier scenes in `scenes`. Shaders that
+// declare no name for a strength draw every term in every scene.
 static bool is_repeated(const struct run *r, int index, unsigned scenes)
 {
     const size_t from = offsetof(struct reference_scene, mesh);

@@ -74,7 +74,7 @@ static void *worker_main(void *argument)
     float_state_enter();
     unsigned seen = 0;
     for (;;) {
-        if (seen > 0) // the first round may be long after the start
+        if (seen > 0) // the first round may begin long after the start
             spin_while(pool, &pool->round, seen);
         pthread_mutex_lock(&pool->lock);
         while (pool->round == seen)

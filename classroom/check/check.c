@@ -19,8 +19,8 @@
 
 // --- preparation
 
-// Returns a scene without the features that the shaders cannot express, and without those that no term of the scene
-// shows.
+// Returns a scene without the features that the shaders cannot express, and without the features that no term of the
+// scene shows.
 static struct reference_scene visible_scene(const struct run *r, int index)
 {
     struct reference_scene s = shader_interface_scene(&r->interface, &reference_scenes[index]);
@@ -37,8 +37,8 @@ static struct reference_scene visible_scene(const struct run *r, int index)
     return s;
 }
 
-// Returns whether these shaders draw a scene exactly like one of `scenes`. Shaders that declare no name for a strength
-// draw every term in every scene.
+// Returns whether, for these shaders, a scene is identical to one of the earlier scenes in `scenes`. Shaders that
+// declare no name for a strength draw every term in every scene.
 static bool is_repeated(const struct run *r, int index, unsigned scenes)
 {
     const size_t from = offsetof(struct reference_scene, mesh);
@@ -212,8 +212,8 @@ static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTI
                                           BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
 
 // Returns whether the shaders use the names of the contract. A verdict needs a value for every input. Misspelt names
-// are mistakes, which the report lists. Names that differ from the contract's only in case and underscores belong to
-// another course.
+// are mistakes, which the report lists. Names that differ from the contract's names only in case and underscores belong
+// to another course.
 static bool suits_contract(const struct run *r)
 {
     bool drawn_here = !r->texts.vertex;
@@ -327,10 +327,9 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     if (!ok && r->report->verdict != LAM_CHECK_PASSES)
         return true;
     if (!ok)
-        return fail_unknown(r,
-                            "the names match no known contract, and without its vertex shader the roles of a fragment "
-                            "shader's inputs are unknown",
-                            error);
+        return fail_unknown(
+            r, "the names match no known contract, and without a vertex shader, the roles of the inputs are unknown",
+            error);
     ok = (engine ? prefix_add(engine, p->vertex, p->fragment, &texts, error)
                  : (texts = (struct complete_texts){.vertex = p->vertex, .fragment = p->fragment}, true)) &&
          prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
@@ -396,7 +395,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (!check_reserved("lam_check_params", params, error) ||
         (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
-    // A copy, in whose shaders inputs replace the fixed-function state of GLSL 110 and 120.
+    // A copy. In its shaders, inputs replace the fixed-function state of GLSL 110 and 120.
     lam_check_params own = *params;
     struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);

@@ -14,7 +14,7 @@
 // Limits the time of a search to some seconds, with a software driver on one processor (docs/check.md).
 static const uint64_t default_max_pictures = 10000;
 static const double max_dark = 2.0 / 255; // the largest value in a picture that is treated as black
-// the largest remaining share of the difference for which the report lists the found mistakes
+// the report lists the found mistakes if at most this share of the difference remains unexplained
 static const double max_left = 0.25;
 
 // --- the pictures
@@ -190,8 +190,8 @@ static bool is_searchable(struct run *r, bool writes)
     if (!known)
         diagnostics_add(
             &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-            "lambent does not search for mistakes in this shader, which `lambent shader` printed: it supports only "
-            "Lambert, Phong, Blinn-Phong and GGX with --single-scattering, without --gl1 and --viewer infinite");
+            "lambent does not search for mistakes in this shader, which `lambent shader` printed: the search supports "
+            "only Lambert, Phong, Blinn-Phong and GGX with --single-scattering, without --gl1 and --viewer infinite");
     for (int i = 0; i < r->scene_count; i++) {
         clear += check_missing_share(&r->scenes[i], false) / r->scene_count;
         r->scenes[i].spoilt = check_missing_share(&r->scenes[i], true) > 0.25;

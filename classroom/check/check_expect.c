@@ -284,8 +284,9 @@ bool check_draw_references(struct run *r, lam_error *error)
     if (ok && text[0] && r->interface.printed_model != LAM_REFLECTION_NONE)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", text);
     if (ok && numbers)
-        diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-                        "lambent reads the numbers of the exercise, such as the strength of the ambient light, in the "
-                        "shader's text, and uses the numbers that fit best");
+        diagnostics_add(
+            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+            "lambent takes the numbers of the exercise, such as the strength of the ambient light, from the shader's "
+            "text, and uses the numbers that fit best");
     return ok;
 }

@@ -2,10 +2,10 @@
 // specular term.
 //
 // The fault shader draws each term of a scene in a separate channel (shader_interface_scene). An interpretation
-// consists of a highlight, an exponent, and accepted forms or a fault. The factors of its terms are the same in every
-// scene and are found by least squares. The shader passes if an interpretation without a mistake explains every scene.
-// The shader differs if an interpretation with a single known mistake explains every scene. Otherwise there is no
-// verdict, because a shader that the check does not understand may be correct.
+// consists of a highlight, an exponent, and either accepted forms or a fault. The factors of its terms are the same in
+// every scene and are found by least squares. The shader passes if an interpretation without a mistake explains every
+// scene. The shader differs if an interpretation with a single known mistake explains every scene. Otherwise there is
+// no verdict, because a shader that the check does not understand may be correct.
 #include "interpretations.h"
 
 #include <stdio.h>
@@ -22,7 +22,7 @@ enum { FIRST_SCENES = 1, MAX_BASES = 12, MAX_NEAREST = 3 };
 
 static const double min_diffuse = 0.02;  // a smaller factor of a diffuse term is no evidence of lighting
 static const double min_mean = 0.02;     // smaller mean differences need no explanation
-static const double max_negative = 0.01; // a factor below the negative of this number is not a strength
+static const double max_negative = 0.01; // a factor below −max_negative cannot be a strength
 
 struct fit {
     struct run *r;

@@ -14,7 +14,7 @@
 #include "json_parse.h"
 #include "prefix.h"
 
-// The advice on correcting an entry of a role. The advice is "" if only the entry's role can be wrong.
+// The advice on how to correct an entry with this role. The advice is "" if only the role can be wrong.
 static const struct {
     const char *role, *correct;
 } corrections[] = {

@@ -10,13 +10,13 @@
 enum { VERTEX_RUN_MAX = 3072 }; // a multiple of 3
 
 // Consecutive vertices for one side of a range. Usually the vertices are the corners of the triangles of the range's
-// draw. If one index is used for all attributes, `shared` is true and the vertices are the mesh's vertices. With flat
-// shading, triangles replace the vertices.
+// draw. If all attributes use the same index, `shared` is true and the vertices are the mesh's vertices. With flat
+// shading, the run consists of triangles instead of vertices.
 struct vertex_run {
     uint32_t range, first, count;
     bool back, shared;
     // With `separate_texture_terms`, the light that a diffuse map does not multiply is stored separately. With
-    // `has_emission_map`, this light does not include the emission, because an emission map multiplies it.
+    // `has_emission_map`, the emission, which an emission map multiplies, is not part of this light.
     bool separate_texture_terms, has_emission_map;
 };
 
@@ -26,7 +26,7 @@ struct vertex_colors {
     struct shade_frame shade;
     struct shading shading; // includes the counters, and the results in `vertices`
     struct light_pattern pattern;
-    struct work work; // only the limits of the call apply
+    struct work work; // only the limits of the call can stop it
     enum failure failure;
     struct buffer storage, products;
     float decode_srgb[256], decode_linear[256];

@@ -47,8 +47,8 @@ static inline bool work_add(struct work *work, uint64_t units)
     return work_continues(work);
 }
 
-// Adds *units to the frame's work and sets *units to 0 if *units has reached WORK_STEP. Returns false if the frame must
-// stop.
+// If *units has reached WORK_STEP, adds *units to the frame's work and sets *units to 0. Returns false if the frame
+// must stop.
 static inline bool work_step(struct work *work, uint64_t *units)
 {
     uint64_t counted = *units;

@@ -49,7 +49,7 @@ LANE_FN struct cube_position cube_position(num x, num y, num z, int size)
     float half = 0.5f * (float)size, middle = half + 0.5f;
     num min = num_of(0.5f), max = num_of((float)size + 0.5f);
     struct cube_position at = cube_point(x, y, z);
-    // The clamp also replaces NaN (from 0/0) with the centre of the border.
+    // The clamp also replaces NaN (from 0/0) with `min`.
     at.s = min_of(max_of(at.s * half + middle, min), max);
     at.t = min_of(max_of(at.t * half + middle, min), max);
     return at;

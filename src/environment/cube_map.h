@@ -49,14 +49,15 @@ struct picture_source {
 };
 
 // Makes an environment from one picture or from six faces (`count` is 1 or 6), which are read one after the other.
-// `call` may be NULL. The memory of the environment remains charged to the call.
+// `call` may be NULL. The environment's memory counts towards the call's memory limit, even after this function
+// returns.
 struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
                                          struct call_control *call, lam_error *error);
 
 // Fills the borders from the faces.
 void cube_close(struct lam_environment *cube);
 
-// Computes the direction of a point of a face: major · axis + across · s + down · t (the inverse of OpenGL's table).
+// Computes the direction of a point on a face: major · axis + across · s + down · t (the inverse of OpenGL's table).
 void cube_direction(int face, double major, double across, double down, double out[3]);
 
 // The built-in studio environment. The first thread that uses the environment makes it. Returns NULL if memory runs

@@ -301,7 +301,7 @@ lam_environment *lam_environment_from_image(const lam_image *image, lam_color_mo
 
 // --- files
 
-// Reads the picture of a file in linear light; the caller frees the picture with picture_free.
+// Reads a picture file as linear light; the caller frees the picture with picture_free.
 static bool read_picture(const struct picture_source *source, int index, lam_color_mode color,
                          struct call_control *call, lam_image *image, const char **name, lam_error *error)
 {

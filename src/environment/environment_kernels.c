@@ -24,7 +24,7 @@ struct positions {
     float across[LANES][2];     // the weights of the left and the right texels
 };
 
-// Finds the texels of LANES directions. The light of these texels is multiplied by `weight`.
+// Finds the texels of LANES directions. Multiplies their interpolation weights by `weight`.
 LANE_FN void find_positions(struct positions *out, const struct lam_environment *cube, num x, num y, num z,
                             float weight)
 {
@@ -32,7 +32,7 @@ LANE_FN void find_positions(struct positions *out, const struct lam_environment 
     float half = 0.5f * (float)cube->size, middle = half + 0.5f;
     num min = num_of(0.5f), max = num_of((float)cube->size + 0.5f);
     struct cube_side at = cube_side(x, y, z);
-    num scale = half / at.major; // the same as cube_position, except for rounding
+    num scale = half / at.major; // cube_position computes the same position, but rounds differently
     num across = min_of(max_of(at.across * scale + middle, min), max);
     num down = min_of(max_of(at.down * scale + middle, min), max);
     inum column = int_of(across), row = int_of(down);
@@ -111,8 +111,8 @@ LANE_FN struct frames frames_of(int size, int face, int s, int t)
     return f;
 }
 
-// Computes one row. Each texel is the sum of the cells from `first` to `end`, plus the same texel of `others` (may be
-// NULL), which contains the sums of the other cells.
+// Computes one row. Each texel is the sum of the cells from `first` to `end`, plus the texel at the same position in
+// `others` (may be NULL), which contains the sums of the other cells.
 static void prefilter_row(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t)
 {

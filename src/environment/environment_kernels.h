@@ -22,14 +22,14 @@ struct lobe_cells {
 struct cube_sums {
     size_t count;
     struct opposite_texels {
-        float direction[3], share;       // a unit vector, and the fraction of the sphere that each texel covers
-        float light[3], light_behind[3]; // light times the share
+        float direction[3], share;       // a unit vector; the fraction of the sphere that each texel covers
+        float light[3], light_behind[3]; // the texel's light times `share`
     } pair[];
 };
 
 struct environment_kernels {
-    // Computes row t of a face of `out`. Each texel is the sum of the cells from `first` to `end`, plus the same texel
-    // of `others` (may be NULL), which contains the sums of the other cells.
+    // Computes row t of a face of `out`. Each texel is the sum of the cells from `first` to `end`, plus the texel at
+    // the same position in `others` (may be NULL), which contains the sums of the other cells.
     void (*prefilter_row)(const struct lobe_cells *cells, int first, int end, const struct lam_environment *others,
                           struct lam_environment *out, int face, int t);
     // Computes row t of a face of `out`, and the texels in the opposite directions, from all texels of a small copy. If

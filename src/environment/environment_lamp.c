@@ -15,13 +15,13 @@
 
 #define BRIGHT       3.0
 #define LAMP_COSINE  0.87 // cosine of 29.5 degrees
-#define LEAST_SHARE  0.05 // fraction of the mean light below which a lamp is ignored
+#define LEAST_SHARE  0.05 // a lamp with less than this fraction of the mean light is ignored
 #define SOLID_ANGLE  12.566370614359172
 #define RADIUS_LEAST 0.0047 // the radius of the sun
 enum { LAMP_SIZE = 64, CANDIDATE_SIZE = 8 };
 
 struct bright_texel {
-    double direction[3], light[3], luminance, share; // share: fraction of the sphere
+    double direction[3], light[3], luminance, share; // `share` is the fraction of the sphere that the texel covers
 };
 
 static double luminance_of(const float *rgb)

@@ -26,7 +26,7 @@ static inline void *image_row(const lam_image *image, int y)
     return (char *)image->pixels + (ptrdiff_t)y * image_stride(image);
 }
 
-// Does the same as lam_image_make, with `more` bytes after the pixels.
+// Like lam_image_make, but allocates `more` additional bytes after the pixels.
 bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format format, size_t more, lam_error *error);
 
 // Checks the pixels, the size, the format and the stride of a caller's picture. The error message begins with `what`.
@@ -38,14 +38,14 @@ void pixels_to_working(lam_pixel_format format, const void *from, int count, voi
 void pixels_from_working(lam_pixel_format format, bool raw, const void *from, int count, void *to);
 
 // Gets the picture in its working format, without padding. `out` is the picture itself if possible, otherwise a copy.
-// The caller frees `out`; this frees memory only if `out` is a copy.
+// The caller frees `out`; freeing `out` releases memory only if `out` is a copy.
 bool image_working(const lam_image *image, lam_image *out, lam_error *error);
 
 // Makes a copy of a picture in its working format.
 bool image_copy(const lam_image *image, lam_image *out, lam_error *error);
 
-// Gets two pictures for comparison, each converted as by image_working. The pictures must have the same size, and
-// either both must consist of bytes or both must consist of floats.
+// Gets two pictures for comparison, each in its working format (see image_working). The pictures must have the same
+// size, and either both must consist of bytes or both must consist of floats.
 bool image_pair(const char *what, const lam_image *const given[2], lam_image pair[2], lam_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-// companion.c: opens the files that a model or a scene file names: material libraries, models, pictures.
+// companion.c: opens the files that models and scene files refer to: material libraries, models, pictures.
 #include "companion.h"
 
 #include "fail.h"
@@ -164,8 +164,8 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     return file_read_named(out->real, length, out->shown, fresh, source->pool, source->call, &out->file, error);
 }
 
-// States in the error that the name of a missing file was shortened to the last component, because the file may exist
-// under the full name.
+// Adds the full name of a missing file to the error. Lambent looked only for the name's last component, but the file
+// may exist under the full name.
 static void explain_cut(const char *name, lam_error *error)
 {
     char shown[SHOWN_NAME_SIZE];

@@ -1,4 +1,5 @@
-// companion.h: opens the files that a model or a scene file names, from its folder or through the caller's function.
+// companion.h: opens the files that a model or a scene file refers to, from the folder of that model or scene file or
+// through the caller's function.
 #ifndef COMPANION_H
 #define COMPANION_H
 
@@ -35,8 +36,8 @@ bool companion_open(const struct import_source *source, const char *name, struct
 bool companion_open_of_scene(const struct import_source *source, const char *name, struct arena *arena,
                              struct companion *out, lam_error *error);
 
-// Initialises the companions of a model that a scene file names: open_of_scene must have opened `model` under the name
-// `name`. The strings are in `arena`. Returns false if memory runs out.
+// Initialises the companions of a model that a scene file refers to: open_of_scene must have opened `model` under the
+// name `name`. The strings are in `arena`. Returns false if memory runs out.
 bool companions_of_model(const struct import_source *scene, const char *name, const struct companion *model,
                          struct arena *arena, struct companions *out, lam_error *error);
 

@@ -29,9 +29,9 @@ struct import_source {
     const lam_load_params *params;
     struct pool *pool;         // NULL if there are no threads
     struct call_control *call; // never NULL; every long loop checks it
-    // These functions open a file that the model or a scene file names (companion.h).
+    // These functions open a file that the model or a scene file refers to (companion.h).
     open_companion *open, *open_of_scene;
-    // Finds the importer of a model that a scene file names (formats.h).
+    // Finds the importer for a model in a scene file (formats.h).
     const struct importer *(*importer_for)(const char *name, const struct file_bytes *file, const char *wanted,
                                            lam_error *error);
     void *open_state; // struct companions

@@ -63,7 +63,7 @@ static void split_polygons(void *user, size_t index, int thread)
     for (size_t i = first; done && i < last; i++) {
         done = split_polygon(splitting, splitting->polygons->items[i], &splitting->splitters[thread]);
         if (!done)
-            no_memory(&splitting->loop); // if the call was cancelled, mesh_triangulate reports this instead
+            no_memory(&splitting->loop); // if the call was cancelled, mesh_triangulate reports the cancellation instead
     }
 }
 

@@ -17,7 +17,7 @@ struct mesh_polygons {
     const float *positions; // finite
     // the mesh's index arrays: of positions (all valid), and of two other attributes (may be NULL)
     uint32_t *corners[3];
-    uint64_t triangles; // of the mesh, including the triangles of the polygons
+    uint64_t triangles; // of the whole mesh, including the triangles of the polygons
 };
 
 // Marks the vertices that corners use: sets their bytes to 1. Several threads may mark the same vertex.
@@ -27,8 +27,8 @@ static inline void mesh_mark_vertices(const uint32_t *indices, size_t corners, u
         __atomic_store_n(&marks[indices[i]], 1, __ATOMIC_RELAXED);
 }
 
-// Splits the polygons in place, in parallel. If load_params.polygon_edges is set, sets *inner_edges
-// (lam_mesh.inner_edges, in the scene's arena), unless there are no polygons.
+// Splits the polygons in place, in parallel. Sets *inner_edges (lam_mesh.inner_edges, in the scene's arena) if
+// load_params.polygon_edges is set and the mesh has polygons.
 bool mesh_triangulate(const struct import_source *source, struct lam_scene *scene, const struct mesh_polygons *polygons,
                       const uint8_t **inner_edges, lam_error *error);
 

@@ -12,7 +12,7 @@ static uint32_t spread_bits(uint32_t n)
     return spread;
 }
 
-// Returns the position of a point of the disc along a space-filling curve (Morton, 1966).
+// Returns the position of a point on the disc along a space-filling curve (Morton, 1966).
 static uint32_t place_of(double x, double y)
 {
     return spread_bits((uint32_t)(511.5 * (x + 1))) | spread_bits((uint32_t)(511.5 * (y + 1))) << 1;

@@ -2,8 +2,8 @@
 //
 // The points of a disc are projected up to the hemisphere (Malley's method), so that each direction contributes equally
 // to the cosine-weighted integral. The points are on Vogel's spiral (1979), as for lights with a size
-// (light_pattern.h). Every lit point rotates the disc by its own angle, so that visible steps become fine noise. A
-// surface at the distance d occludes its direction by the share
+// (light_pattern.h). At each lit point, the disc is rotated by a different angle, so that visible steps become fine
+// noise. A surface at the distance d occludes its direction by the share
 //    w(d) = clamp((radius − d) / (OCCLUSION_FADING radius), 0, 1)
 // The lengths of the rays are evenly distributed from (1 − OCCLUSION_FADING) radius to the radius, so w(d) is the
 // fraction of rays that are longer than d. It therefore matters only whether a ray is blocked, not at which distance.

@@ -27,8 +27,8 @@ static void empty_chunk(void *user, size_t index, int thread)
         emptying->at[i] = SCREEN_EMPTY;
 }
 
-// Lays out the planes of cells in the caller's memory blocks. Returns how many planes did not fit; their pointers are
-// NULL.
+// Lays out the planes of cells in the caller's memory blocks. Returns how many planes did not fit; the pointers of
+// these planes remain NULL.
 static int place_planes(float *planes[CELL_PLANES], int count, size_t bytes, struct scratch_memory *lent,
                         int lent_count)
 {

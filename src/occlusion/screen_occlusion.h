@@ -34,7 +34,7 @@ struct screen_occlusion {
     // of a cell (screen_pixel). The caller fills `depth`; screen_occlusion_start writes SCREEN_EMPTY around the
     // picture.
     float *depth;
-    float *cell_depth; // the depth of the first pixel of each cell that shows a surface
+    float *cell_depth; // for each cell, the depth of the first pixel that shows a surface
     // The slope of each cell's surface, computed together with the occlusion: the change of distance to the next cell.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
@@ -59,7 +59,7 @@ static inline size_t screen_pixel(const struct screen_occlusion *o, int x, int y
            (size_t)(x >> half);
 }
 
-// Returns the distance of a frame's ground at a pixel's centre, or SCREEN_EMPTY if it is not visible.
+// Returns the distance of a frame's ground at a pixel's centre, or SCREEN_EMPTY if the ground is not visible there.
 static inline float screen_ground_depth(const struct frame *frame, int x, int y)
 {
     const struct frame_ground *ground = &frame->ground;
@@ -69,7 +69,7 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
     float across = right * up[0] + above * up[1], depth;
     if (frame->orthographic) { // the point (right, above, -depth)
         depth = up[2] != 0 ? (across - ground->eye_height) / up[2] : SCREEN_EMPTY;
-    } else { // the point depth (right, above, -1)
+    } else { // the point depth · (right, above, -1)
         float along = across - up[2];
         depth = along != 0 ? ground->eye_height / along : SCREEN_EMPTY;
         right *= depth;
@@ -82,13 +82,13 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
 }
 
 // Initialises a picture's rows in `storage` without any surface, using the threads of `pool` (may be NULL). `lent`
-// lists blocks of memory that nothing else uses during screen_occlusion_find. These blocks store the rows of cells that
-// fit.
+// lists blocks of memory that nothing else uses during screen_occlusion_find. These blocks store as many planes of
+// cells as fit.
 bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct frame *frame, struct scratch_memory *lent,
                             int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
                             lam_error *error);
 
-// The steps (screen_occlusion.inc, compiled for each instruction set), for rows of cells from `first` to before `end`:
+// The steps (screen_occlusion.inc, compiled for each instruction set), for the rows of cells from `first` to `end` − 1:
 // the depths of the cells (with step 2), their occlusion, the two passes of the filter, and the pixels of the cells.
 // Each step processes all rows before the next step begins.
 struct occlusion_kernels {

@@ -67,8 +67,8 @@ static inline texel texel_at(const struct lam_texture *texture, int level, int x
 }
 
 // Makes a texture from a decoded picture (LAM_RGB8, LAM_RGBA8, or LAM_RGBA32F with linear values, not premultiplied),
-// and becomes the owner of the picture's pixels if the pixels are bytes. The texture's memory is charged to `call`,
-// which may be NULL. Fails with LAM_LIMIT or LAM_BAD_ARGUMENT; the picture is freed in any case.
+// and becomes the owner of the picture's pixels if the pixels are bytes. The texture's memory counts towards the memory
+// limit of `call` (may be NULL). Fails with LAM_LIMIT or LAM_BAD_ARGUMENT; the picture is freed in any case.
 struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
                                      struct call_control *call, lam_error *error);
 

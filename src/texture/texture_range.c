@@ -1,7 +1,8 @@
 // texture_range.c: computes bounds of a texture's values.
 #include "texture_map.h"
 
-// The number of texels that are compared together. With three or four channels, their bytes fill whole registers.
+// The number of texels that are compared together. With three or four channels, the bytes of these texels fill whole
+// registers.
 enum { TOGETHER = 16, CHANNELS = 4 };
 
 struct byte_ranges {

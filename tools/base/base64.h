@@ -7,8 +7,7 @@
 #include <stdint.h>
 
 // Decodes base64 into memory allocated with malloc, and sets *size to the number of bytes. Returns NULL if memory runs
-// out, or
-// if `text` is invalid; *at is then the position of the error.
+// out or `text` is invalid. Sets *at to the position of the error in `text`, or to SIZE_MAX if there is none.
 uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at);
 
 // Encodes bytes as base64 into memory allocated with malloc, with a final zero, and sets *length to the number of

@@ -18,12 +18,12 @@ void say_warning(const char *text);
 // Redirects the messages of this thread to `stream`, so that the caller can print them later, in order. NULL ends the
 // redirection.
 void console_capture(FILE *stream);
-// Prints text. Control characters other than line endings and tabs become "?", because file names may contain them.
+// Prints text. Control characters, which file names may contain, become "?", except line endings and tabs.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// Returns the number of bytes of the character at `text` if the character is invisible, otherwise 0. Invisible
-// characters are control characters except line endings and tabs, and characters that change the direction of the text
-// after them.
+// Returns the number of bytes of the character at `text` if the character is invisible, otherwise 0. A character is
+// invisible if it changes the direction of the text after it, or if it is a control character other than a line ending
+// or tab.
 size_t text_hidden(const char *text);
 
 // Prints a file's name on one line: "\\" for a backslash, "\n" for a line end, "\r" for a carriage return, and "?" for

@@ -9,7 +9,7 @@
 // Writes all bytes. Returns false and sets errno on failure.
 bool write_all(int file, const void *bytes, size_t size);
 
-// Reads exactly `size` bytes. Returns false and sets errno on failure; errno is 0 if the file ends earlier.
+// Reads exactly `size` bytes. Returns false and sets errno on failure; errno is 0 if the file contains fewer bytes.
 bool read_all(int file, void *bytes, size_t size);
 
 // Opens a regular file for reading, and sets *size to its size. Rejects folders, pipes and devices, since opening them
@@ -17,7 +17,7 @@ bool read_all(int file, void *bytes, size_t size);
 // file.
 int open_regular(const char *path, uint64_t *size);
 
-// Reads a file to its end, at most `size` bytes. Returns false and sets errno on failure.
+// Reads the rest of a file, but at most `size` bytes. Returns false and sets errno on failure.
 bool read_up_to(int file, char *bytes, size_t size, size_t *length);
 
 // Returns whether a path is the folder itself or lies below the folder. Both must be real paths.

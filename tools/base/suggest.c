@@ -9,7 +9,7 @@
 
 struct suggestion suggest_start(const char *typed)
 {
-    // Allows a third of the letters to differ, but at least one letter.
+    // At most a third of the letters may differ; in short words, one letter may differ.
     int allowed = (int)strlen(typed) / 3;
     return (struct suggestion){.typed = typed, .distance = allowed < 1 ? 2 : allowed + 1};
 }

@@ -21,7 +21,7 @@ static bool check_jobs(int operands, const struct options *o, lam_error *error)
                                          "json",   "dry-run",    "save-scene", "shard",        NULL};
     if (operands)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--jobs': each job names its model, found a model on the command line");
+                        "option '--jobs': each job names its model, so the command line must not name one");
     for (int i = 0; others[i]; i++)
         if (option_given(o, others[i]))
             return complain(error, LAM_BAD_ARGUMENT, "options '--jobs' and '--%s' cannot be used together", others[i]);
@@ -53,7 +53,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
     return job_check_options(o, error);
 }
 
-// Prints the picture's path for each model (--dry-run).
+// Prints each model's path with the path of each of its pictures (--dry-run).
 static bool print_mapping(const struct batch_plan *plan, lam_error *error)
 {
     for (size_t i = 0; i < plan->count; i++)

@@ -55,7 +55,7 @@ static char *path_of(const struct convert *c, int i)
     return asprintf(&path, "%.*s%s", folder, c->output, lam_export_file_name(c->result, i)) < 0 ? NULL : path;
 }
 
-// Returns the format for the extension of a path, which may be in capitals. Returns NULL on failure.
+// Returns the format for the extension of a path, in upper or lower case. Returns NULL on failure.
 static const char *find_format(const char *path, lam_error *error)
 {
     char list[100] = "";
@@ -99,7 +99,8 @@ static bool is_letter(char given, char written)
 }
 
 // Returns whether the path has the name of a companion file of the OBJ file, such as "part.mtl" or "part-0.png".
-// Accepts any number, because the numbers are known only after the model is read.
+// Accepts any number of up to four digits in the name, because the actual numbers are known only after the model is
+// read.
 static bool is_beside(const struct convert *c, const char *path)
 {
     size_t stem = strlen(c->output) - strlen(ending(c->output)) - 1;
@@ -111,8 +112,8 @@ static bool is_beside(const struct convert *c, const char *path)
     return is && (strcmp(rest, ".mtl") == 0 || (digits && digits <= 4 && strcmp(rest + 1 + digits, ".png") == 0));
 }
 
-// If the output does not exist yet, existing files with the names of its companion files belong to another program, so
-// they are not replaced.
+// If the output does not exist yet, files with the names of its companion files are not replaced, because another
+// program created them.
 static enum writer_right right_of(void *user, const char *path)
 {
     const struct convert *c = user;

@@ -3,10 +3,10 @@
 //  num    LANES floats          inum   LANES 32-bit integers          mask   LANES truth values (from comparisons)
 //
 // If LANES is 1, a num is a float and the same source is ordinary C. Otherwise a num is a GCC/Clang vector type, which
-// compiles for any instruction set; a vector that is wider than a register occupies several registers. Every width
-// therefore runs on every machine. All widths give bit-identical results, because all operations (+ − × ÷ √, never
-// fused) are correctly rounded. All intrinsics for lanes are in this file. (Two other files use intrinsics:
-// src/import/obj/byte_masks.h, which reads text one register at a time, and float_state.h, which sets the
+// compiles for any instruction set; a vector that is wider than a register occupies several registers. The code
+// therefore runs on every machine with every width. All widths give bit-identical results, because all operations (+ −
+// × ÷ √, never fused) are correctly rounded. All intrinsics for lanes are in this file. (Two other files use
+// intrinsics: src/import/obj/byte_masks.h, which reads text one register at a time, and float_state.h, which sets the
 // floating-point control register.) Code that works on lanes uses only the functions below and + − * / < <= > >= == !=.
 // A vector operator accepts a C float on one side, but a variable initialised with a float needs num_of().
 #ifndef LANES_H
@@ -103,7 +103,7 @@ LANE_FN mask either(mask a, mask b) { return a | b; }
 LANE_FN mask negate(mask a) { return !a; }
 LANE_FN int any_lane(mask m) { return m != 0; }
 LANE_FN int all_lanes(mask m) { return m != 0; }
-LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i is lane i
+LANE_FN unsigned mask_bits(mask m) { return m != 0; } // bit i represents lane i
 // Rounds towards zero. |x| must be below 2³¹ and not NaN, so clamp x first.
 LANE_FN inum int_of(num x) { return (int32_t)x; }
 LANE_FN num num_of_int(inum i) { return (float)i; }
@@ -325,7 +325,7 @@ LANE_FN inum floor_of(num x)
 #endif
 }
 
-// Returns a bit mask of the lanes that are below 0: bit i is lane i.
+// Returns a bit mask of the lanes that are below 0: bit i represents lane i.
 LANE_FN unsigned negative_bits(inum x)
 {
 #if LANES == 16 && defined(__AVX512DQ__)

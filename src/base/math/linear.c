@@ -12,8 +12,8 @@ double math_sqrt(double x) { return x > 0 ? __builtin_sqrt(x) : 0; }
 double math_radians(double degrees) { return degrees * (PI / 180); }
 double math_degrees(double radians) { return radians * (180 / PI); }
 
-// π/2 as the sum of three numbers. The first two numbers have 33 significant bits, so that multiplying these numbers by
-// a number of quarter turns is exact.
+// π/2 as the sum of three numbers. The first two numbers have 33 significant bits, so that multiplying each of them by
+// the number of quarter turns is exact.
 #define HALF_PI_1 1.57079632673412561417e+00
 #define HALF_PI_2 6.07710050630396597660e-11
 #define HALF_PI_3 2.02226624879595063154e-21

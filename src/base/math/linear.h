@@ -21,8 +21,8 @@ double v3_length(lam_vec3 a);
 lam_vec3 v3_unit(lam_vec3 a); // zero stays zero; no overflow or underflow
 bool v3_finite(lam_vec3 a);
 
-// math_sqrt is correctly rounded (it is a processor instruction). For |x| ≤ 1e6, the trigonometric functions are
-// accurate to 2 units in the last place.
+// The result of math_sqrt is correctly rounded, because math_sqrt is a processor instruction. For |x| ≤ 1e6, the
+// trigonometric functions are accurate to 2 units in the last place.
 double math_sqrt(double x);
 double math_sin(double x);
 double math_cos(double x);

@@ -1,7 +1,7 @@
 // triples.h: loads and stores points that are stored as x y z x y z ….
 //
 // Points are loaded and stored four floats at a time and transposed in registers, which is several times faster than
-// one float at a time.
+// loading and storing each float separately.
 #ifndef TRIPLES_H
 #define TRIPLES_H
 

@@ -20,7 +20,7 @@ struct arena_block {
     size_t capacity, used;
     bool whole;     // serves a single request
     size_t held;    // if above 0, the size in bytes of the pages at `memory`, which pages_free must release
-    size_t charged; // bytes charged to the call
+    size_t charged; // bytes that count towards the call's memory limit
 };
 
 static _Thread_local long fail_countdown = -1;

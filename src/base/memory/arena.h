@@ -15,7 +15,7 @@
 struct arena_block;
 struct arena {
     struct arena_block *blocks;
-    struct call_control *call; // allocations are charged to this call; may be NULL
+    struct call_control *call; // allocations count towards this call's memory limit; may be NULL
     size_t total;              // bytes allocated
     bool large;                // the first block has the largest size
 };
@@ -29,7 +29,7 @@ struct arena *arena_new(struct call_control *call);
 void arena_delete(struct arena *arena);
 
 // Allocates memory, aligned to 64 bytes for requests of 64 bytes or more, and to 16 bytes otherwise. Returns NULL if
-// memory or the call's budget is exhausted (call_memory_error reports which). For size 0 it returns a valid pointer.
+// memory or the call's budget is exhausted (call_memory_error reports which). For size 0, the pointer is valid.
 void *arena_alloc(struct arena *arena, size_t bytes);
 void *arena_alloc_zeroed(struct arena *arena, size_t bytes);
 
@@ -42,9 +42,9 @@ char *arena_string(struct arena *arena, const char *text);
 char *arena_string_of(struct arena *arena, const char *text, size_t length);
 char *arena_vformat(struct arena *arena, const char *format, va_list arguments);
 
-// Makes the arena the owner of `held` bytes at `pages` (pages.h). `charged` is the number of bytes that the arena
-// charged to the call for these pages; arena_free refunds these bytes. Returns false if memory runs out; the caller
-// then still owns the pages.
+// Makes the arena the owner of `held` bytes at `pages` (pages.h). `charged` is the number of bytes for these pages that
+// already count towards the call's memory limit; arena_free subtracts this number. Returns false if memory runs out;
+// the caller then still owns the pages.
 bool arena_adopt(struct arena *arena, void *pages, size_t held, size_t charged);
 
 // For tests: makes allocation number `countdown` of this thread fail once; 0 is the next allocation. −1 disables this.

@@ -8,7 +8,7 @@ bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *ca
     if (bytes <= buffer->capacity)
         return true;
     size_t old = buffer->capacity;
-    // Grow by at least a half, so that slowly growing frames do not reallocate the buffer each time.
+    // Grows by at least a half, so that slowly growing frames do not reallocate the buffer each time.
     size_t capacity = bytes > old + old / 2 ? bytes : old + old / 2;
     buffer_release(buffer, call);
     if (call && !call_charge(call, capacity))

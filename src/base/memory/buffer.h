@@ -10,11 +10,12 @@ struct buffer {
 };
 
 // Ensures that the buffer has a capacity of at least `bytes` bytes. The contents are lost if the buffer grows. The
-// growth is charged to the call. Returns false and fills the error on failure.
+// growth counts towards the call's memory limit. Returns false and fills the error on failure.
 bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *call, lam_error *error);
 void buffer_free(struct buffer *buffer);
 
-// Frees a buffer that is no longer needed and refunds its bytes. `call` may be NULL.
+// Frees a buffer that is no longer needed; its bytes no longer count towards the call's memory limit. `call` may be
+// NULL.
 void buffer_release(struct buffer *buffer, struct call_control *call);
 
 #endif

@@ -61,9 +61,8 @@ void *pages_get_sparse(size_t bytes, size_t *held)
 }
 
 // A block of at least one huge page is aligned to the size of huge pages. The kernel then uses huge pages from the
-// first access. The accesses take a third of the time that small pages need. If this enlarges the block only slightly,
-// the last huge page is allocated completely, even if only a part of it is needed. One huge page is faster than
-// hundreds of small pages.
+// first access. The accesses take a third of the time that small pages need. The size is rounded up to whole huge pages
+// if this wastes at most a sixteenth of the memory, because one huge page is faster than hundreds of small pages.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)
@@ -96,8 +95,8 @@ void *pages_malloc(size_t bytes)
     size_t rounded = (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
     void *pages = aligned_alloc(HUGE_PAGE, rounded);
 #ifdef MADV_HUGEPAGE
-    // The last page becomes a huge page only if most of the page is needed. If the system does not follow this advice,
-    // only the speed is affected.
+    // The last page becomes a huge page only if this wastes at most a sixteenth of the memory. If the system does not
+    // follow this advice, only the speed is affected.
     if (pages)
         madvise(pages, rounded - bytes <= bytes / 16 ? rounded : rounded - HUGE_PAGE, MADV_HUGEPAGE);
 #endif

@@ -20,8 +20,8 @@ void pages_free(void *pages, size_t held);
 // Allocates memory that free() releases. Large blocks use huge pages. A program may keep freed memory for later
 // allocations, so that the system need not clear new memory.
 void *pages_malloc(size_t bytes);
-// With one system call, prepares the pages that contain `bytes` bytes at `at` for writing. If each first access
-// prepared its page, this would take three times as long. Some systems ignore the call.
+// With one system call, prepares the pages that contain `bytes` bytes at `at` for writing. Preparing each page at its
+// first access would take three times as long. Some systems ignore the call.
 void pages_prepare(void *at, size_t bytes);
 // Releases the pages after the first `bytes` bytes, if the system supports this.
 void pages_trim(void *pages, size_t *held, size_t bytes);

@@ -13,8 +13,7 @@ enum {
     THREADS_MAX = 1024,
     WORKER_STACK = 1 << 20, // stack size in bytes; drawing uses less than 128 kB. The system's default would depend on
                             // `ulimit -s`.
-    SPIN_NS = 50000,        // the time that a thread waits before it sleeps, which is about the time for waking a
-                            // thread
+    SPIN_NS = 50000,        // a thread waits this long before it sleeps: about the time for waking a thread
 };
 
 struct pool {
@@ -75,7 +74,7 @@ static void *worker_main(void *argument)
     float_state_enter();
     unsigned seen = 0;
     for (;;) {
-        if (seen > 0) // the first round may be long after the start
+        if (seen > 0) // the first round may begin long after the start
             spin_while(pool, &pool->round, seen);
         pthread_mutex_lock(&pool->lock);
         while (pool->round == seen)

@@ -14,7 +14,7 @@ enum cpu_feature {
     CPU_WASM_SIMD = 32, // SIMD128
 };
 
-// Returns the features of this machine, if the operating system also saves their registers.
+// Returns the features of this machine. Omits features whose registers the operating system does not save.
 unsigned cpu_features(void);
 
 // Returns whether the machine has all of `features`, which may be 0.

@@ -36,31 +36,32 @@ struct light_batch {
     float tint[3][BATCH_ROW];
     float kept_diffuse[3][BATCH_ROW], kept_specular[3][BATCH_ROW];
     float l[3][BATCH_ROW], distance[BATCH_ROW], arriving[BATCH_ROW];
-    // the factor of the incoming light: 1 if there is a highlight, otherwise 0
+    // `arriving` if there is a highlight, otherwise 0
     float share[BATCH_ROW];
     float base[BATCH_ROW];                     // the bases of the packets listed below, stored consecutively
     float first[BATCH_ROW], second[BATCH_ROW]; // values passed from one step to the next
-    int packets[LIGHT_BATCH], packet_count;    // first points of the packets with a highlight
+    int packets[LIGHT_BATCH], packet_count;    // the first point of each packet with a highlight
 };
 
 struct shading_batch {
     struct light_batch lit;
     float p[3][BATCH_ROW], n[3][BATCH_ROW], v[3][BATCH_ROW], t[3][BATCH_ROW];
-    float color[3][BATCH_ROW], alpha[BATCH_ROW];    // input: the vertices' colours; output: the result
-    uint32_t triangle[BATCH_ROW];                   // index in the mesh
-    float x[BATCH_ROW], y[BATCH_ROW];               // the pixel's centre, in pixels of the window
-    float sample_x[BATCH_ROW], sample_y[BATCH_ROW]; // the sample nearest to the centre, if there are several
-    float b1[BATCH_ROW], b2[BATCH_ROW];             // barycentric weights of corners 1 and 2
-    // with ambient occlusion only: the fraction of the surrounding light that is not occluded
+    float color[3][BATCH_ROW], alpha[BATCH_ROW]; // input: the vertices' colours; output: the lit colours
+    uint32_t triangle[BATCH_ROW];                // index in the mesh
+    float x[BATCH_ROW], y[BATCH_ROW];            // the pixel's centre, in pixels of the window
+    // with several samples per pixel: the fragment's sample nearest to the centre
+    float sample_x[BATCH_ROW], sample_y[BATCH_ROW];
+    float b1[BATCH_ROW], b2[BATCH_ROW]; // barycentric weights of corners 1 and 2
+    // set only with ambient occlusion: the fraction of the surrounding light that is not occluded
     float unoccluded[BATCH_ROW];
-    // For materials with maps only (textures.inc).
+    // Set only for materials with maps (textures.inc).
     struct {
         float s[BATCH_ROW], t[BATCH_ROW], ds_dx[BATCH_ROW], dt_dx[BATCH_ROW], ds_dy[BATCH_ROW], dt_dy[BATCH_ROW];
     } texcoord;
     struct texture_taps taps;
     float texel[4][BATCH_ROW], level[BATCH_ROW];                   // the texel of the map that was read last
-    float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // factor of ka; `color` is the factor of kd
-    float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // factor of the highlights, and the emission
+    float vertex_color[3][BATCH_ROW], ambient_color[3][BATCH_ROW]; // multiplies ka; `color` multiplies kd
+    float specular[3][BATCH_ROW], emission[3][BATCH_ROW];          // `specular` multiplies the highlights
     float power[BATCH_ROW], roughness[BATCH_ROW], metallic[BATCH_ROW], occlusion[BATCH_ROW];
     // The variance of the normals of base and coat within the pixel (lam_specular_aa).
     float variance[BATCH_ROW], coat_variance[BATCH_ROW];
@@ -90,7 +91,7 @@ struct vertex_cache {
     // For materials with maps, `color` is the ambient and diffuse light, which the diffuse map multiplies. `rest` is
     // all other light: the highlights, the reflection, and the emission if no map multiplies the emission.
     float (*rest)[3];
-    uint32_t *run_vertex; // three vertices for each run of fragments, stored in the rows fragments->scratch
+    uint32_t *run_vertex; // three vertices for each run of fragments, stored in fragments->scratch
     uint32_t count;
 };
 

@@ -206,8 +206,8 @@ static void put_frame_control(struct writer *writer, const struct apng *apng, co
     close_chunk(writer, "fcTL", CONTROL_BYTES);
 }
 
-// Returns the maximum number of bytes that put_frame appends for a frame. The number includes the frame's chunks, each
-// with a sequence number, one chunk that is not closed yet, and the chunks of the animation.
+// Returns the maximum number of bytes that put_frame appends for a frame. The number includes a sequence number for
+// each chunk of the frame. It also includes one chunk that is not closed yet, and the chunks of the animation.
 static size_t frame_bytes(const struct apng_frame *frame)
 {
     const uint8_t *at = frame->png.data, *end = at + frame->png.size;

@@ -27,7 +27,7 @@ static inline void put_token(struct token *at, uint64_t token) { memcpy(at, &tok
 
 static size_t stride_of(int width) { return PADDING_BEFORE + (size_t)width + PADDING_AFTER; }
 
-// Returns the number of bytes of a filtered row in the stream, with its filter.
+// Returns the number of bytes that a filtered row occupies in the stream, including the filter byte.
 static size_t stream_row(const struct deflate *deflate)
 {
     return (size_t)deflate->width * (unsigned)deflate->bytes_per_pixel + 1;
@@ -48,8 +48,8 @@ bool deflate_make(struct deflate *deflate, struct arena *arena, int width, int r
     uint32_t *words = arena_array(arena, packed ? stride_of(width) : (size_t)rows * deflate->stride, sizeof *words);
     uint8_t *stream = packed ? arena_array(arena, (size_t)rows * stream_row(deflate) + 2 * STREAM_PADDING, 1) : NULL;
     deflate->last_positions = arena_array(arena, 1 << DEFLATE_HASH_BITS, sizeof *deflate->last_positions);
-    // There is space for one more token than will be kept, because find_runs writes a token for each pixel before it
-    // decides whether to keep it.
+    // Reserves space for one additional token, because find_runs writes each token before deciding whether to keep the
+    // token.
     const size_t tokens = (size_t)rows * ((size_t)((width + pixels_per_token - 1) / pixels_per_token) + 1) + 1;
     deflate->tokens = arena_array(arena, tokens, sizeof *deflate->tokens);
     if (!words || (packed && !stream) || !deflate->last_positions || !deflate->tokens)
@@ -220,8 +220,8 @@ static inline int equal_pixels(const uint32_t *a, const uint32_t *b, int max)
 
 static inline uint64_t hash_of(uint64_t key) { return key * 0x9E3779B97F4A7C15u >> (64 - DEFLATE_HASH_BITS); }
 
-// At each pixel, uses the first possible of three encodings: a run, a match with the last position of the same two
-// pixels, or a literal. A single repetition is also a match. The source and the target of a match are each within one
+// At each pixel, uses a run if possible, otherwise a match with the last position of the same two pixels if possible,
+// otherwise a literal. A single repetition is also a match. The source and the target of a match are each within one
 // row, so they contain no filter byte.
 static inline __attribute__((always_inline)) void find_matches(struct deflate *deflate, const int bytes_per_pixel,
                                                                int first, int end)
@@ -344,7 +344,7 @@ static inline __attribute__((always_inline)) void find_packed(struct deflate *de
         const uint32_t here = row_offset + (uint32_t)at, position = *last, back = here - position;
         *last = here;
         const uint8_t *there = row + at - (back <= DEFLATE_FARTHEST ? back : 0);
-        // most of the keys that occurred before do not begin a match of the shortest length
+        // also compares the bytes after the key, because most repeated keys do not begin a match of the shortest length
         if ((back <= DEFLATE_FARTHEST) & (eight_bytes(there) == key) &
             (eight_bytes(there + KEY) == eight_bytes(row + at + KEY))) {
             const int there_at = (int)((position - 1) % ((uint32_t)size + 1));
@@ -410,8 +410,8 @@ void deflate_row(struct deflate *deflate, int first, int end)
         find_runs(deflate, 3, first, end);
     deflate->row += deflate->stride;
     deflate->y++;
-    // There are two sets of counts, because neighbouring tokens are often equal. Adding to a counter that was just
-    // stored would have to wait for some cycles.
+    // There are two sets of counts, because neighbouring tokens are often equal. If both used the same counter, the
+    // second addition would wait for the first.
     for (; token + 2 <= deflate->end; token += 2) {
         count(deflate->counts[0], token);
         count(deflate->counts[1], token + 1);

@@ -50,7 +50,8 @@ struct deflate {
     uint8_t filter;
     bool matches;
     uint32_t y; // number of rows added
-    // With matches: the last position of pixels with each hash, as y << 16 | x, or as an offset in `stream`.
+    // With matches: for each hash of pixels, the last position with this hash, as y << 16 | x, or as an offset in
+    // `stream`.
     uint32_t *last_positions;
     struct token *tokens, *end;
     // The number of occurrences of each kind in each quarter, for even and odd tokens separately.
@@ -64,8 +65,8 @@ size_t deflate_scratch(int width, int rows);
 
 // Starts a strip whose rows all have the same filter. For each row in order, the caller then writes the row's pixels to
 // deflate->row and calls deflate_row, which advances deflate->row. Pixels before `first`, and pixels at and after
-// `end`, must be zero. The bytes of a word above its bytes_per_pixel must be zero; they are not part of the stream. The
-// padding is overwritten. Pixels of one or two bytes always use matches.
+// `end`, must be zero. In each word, the bytes above the lowest bytes_per_pixel must be zero; these bytes are not part
+// of the stream. The padding is overwritten. Pixels of one or two bytes always use matches.
 void deflate_start(struct deflate *deflate, uint8_t filter, bool matches);
 void deflate_row(struct deflate *deflate, int first, int end);
 

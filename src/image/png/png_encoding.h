@@ -16,11 +16,11 @@ struct png_encoding {
     const uint8_t *zeros;   // the row above the first row
     struct png_span *spans; // of each row
     int bytes_per_pixel;    // 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGBA
-    int rows;               // the number of rows of each strip; the last strip may have fewer
+    int rows;               // the number of rows in each strip; the last strip may have fewer
     int strips;
     size_t capacity;          // the maximum size of a strip's stream in bytes
     void *threads;            // the method's state, one per thread
-    struct call_control call; // the control of the whole encoding
+    struct call_control call; // the limits and the progress of the encoding
 };
 
 // A compression method.
@@ -31,12 +31,13 @@ struct png_method {
     // Sets `capacity` and `threads`.
     bool (*start)(struct png_encoding *encoding, struct pool *pool, struct arena *arena, lam_error *error);
 
-    // Writes one strip as deflate blocks that end on a byte boundary. No block is marked as the last. Adds the strip's
-    // filtered rows to `adler`. Returns the number of bytes, or 0 if memory runs out or the call must stop.
+    // Writes one strip as deflate blocks that end on a byte boundary. No block is marked as the last. Updates the
+    // checksum `adler` with the strip's filtered rows. Returns the number of bytes, or 0 if memory runs out or the call
+    // must stop.
     size_t (*strip)(struct png_encoding *encoding, int strip, int thread, struct adler_part *adler, uint8_t *out);
 
-    // Frees memory that the arena does not own. This function is also called if `start` failed. The pointer is NULL if
-    // there is no such memory.
+    // Frees memory that the arena does not own. This function is also called if `start` failed. `end` is NULL if the
+    // arena owns all memory.
     void (*end)(struct png_encoding *encoding);
 };
 
@@ -45,12 +46,12 @@ extern const struct png_method png_fast, png_best;
 // The channels that a picture has in addition to grey, as bits.
 enum png_channels { PNG_COLORED = 1, PNG_TRANSLUCENT = 2, PNG_ALL_CHANNELS = 3 };
 
-// Does the same as png_write, with at least the channels in *channels; *channels becomes the file's channels.
+// Like png_write, but writes at least the channels in *channels. Sets *channels to the channels of the file.
 bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
                         lam_bytes *out, lam_error *error);
 
-// png_put_u32 writes a number of a PNG file, highest byte first. png_close_chunk completes a chunk with `size` bytes of
-// data at out + 8, and returns the size of the chunk.
+// png_put_u32 writes a 32-bit number, highest byte first. png_close_chunk completes a chunk with `size` bytes of data
+// at out + 8, and returns the size of the chunk.
 void png_put_u32(uint8_t *at, uint32_t value);
 size_t png_close_chunk(const struct crc_tables *crc, const char *type, uint8_t *out, size_t size);
 

@@ -57,7 +57,8 @@ INLINE u8x16 filtered(enum png_filter filter, u8x16 here, u8x16 left, u8x16 abov
 enum { VECTOR = 16, BLOCK = 4 * VECTOR, BLOCK_PIXELS = BLOCK / 4 };
 
 // Filters one vector at a time. The first vector, which has no left neighbour, and the last, which may be incomplete,
-// are read from copies. `low` selects the bytes of a pixel that are kept; `gather` means that alpha follows red.
+// are read from copies. `low` is the mask of the bytes to keep in each pixel. With `gather`, alpha is stored directly
+// after red.
 INLINE void filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, uint32_t low,
                        bool gather, uint32_t *out)
 {
@@ -135,7 +136,7 @@ struct png_span png_span_of(const uint8_t *row, int width)
 
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width)
 {
-    // A filter also changes the next pixel after the changed pixels, and it processes whole vectors.
+    // Each byte also affects the filtered pixel to its right, and the filter processes whole vectors.
     enum { FURTHER = VECTOR / 4 };
     struct png_span both = row.first == row.end ? above : row;
     if (above.first < above.end) {

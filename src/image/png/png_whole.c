@@ -1,5 +1,5 @@
-// png_whole.c: decompresses all pixels of a PNG file in one step with libdeflate, which is opened on first use, and
-// then unfilters them. This method takes a third of the time of libspng, which reads row by row with zlib.
+// png_whole.c: decompresses all pixels of a PNG file in one step, and then unfilters the pixels. It opens libdeflate on
+// first use. This method needs a third of the time of libspng, which reads row by row with zlib.
 //
 // Only common pictures are supported: grey, RGB or RGBA with 8 bits per channel, without a transparent colour, not
 // interlaced, and without chunks between the pixels and the end. libspng reads all other pictures and damaged pictures,
@@ -31,7 +31,8 @@ struct inflater {
 
 // --- the chunks
 
-// Returns whether there is a complete chunk of a type at a position, and gets the length of the chunk.
+// Returns whether a complete chunk of this type (any type if NULL) begins at `at`. Sets *length to the length of its
+// data.
 static bool chunk_at(const struct picture_file *file, size_t at, const char *type, uint32_t *length)
 {
     const uint8_t *chunk = (const uint8_t *)file->bytes + at;
@@ -57,8 +58,8 @@ static size_t find_pixels(const struct picture_file *file)
     return 0;
 }
 
-// Joins the compressed bytes of the pixel chunks and returns their number. Returns 0 if the end chunk does not follow
-// the pixel chunks.
+// Joins the compressed bytes of the pixel chunks and returns their number. Returns 0 if a chunk is damaged, or if the
+// end chunk does not follow the pixel chunks.
 static size_t join_pixels(const struct inflater *d, const struct picture_file *file, size_t at, uint8_t *joined)
 {
     size_t used = 0;
@@ -103,7 +104,7 @@ static inline bytes16 max16(bytes16 x, bytes16 y)
 }
 
 // Returns, per channel, the left, upper or upper left pixel (a, b or c) that is nearest to a + b − c. If distances are
-// equal, the first of them is used. If c is between a and b, the distance is x = high − c for the lower of both,
+// equal, the first of them is used. If c is between a and b, the distance is x = high − c for the lower of the two,
 // y = c − low for the higher, and |x − y| for c itself. The lower is nearest if 2x ≤ y, and the higher is nearest if
 // 2y ≤ x. If 0 replaces negative differences, these conditions are also correct for all other c. Both conditions are
 // met only if a = b = c. Few steps depend on a, the most recent pixel.
@@ -114,7 +115,7 @@ static inline bytes16 paeth(bytes16 a, bytes16 b, bytes16 c)
     return c + ((takes_low & (min16(a, b) - c)) + (takes_high & (max16(a, b) - c)));
 }
 
-// Returns the value that a filter adds to the pixel of the file.
+// Returns the value that unfiltering adds to a pixel from the file.
 static inline bytes16 predicted(int filter, bytes16 a, bytes16 b, bytes16 c)
 {
     return filter == 1   ? a
@@ -124,8 +125,8 @@ static inline bytes16 predicted(int filter, bytes16 a, bytes16 b, bytes16 c)
                          : (bytes16){0};
 }
 
-// Unfilters a row to pixels of `size` bytes, 3 or 4. A fourth byte is always read and written, even after the end of a
-// row. `filter` and `channels` are constants after inlining.
+// Unfilters a row into pixels of `size` bytes, 3 or 4. A fourth byte is always read and written, even after the end of
+// a row. `filter` and `channels` are constants after inlining.
 static inline __attribute__((always_inline)) void unfilter(uint8_t *row, const uint8_t *above, const uint8_t *from,
                                                            size_t width, size_t size, int filter, int channels)
 {
@@ -150,7 +151,7 @@ struct four_rows {
     size_t width, size;
     bytes16 a, older,
         c; // `a`: the pixels of the previous step; `older`: the pixels of the step before; `c`: the pixels above `a`
-    bytes16 looks_up; // all bits of the rows with filter 4; a row with filter 1 is the same with b = c = 0
+    bytes16 looks_up; // all bits are set for rows with filter 4; filter 1 is filter 4 with b = c = 0
 };
 
 // Unfilters pixel `i` of the first row, and the delayed pixels of the other rows. `inner` and `channels` are constants
@@ -214,7 +215,7 @@ static inline __attribute__((always_inline)) void unfilter_four(struct four_rows
         unfilter_four(&(struct four_rows){row, above, from, width, size, .looks_up = looks_up}, channels);             \
         break;
 
-// Returns whether the filters of the next rows are 1 or 4. *looks_up receives the rows with filter 4.
+// Returns whether each of the next four rows uses filter 1 or 4. Sets all bits of *looks_up for the rows with filter 4.
 static bool are_four(const uint8_t *from, size_t row_bytes, bytes16 *looks_up)
 {
     words4 rows = {0};
@@ -228,7 +229,8 @@ static bool are_four(const uint8_t *from, size_t row_bytes, bytes16 *looks_up)
 }
 
 // Unfilters the next row of the file, or the next four rows. A row consists of a filter byte and the pixels. Returns
-// the number of unfiltered rows, or 0 if the filter is unknown. `left` is the number of remaining rows.
+// the number of rows that it unfiltered (1 or 4), or 0 if the filter is unknown. `left` is the number of remaining
+// rows.
 static size_t unfilter_next(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t left, size_t width,
                             size_t size, int channels)
 {

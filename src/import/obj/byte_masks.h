@@ -14,13 +14,13 @@
 // Bit i represents byte i.
 struct byte_masks {
     uint64_t newline; // '\n'
-    uint64_t white;   // all bytes up to the code of the space, including '\n'
+    uint64_t white;   // all bytes up to and including the space, such as '\n'
     uint64_t slash;   // '/'
     uint64_t special; // '#' or '\\'
 };
 
-// Counts the set bits. The builtin is used only if the processor has an instruction that counts bits. Otherwise, the
-// builtin would call a function with a lookup table.
+// Counts the set bits. Uses the compiler's builtin only if the target has an instruction that counts bits. Otherwise,
+// the builtin would call a function with a lookup table.
 static inline unsigned byte_masks_count(uint64_t bits)
 {
 #if defined(__POPCNT__) || defined(__aarch64__)

@@ -25,7 +25,7 @@ struct mtl_parser {
     // The current material, and the statements that were read for it.
     lam_material material;
     bool open, ka, kd, d;
-    const uint8_t *opacity, *exponent; // the positions of the statement d or Tr, and of Ns; NULL if missing
+    const uint8_t *opacity, *exponent; // the statement d or Tr, and the statement Ns; NULL if missing
     // The first occurrence of each problem that is reported once per file: unknown statements, and statements before
     // the first newmtl.
     const uint8_t *unknown, *stray, *wide; // `wide` is the first highlight with the exponent 0
@@ -105,8 +105,9 @@ static bool read_color(struct mtl_parser *reader, const uint8_t *at, const uint8
 
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// Replaces the colour of a material whose colours are all 0, because exporters write such materials by mistake. The new
-// colour is white if a texture supplies the colour. Otherwise it is the neutral grey, with a warning.
+// If all colours of a material are black, replaces its ambient and diffuse colours, because exporters write such
+// materials by mistake. The new colour is white if a texture supplies the colour. Otherwise it is the neutral grey,
+// with a warning.
 static void replace_black(struct mtl_parser *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
@@ -127,7 +128,7 @@ static void replace_black(struct mtl_parser *reader, lam_material *m)
 static void note_clear(struct mtl_parser *reader)
 {
     char shown[SHOWN_NAME_SIZE];
-    // the line of the statement, which only the first warning needs
+    // only the first warning needs the statement's line
     size_t line = reader->scene->clear_materials ? 0 : text_line(reader->begin, reader->opacity);
     scene_note_clear(reader->scene, "%s:%zu: material '%s' is fully transparent (%s)", reader->name, line,
                      shown_name(reader->material.name, shown), reader->d ? "d 0" : "Tr 1");

@@ -39,7 +39,7 @@ enum obj_kind {
 
 struct obj_counts {
     uint64_t positions, texcoords, normals;
-    uint64_t triangles, polygons; // polygons: faces with more than three corners
+    uint64_t triangles, polygons; // `polygons` counts the faces with more than three corners
     uint64_t others;              // number of statements of kind OBJ_OTHER
 };
 
@@ -55,7 +55,7 @@ struct obj_chunk {
     float low[3], high[3];
     double low_exact[3], high_exact[3]; // the same bounds as doubles, set only if an origin is needed
     float brightest;                    // the largest colour channel
-    // Whether some corners have, or lack, a texture coordinate or a normal.
+    // Whether some corners have (…_used), and whether some corners lack (…_missing), a texture coordinate or a normal.
     bool texcoord_used, texcoord_missing, normal_used, normal_missing;
     // Whether a corner refers to a texture coordinate or a normal although the file contains none.
     bool texcoord_unknown, normal_unknown;
@@ -85,9 +85,9 @@ struct obj_strokes {
 // The material files named so far.
 struct obj_libraries {
     struct name_table tried; // keys: confined names; values: 1 read, 0 missing
-    bool named, missing;     // `named`: the file names a library; `missing`: a library could not be opened or was
+    bool named, missing;     // `named`: the file refers to a library; `missing`: a library could not be opened or was
                              // skipped
-    bool left_out;           // the file names more than OBJ_LIBRARIES_MAX libraries
+    bool left_out;           // the file refers to more than OBJ_LIBRARIES_MAX libraries
 };
 
 struct obj {
@@ -164,7 +164,7 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
-// obj_strokes.c. obj_strokes_corners returns the number of corners of a statement l (`lines` is true) or p.
+// obj_strokes.c. obj_strokes_corners returns the number of corners of a statement: l if `lines` is true, otherwise p.
 // obj_strokes_reserve allocates the arrays of corners and parts, obj_strokes_read reads one statement, and
 // obj_strokes_add adds both meshes to the scene. `texcoords` are the texture coordinates of the file.
 size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines);
@@ -186,7 +186,7 @@ bool obj_complete(struct obj *obj, lam_error *error);
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
                       lam_error *error);
 
-// Returns the line number of `at`. In a stream it returns 0 and sets line_requested.
+// Returns the line number of `at`. In a stream, the function returns 0 and sets line_requested.
 size_t obj_line_number(struct obj *obj, const uint8_t *at);
 
 static inline bool obj_white(uint8_t c) { return c <= ' ' && c != '\n' && c != 0; }

@@ -44,7 +44,7 @@ static const struct {
     {"shadow_obj", IGNORED}, {"trace_obj", IGNORED},
 };
 
-// The object and group of the last part of lines or of points.
+// The object and group of the last part that consists of lines or of points.
 struct stroke_part {
     const char *object, *group;
 };

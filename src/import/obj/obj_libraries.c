@@ -1,6 +1,6 @@
-// obj_libraries.c: reads the material files that an OBJ file names. Each file is read once, even if the OBJ file names
-// it several times or in different spellings. At most OBJ_LIBRARIES_MAX names are tried, so that a small file cannot
-// make the program read many large files.
+// obj_libraries.c: reads the material files of an OBJ file. Each material file is read once, even if the OBJ file
+// refers to it several times or in different spellings. At most OBJ_LIBRARIES_MAX names are tried, so that a small file
+// cannot make the program read many large files.
 #include "obj.h"
 
 #include "fail.h"

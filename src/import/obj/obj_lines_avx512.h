@@ -33,7 +33,7 @@ struct constants {
     __m256i cut, middle, doubt;            // number_rounds_surely
     __m256i hundred_millions;
     __m128 sign;
-    __m128i one_32, index_limit; // index_limit: the number of positions, or 0 if corners have other attributes
+    __m128i one_32, index_limit; // index_limit: the number of positions, or 0 if corners also have other attributes
     __m256i index_limits;        // per lane: position, texture coordinate, normal, position …
     __mmask8 index_lanes;        // the lanes that contain an index
 };
@@ -151,7 +151,7 @@ static inline bool read_corners(const struct constants *c, const struct obj *obj
     const uint64_t begins = (ends << 8) + 0x0101010101010100, last = (ends >> 56) + 1;
     const uint64_t texcoords = 0xff0000ff0000ff00, sizes = ends - begins;
     const uint64_t absent = obj->texcoord_indices ? 0 : texcoords;
-    // The line is invalid if a number has no digit or more than 8 digits, or if there are more separators.
+    // The line is invalid if a number has no digit or more than 8 digits, or if the line contains further separators.
     if ((sizes & absent) | ((sizes - (0x0101010101010101 & ~absent)) & 0xf8f8f8f8f8f8f8f8) | between ||
         length - last - 1 > 7)
         return false;

@@ -60,7 +60,7 @@ static bool add_mesh(struct obj *obj, lam_error *error)
 bool obj_complete(struct obj *obj, lam_error *error)
 {
     call_progress(obj->source->call, 0.7, "read");
-    // obj_complete_texcoords drops the array if no face uses it, but lines may use it
+    // saved for lines, because obj_complete_texcoords drops the array if no face uses it
     const float *texcoords = obj->texcoords;
     struct mesh_polygons polygons = {
         .items = obj->polygons,

@@ -61,7 +61,7 @@ bool obj_split(struct obj *obj, size_t chunk_bytes, lam_error *error)
         size_t nominal = (i + 1) * chunk_bytes;
         if (nominal >= size)
             at = obj->end;
-        // otherwise the previous chunk's last line extends beyond this chunk, which stays empty
+        // otherwise the previous chunk's last line extends beyond this chunk, and this chunk stays empty
         else if (obj->begin + nominal > at)
             at = obj_next_line(obj->begin + nominal, obj->end);
         // obj_next_line may have started after the backslash of a line continuation.
@@ -80,8 +80,8 @@ static void count_face(struct obj_counts *counts, uint64_t corners)
     counts->polygons += corners > 3;
 }
 
-// Counts a statement that contains a comment or a continuation, or that is the last one of the file. Returns the start
-// of the next line.
+// Counts a statement that contains a comment or a continuation, or the last statement of the file. Returns the start of
+// the next line.
 static const uint8_t *count_slowly(struct obj_chunk *chunk, const uint8_t *at, const uint8_t *end)
 {
     while (at < end && obj_white(*at))

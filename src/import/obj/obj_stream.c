@@ -56,14 +56,14 @@ struct stream {
     int unsupported; // atomic; set if obj.c must read the file instead
     struct chunk_scratch *scratch;
     uint8_t *scratch_memory; // of all threads
-    size_t scratch_bytes;    // charged to the call
+    size_t scratch_bytes;    // counted towards the call's memory limit
     uint8_t *arrays[ARRAYS];
     size_t reserved[ARRAYS], reserved_marks;
     uint8_t *marks;    // mesh_mark_vertices
     size_t next_chunk; // atomic; the next chunk to count. Only the thread of that chunk accesses the members below.
     struct obj_counts total;
     size_t charged;
-    int layout; // 1, plus 1 if faces have texture coordinates, plus 2 if they have normals; 0: no face so far
+    int layout; // 0 before the first face; then 1, plus 1 if faces have texture coordinates, plus 2 for normals
     float low[3], high[3];
     struct stream_statement *statements;
     uint8_t *texts; // the texts of the statements, concatenated

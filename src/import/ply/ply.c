@@ -33,7 +33,7 @@ static bool fail_header(const struct ply_import *reader, const struct ply_elemen
                      expected);
 }
 
-// Edges are drawn only if the integer properties vertex1 and vertex2 refer to their end vertices.
+// Ignores the edges, with a warning, if they lack an integer property vertex1 or vertex2 for their end vertices.
 static void check_edges(struct ply_import *reader)
 {
     static const char *const ends[] = {"vertex1", "vertex2"};
@@ -120,7 +120,7 @@ static bool read_element(struct ply_import *reader, const struct ply_element *el
     return ply_read_binary(reader->source, &reader->header, element, &request, at, table, error);
 }
 
-// Warns of text after the last row of the last element.
+// Warns about text after the last row of the last element.
 static void warn_rest(const struct ply_import *reader, size_t at)
 {
     const struct import_source *source = reader->source;

@@ -89,7 +89,7 @@ static bool read_corner(struct stl_ascii_parser *reader, size_t corner, lam_erro
             reader->exact[3 * corner + (size_t)axis] = exact;
         } else {
             if (!(value >= -FLT_MAX && value <= FLT_MAX))
-                reader->needs_doubles = true; // the second pass reads the number as a double, or reports it
+                reader->needs_doubles = true; // the second pass reads doubles, and checks that they are finite
             if (value < reader->minimum[axis])
                 reader->minimum[axis] = value;
             if (value > reader->maximum[axis])

@@ -5,9 +5,10 @@
 // memory, and later steps process each vertex once.
 //
 // The facets are divided into windows, and vertices are shared only within a window. One thread reads the chunks of a
-// window in order. Once the vertices of the previous window are counted, the thread knows the numbers of its vertices
-// and copies them to the final array. The windows depend only on the number of facets, so the mesh does not depend on
-// the number of threads. Closed surfaces that touch are welded at common vertices only within a window (normals.h).
+// window in order. Once the vertices of the previous window are counted, the thread knows the indices of its own
+// vertices and copies these vertices to the final array. The windows depend only on the number of facets, so the mesh
+// does not depend on the number of threads. Closed surfaces that touch are welded at common vertices only within a
+// window (normals.h).
 #include "stl.h"
 
 #include "loop_status.h"
@@ -71,8 +72,8 @@ struct sharing {
 };
 
 // Finds the vertices of some facets. `count` is the number of vertices so far. Returns the new number. Nearly all
-// corners are at the position of the most recent vertex with their hash, and need one comparison. No address that is
-// read depends on an earlier comparison, so the processor does not wait for the comparison.
+// corners are at the position of the most recent vertex with their hash, and need one comparison. No read address
+// depends on an earlier comparison, so the processor does not wait for the comparison.
 static uint32_t share_facets(const struct share_worker *worker, const uint8_t *facet, size_t facets, uint32_t count,
                              uint32_t *restrict indices, struct stl_words *words)
 {

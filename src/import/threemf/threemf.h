@@ -2,8 +2,8 @@
 //
 // A 3MF file is a ZIP archive with model parts in XML. threemf_package.c opens the archive (libzip), and threemf_xml.c
 // parses a part (expat). threemf_model.c reads the part's elements, with threemf_properties.c, threemf_layers.c and
-// threemf_display.c. threemf_mesh.c converts the part's objects to meshes, and threemf_build.c places the objects
-// according to the build items and their components.
+// threemf_display.c. threemf_mesh.c converts the part's objects to meshes, and threemf_build.c places the objects of
+// the build items, and the components of these objects.
 #ifndef THREEMF_H
 #define THREEMF_H
 
@@ -13,7 +13,7 @@
 // A growing array, which is freed with the struct threemf.
 struct threemf_rows {
     void *items;
-    size_t count, capacity, bytes; // `bytes` are charged to the call
+    size_t count, capacity, bytes; // `bytes` counts towards the call's memory limit
 };
 
 enum resource_kind {
@@ -54,7 +54,7 @@ struct threemf_layers {
     int texture_count;
     int base;                    // the base material whose surface the mixed layers use, or −1
     uint32_t colors[LAYERS_MAX]; // colours of the first element: indices into the part's colours
-    // whether an element's colours differ from the first element's, or a texture's coordinates from the first texture's
+    // whether some element has other colours than the first, or some texture has other coordinates than the first
     bool varies;
 };
 

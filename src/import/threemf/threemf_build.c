@@ -1,4 +1,4 @@
-// threemf_build.c: adds objects to the scene for the items of the build and the components of their objects.
+// threemf_build.c: adds the objects of the build items to the scene, and the components of these objects.
 #include "threemf.h"
 
 #include "fail.h"

@@ -19,7 +19,7 @@
 
 #include <string.h>
 
-enum { WHITE }; // the first colour of each part
+enum { WHITE }; // the index of each part's first colour
 
 static bool take_layers(struct threemf_xml *xml, const char *list, struct threemf_layers *layers)
 {
@@ -253,8 +253,8 @@ static bool collect_layers(struct model_reader *reader, const struct threemf_lay
     return !layers->varies;
 }
 
-// Adds a material with the mixed texture. The other fields of the material are copied from the base material `base` if
-// it is not −1, otherwise from the default material.
+// Adds a material with the mixed texture. Copies the material's other fields from the base material `base`, or from the
+// default material if `base` is −1.
 static int add_mixed_material(struct threemf *file, const lam_texture_map *like, lam_texture *texture, int base)
 {
     lam_material material = base >= 0 ? *lam_scene_material(file->scene, base) : lam_material_default();

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WHITE, NEUTRAL }; // the first colours of each part
-enum { PLAIN = -1 };     // material of triangles without a base material or a texture
+enum { WHITE, NEUTRAL }; // the indices of each part's first two colours
+enum { PLAIN = -1 };     // material of triangles that have neither a base material nor a texture
 
 // The material, colours and texture coordinates that a triangle's properties define.
 struct surface {
@@ -74,8 +74,8 @@ static bool resolve(const struct mesh_maker *maker, const struct threemf_propert
     return true;
 }
 
-// Finds the surface of each triangle. Triangles with the same properties as the previous triangle are not looked up
-// again.
+// Finds the surface of each triangle. If a triangle has the same properties as the previous triangle, the properties
+// are not looked up again.
 static bool resolve_all(struct mesh_maker *maker)
 {
     const struct threemf_object *object = maker->object;

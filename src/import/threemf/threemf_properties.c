@@ -177,7 +177,7 @@ bool begin_texture(struct threemf_xml *xml, const char *const *attributes)
     return true;
 }
 
-// Returns a white material with the texture, or the default material if its picture could not be read.
+// Returns a white material with the texture, or the default material if the texture's picture could not be read.
 static int add_textured_material(struct threemf *file, const lam_texture_map *map)
 {
     lam_material material = lam_material_default();

@@ -1,4 +1,4 @@
-// threemf_rows.c: growing arrays, charged to the call.
+// threemf_rows.c: growing arrays that count towards the call's memory limit.
 #include "threemf.h"
 
 #ifdef HAVE_3MF

@@ -1,7 +1,8 @@
 // threemf_xml.c: parses XML parts with expat, which is loaded on demand.
 //
 // Limits: an element may be at most TOKEN_BYTES long and DEPTH_MAX deep. Document types are rejected, because 3MF
-// forbids them and their entities can expand to any size. Memory that expat allocates is charged to the call.
+// forbids them and their entities can expand to any size. Memory that expat allocates counts towards the call's memory
+// limit.
 #include "threemf_xml.h"
 
 #include "fail.h"
@@ -47,7 +48,7 @@ struct xml_parser {
     uint64_t given; // bytes given to expat so far
     int depth;
     int rows[DEPTH_MAX + 1];                      // the row in the table of each open element; rows[0] is AT_ROOT
-    bool failed;                                  // the error is filled
+    bool failed;                                  // the error has been filled in
     enum threemf_namespace spaces[DEPTH_MAX + 1]; // the namespaces of the open elements
     struct threemf_rows declarations, prefixes;   // struct declaration, char
 };
@@ -62,7 +63,7 @@ static const char *const uris[] = {
     [NS_SLICES] = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07",
 };
 
-// --- expat's memory is charged to the call of the parsing thread
+// --- expat's memory counts towards the memory limit of the parsing thread's call
 
 static __thread struct call_control *parsing_call;
 
@@ -175,8 +176,8 @@ static bool refuse_prefix(struct threemf_xml *xml, const char *name)
                             shown_name(name, shown));
 }
 
-// Reads the declarations of an element and finds its namespace. An undeclared prefix is an error. With --lenient, an
-// element with an undeclared prefix is in the namespace of its parent.
+// Reads the declarations of an element and finds its namespace. An undeclared prefix is an error. With
+// lam_load_params.lenient, an element with an undeclared prefix is in the namespace of its parent.
 static bool take_spaces(struct threemf_xml *xml, const char *name, const char *const *attributes,
                         enum threemf_namespace *out)
 {

@@ -63,7 +63,7 @@ static bool is_culled(const struct frame_draw *draw, bool front)
     return draw->cull == (front ? LAM_CULL_FRONT : LAM_CULL_BACK);
 }
 
-// Returns the style of an edge that is neither a feature edge nor culled, or −1 if the edge is not drawn.
+// Returns the style of an edge that is not a feature edge and is not culled, or −1 if the edge is not drawn.
 static int plain_style(const struct edge_task *task, const struct mesh_edge *edge)
 {
     return task->view->frame->settings.wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;

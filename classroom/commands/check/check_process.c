@@ -191,8 +191,8 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     return true;
 }
 
-// Sends as many bytes as the pipe accepts. If the process has closed its end of the pipe, it has died, and its exit
-// status will follow.
+// Sends as many bytes as the pipe accepts. If the pipe is closed at the other end, the process has died, and its exit
+// status follows.
 static void send_some(struct child *child, const lam_bytes *request, size_t *sent)
 {
     ssize_t n = write(child->to, (const char *)request->data + *sent, request->size - *sent);

@@ -30,7 +30,7 @@ const char *info_color_space(const struct info_texture *texture);    // "srgb" o
 struct info_name {
     const char *name;
     int objects, parts;
-    int order; // the position of the name's first use
+    int order; // the position at which the name first occurs
 };
 struct info_names {
     struct info_name *items; // allocated with malloc

@@ -4,7 +4,7 @@
 
 #include "batch_state.h"
 
-// The work on one model and its results. The arrays have picture_count elements.
+// The work on one model, and the results of the work. The arrays have picture_count elements.
 struct batch_unit {
     struct batch_task task;
     int picture_count;              // task.plan->view_count

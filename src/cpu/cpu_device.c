@@ -218,8 +218,8 @@ static bool set_up_rays(struct cpu_device *device, struct cpu_frame *cpu, lam_er
     return true;
 }
 
-// If the normals or the ambient occlusion are computed only for visible surfaces, finds the visible triangles before
-// lighting, and computes these normals and the occlusion.
+// Finds the visible triangles before lighting if the normals or the ambient occlusion depend on them. Then computes
+// these normals and the occlusion.
 static bool search_before_lighting(struct cpu_device *device, struct cpu_frame *cpu, uint64_t *clock, lam_error *error)
 {
     lam_frame_report *report = &device->base.report;

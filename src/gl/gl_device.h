@@ -31,8 +31,8 @@ enum texture_unit {
     UNIT_ENVIRONMENT,
     UNIT_LIGHTS,
     UNIT_PRODUCTS,
-    UNIT_NEARER_DEPTH_IDS, // depth and number of the previous layer
-    UNIT_OPAQUE_DEPTH_IDS, // depth and number of the opaque surfaces
+    UNIT_NEARER_DEPTH_IDS, // depth and triangle number of the previous layer
+    UNIT_OPAQUE_DEPTH_IDS, // depth and triangle number of the opaque surfaces
     UNIT_OCCLUSION =
         // only translucent surfaces read depth ids; among these, occlusion dims only the ground
     UNIT_NEARER_DEPTH_IDS,
@@ -406,7 +406,7 @@ void light_buffers_free(struct gl_device *device);
 // Sets *same to true if the texels and the hierarchy are the same as in the last packing, otherwise to false. Fails
 // with LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
-// Writes the texels that surfaces_count counted to `out`, which must be zeroed.
+// Writes these texels to `out`, which must be zeroed. Call surfaces_count first.
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);
 uint64_t surfaces_bytes(const struct gl_device *device);
 void surfaces_free(struct gl_device *device);

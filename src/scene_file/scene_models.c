@@ -142,8 +142,8 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
     model->inner.default_material = &model->inner_material;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
     r->scene->arena = model->inner.arena;
-    for (int i = 0; i < model->inner.textures.count;
-         i++) { // even after an error, so that the outer scene frees the textures
+    // The outer scene adopts the textures even after an error, so that it frees them.
+    for (int i = 0; i < model->inner.textures.count; i++) {
         lam_texture *texture = ((lam_texture **)model->inner.textures.items)[i];
         ok = scene_adopt_texture(r->scene, texture, ok ? r->error : NULL) && ok;
     }

@@ -31,8 +31,8 @@ static double decimal(float x)
     return strtod(text, NULL);
 }
 
-// Returns whether the list has a column for this field. It has one if the value of at least one classic material is not
-// the default. Colours are printed without alpha.
+// Returns whether the list has a column for this field. The list has the column if at least one classic material has a
+// value other than the default. Colours are printed without alpha.
 static bool is_column(const lam_field *field, lam_color_mode color)
 {
     bool differs = false;

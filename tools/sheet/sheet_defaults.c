@@ -29,7 +29,7 @@ static bool is_given(const struct sheet *sheet, const struct options *options, c
     return false;
 }
 
-// Returns whether no option of the command line or of the sheet replaces a default.
+// Returns whether a default applies. Options of the command line and of the sheet replace defaults.
 static bool is_open(const struct sheet *sheet, const struct options *options, const struct sheet_default *one)
 {
     bool light = strcmp(one->option, "--light") == 0;

@@ -24,7 +24,7 @@ struct view_listener {
     struct view_listener *next;
 };
 
-// A connection, which exists until it is closed. The library stores it as the context of the socket.
+// A network connection. The library stores this struct as the context of the socket.
 struct view_socket {
     int file;
     bool waits;      // waits for a request and is in view.waiting

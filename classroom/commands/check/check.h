@@ -90,7 +90,7 @@ struct check_points check_points_of(const lam_check_report *report);
 
 // --- output
 
-// Prints, without a line end, the sentence for reports without mistakes.
+// Prints the sentence for a report without mistakes. Prints no line end.
 void check_print_no_finding(FILE *file, const lam_check_report *report);
 void check_report_text(FILE *file, const lam_check_report *report, const char *shader, double tolerance);
 void check_report_line(FILE *file, const struct check_result *result); // prints a line of text for a class

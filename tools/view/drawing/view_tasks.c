@@ -101,8 +101,8 @@ void view_tasks_drop(struct view_tasks *tasks, struct view_task *task)
 }
 
 // Returns the process for a task. Prefers an idle process that has loaded the model, then a new process. If the maximum
-// number of processes is running, ends an idle process with another model and returns its element. Returns NULL if the
-// task must wait.
+// number of processes is running, ends an idle process with another model and returns its entry for the new process.
+// Returns NULL if the task must wait.
 static struct view_process *find_process(struct view_tasks *tasks, const struct view_task *task)
 {
     struct view_process *free_one = NULL, *waiting = NULL;

@@ -27,7 +27,7 @@ struct variant {
 struct model {
     struct lam_scene inner;            // the model as it was read; its lists and arrays are in the outer scene's arena
     lam_material inner_material;       // the default material of `inner`, which importers may set
-    struct scene_origin origin;        // the origin of the model; its counts are not set
+    struct scene_origin origin;        // the origin of the model; its counts and copies are not set
     double crease_angle_rad;           // the angle for its normals; 0 means the default
     struct variant variants[VARIANTS]; // the most recent variants
     int variant_count;                 // number of variants created so far

@@ -19,7 +19,7 @@ struct batch_tally {
         const char *name;
         size_t count;
     } classes[TALLY_CLASSES]; // the failures by class
-    size_t retried;           // failed attempts that are followed by a retry; `failed` includes these
+    size_t retried;           // failed pictures that wait for a retry; `failed` includes these
     double start_ms;
     bool has_progress; // the terminal shows a progress line
     double drawn_ms;   // when the progress line was last drawn

@@ -1,4 +1,5 @@
-// contract_schema.c: prints the JSON Schema of shader contracts: contract.schema.json.in with the roles inserted.
+// contract_schema.c: prints the JSON Schema of shader contracts. The schema is contract.schema.json.in with the roles
+// inserted.
 #include "contract_schema.h"
 
 #include <stdio.h>

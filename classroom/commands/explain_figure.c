@@ -86,7 +86,7 @@ struct diagram {
 
 static struct point difference(struct point a, struct point b) { return (struct point){a.x - b.x, a.y - b.y}; }
 
-// Returns whether an arrow is so short that its vector points towards the viewer.
+// Returns whether an arrow is drawn very short. Its vector then points almost towards the viewer.
 static bool is_short(const struct diagram *g, int arrow)
 {
     return length_of(difference(g->tips[arrow], g->from)) < 9 * g->unit;
@@ -221,8 +221,8 @@ static bool draw_vectors(const struct explain_figure *f, const struct subject *s
 }
 
 // Draws the vectors from the side: in the plane of n and l (or of n and v, if there is no light). The surface is a
-// horizontal line. For a thread, the plane contains t and l, because only the angle between t and l matters, and the
-// thread is the horizontal line.
+// horizontal line. For a thread, only the angle between t and l matters, so the plane contains t and l. The horizontal
+// line is then the thread.
 static bool draw_from_the_side(const struct subject *s, const struct sheet_layout *at, struct drawing *d,
                                lam_error *error)
 {

@@ -189,8 +189,8 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
                                     frame->settings.reference, &memory->reference, cpu->call, error);
 }
 
-// The work limit of a smaller picture is the same as for a picture of this size, because a small picture takes little
-// time with any number of layers.
+// All pictures with fewer pixels than this have the same work limit, because a small picture takes little time with any
+// number of layers.
 enum { WORK_PIXELS = 256 * 256 };
 
 static uint64_t work_limit(const lam_image *image, const struct call_control *call)
@@ -218,8 +218,8 @@ static bool set_up_rays(struct cpu_device *device, struct cpu_frame *cpu, lam_er
     return true;
 }
 
-// Finds the visible triangles before lighting, if Lambent computes normals only for visible triangles, or computes
-// ambient occlusion from the visible surfaces.
+// Finds the visible triangles before lighting if the normals or the ambient occlusion depend on them. Then computes
+// these normals and the occlusion.
 static bool search_before_lighting(struct cpu_device *device, struct cpu_frame *cpu, uint64_t *clock, lam_error *error)
 {
     lam_frame_report *report = &device->base.report;

@@ -1,6 +1,6 @@
 // kernels.c: all kernels. This file is compiled once for each instruction set, with LANES and ISA defined
-// (meson.build), and once with RECORDING, to shade one pixel and record its values. (From the version with RECORDING,
-// the compiler removes the functions that only drawing uses.)
+// (meson.build), and once with RECORDING, to shade one pixel and record its values. In the version with RECORDING, many
+// functions are unused, and the compiler removes them.
 #include "kernels.h"
 
 #include "clip.h"

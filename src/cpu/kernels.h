@@ -81,7 +81,8 @@ struct kernels {
     // (vertex_colors.h).
     void (*light_vertices)(const struct shade_frame *shade, struct shading *shading, const struct vertex_run *run);
 
-    // Writes the distances of a covered tile's surfaces to the rows from which ambient occlusion is computed later.
+    // Stores the depths of the surfaces in a tile, after its triangles are drawn. Ambient occlusion is computed from
+    // these depths later.
     void (*depth_of_tile)(const struct raster_frame *raster, const struct tile_samples *samples,
                           const struct tile *tile, struct screen_occlusion *occlusion);
     const struct occlusion_kernels *occlusion;

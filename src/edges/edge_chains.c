@@ -1,14 +1,14 @@
 // edge_chains.c: links edges into chains, so that dashes run along a curve of many short edges instead of restarting at
 // each edge.
 //
-// One thread links the edges in their order, so the dashes do not depend on the number of threads.
+// A single thread links the edges, in the order of the list, so the dashes do not depend on the number of threads.
 #include "edge_tasks.h"
 
 #include "linear.h"
 
 #include <stdlib.h>
 
-enum { CHECK_INTERVAL = 1 << 14, TOGETHER_MAX = 16 }; // if more ends meet at a corner, they are not linked
+enum { CHECK_INTERVAL = 1 << 14, TOGETHER_MAX = 16 }; // a corner with more ends has no links
 
 // An end of a line at a corner of the mesh.
 struct end {

@@ -1,4 +1,4 @@
-// edge_lines.c: the tasks that draw edges: they select the drawn edges, clip them to the picture, and find their
+// edge_lines.c: draws the edges of a task: selects the edges to draw, clips them to the picture, and finds their
 // visible parts.
 #include "edge_tasks.h"
 
@@ -41,8 +41,8 @@ static void position(const struct edge_task *task, uint32_t corner, double p[3])
     ray_point(task->view->hierarchy, p, p);
 }
 
-// Computes a triangle's normal, not normalized, in the hierarchy's space. The normal points to the side that the
-// winding determines. Returns whether the triangle faces the eye.
+// Computes a triangle's normal, not normalized, in the hierarchy's space. If the draw is mirrored, reverses the normal.
+// Returns whether the normal points to the eye's side.
 static bool faces_eye(const struct edge_task *task, uint32_t triangle, double n[3])
 {
     const struct edge_view *view = task->view;
@@ -63,13 +63,14 @@ static bool is_culled(const struct frame_draw *draw, bool front)
     return draw->cull == (front ? LAM_CULL_FRONT : LAM_CULL_BACK);
 }
 
-// Returns the style of an edge that is neither a feature edge nor culled, or −1 if the edge is not drawn.
+// Returns the style of an edge that is not a feature edge and is not culled, or −1 if the edge is not drawn.
 static int plain_style(const struct edge_task *task, const struct mesh_edge *edge)
 {
     return task->view->frame->settings.wireframe && !(edge->kind & EDGE_INNER) ? EDGE_STYLE_WIREFRAME : -1;
 }
 
-// Returns the style of an edge, or −1 if the edge is not drawn. Gets the LAM_EDGES_… bits of a feature edge.
+// Returns the style of an edge, or −1 if the edge is not drawn. Stores the LAM_EDGES_… bits of a feature edge in
+// *kinds_of.
 static int style_of(const struct edge_task *task, const struct mesh_edge *edge, unsigned *kinds_of)
 {
     const lam_draw_params *settings = &task->view->frame->settings;
@@ -168,7 +169,7 @@ static double half_width(const struct edge_task *task, const struct mesh_edge *e
     return (share < least ? least : share < 1 ? share : 1) * width / 2;
 }
 
-// Sets up the line of an edge, except for its points. Returns false if the edge is outside the picture.
+// Sets all members of an edge's line except the points. Returns false if the edge is outside the picture.
 static bool set_line(const struct edge_task *task, const struct mesh_edge *edge, int style, struct edge_line *line)
 {
     const struct edge_view *view = task->view;
@@ -336,7 +337,7 @@ bool edge_task_draw(struct edge_task *task, void *memory)
         line->first = s->point_count;
         line->count = 0;
         if (!shows_all) {
-            // The line is divided into one interval per pixel of its length, with a point in the middle of each.
+            // The line is divided into intervals of about one pixel, and each interval is tested at its middle.
             line->count = line->length < 1                 ? 1
                           : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
                                                            : POINTS_PER_LINE;
@@ -367,8 +368,8 @@ static double height_share(const struct edge_task *task, uint32_t triangle)
     return longest > 0 ? math_sqrt(dot(n, n)) / longest : 0;
 }
 
-// A sliver is a triangle whose height is below 1/SLIVER of its longest edge. A crease beside a sliver has a
-// proportionally smaller weight.
+// A sliver is a triangle whose height is below 1/SLIVER of its longest edge. The narrower a sliver, the smaller the
+// weight of a crease beside the sliver.
 enum { SLIVER = 8 };
 
 // Returns the weight of a line with these LAM_EDGES_… bits.

@@ -1,10 +1,11 @@
 // edge_pixels.c: converts strokes to coverage, and blends their colour over the picture.
 //
-// The coverage of a pixel is the area of the pixel's square that a strip of the stroke's width covers. Projected across
-// the strip, the square has a trapezoidal profile: the convolution of two boxes whose widths are |cos| and |sin| of the
-// strip's angle. Therefore, in any row or column that crosses a line, the line's coverage adds up to the width of the
-// line in that direction. The sum does not depend on the line's position. If several strokes cover a pixel, the largest
-// coverage is used, so that corners and edges shared by two triangles are not darker than other edges.
+// A stroke is a strip with a given width. The coverage of a pixel is the fraction of the pixel's square that lies
+// inside the strip. Projected across the strip, the square has a trapezoidal profile: the convolution of two boxes
+// whose widths are |cos| and |sin| of the strip's angle. Therefore, in any row or column that crosses a line, the
+// line's coverage adds up to the width of the line in that direction. The sum does not depend on the line's position.
+// If several strokes cover a pixel, the largest coverage is used, so that corners and edges shared by two triangles are
+// not darker than other edges.
 #define LANES 1
 #include "edge_lines.h"
 
@@ -29,8 +30,8 @@ struct cover_job {
 
 static double absolute_of(double x) { return x < 0 ? -x : x; }
 
-// Returns the share of a pixel whose coordinate is below x on an axis through the pixel's centre, in the direction (ux,
-// uy).
+// Returns the share of a pixel's area in which the coordinate along the direction (ux, uy) is below x. The coordinate
+// is 0 at the pixel's centre.
 static double share_below(double x, double ux, double uy)
 {
     double a = absolute_of(ux), b = absolute_of(uy), size = absolute_of(x), share = 1;

@@ -17,8 +17,8 @@
 #define JOIN_(a, b) a##_##b
 #define JOIN(a, b)  JOIN_(a, b)
 
-// Returns whether the triangle hides the points behind it: whether it is not culled, and is opaque at the intersection
-// with this lane's ray.
+// Returns true if the triangle hides points: it is not culled, is not glass, and is opaque at the intersection with
+// this lane's ray.
 static bool is_solid(const struct edge_view *view, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                      const struct ray_view *seen, int lane, double facing)
 {

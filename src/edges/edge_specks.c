@@ -2,7 +2,7 @@
 // many short creases, which look like dirt instead of lines.
 //
 // Edges with common ends form a group. The group's size is the sum of the integer weights of its edges, so the size
-// does not depend on the order.
+// does not depend on the order of the edges.
 #include "edge_tasks.h"
 
 #include "linear.h"

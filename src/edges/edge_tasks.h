@@ -21,8 +21,8 @@ struct edge_measure {
 enum { EDGES_PER_TASK = 2048 };
 
 // The weight of a feature edge (edge_specks.c): the length of the edge in the picture, in units of 1/EDGE_WEIGHT_PIXEL
-// pixels. A crease beside a face that is narrower than a pixel, or beside a sliver, has a proportionally smaller
-// weight. An edge that continues outside the picture has the largest weight.
+// pixels. A crease beside a face that is narrower than a pixel, or beside a sliver, has a smaller weight: the narrower
+// the face, the smaller the weight. An edge that continues outside the picture has the largest weight.
 enum {
     EDGE_WEIGHT_PIXEL = 1024, // the unit
     EDGE_WEIGHT_MAX = 0xfffd,
@@ -57,8 +57,8 @@ void edge_task_weigh(struct edge_task *task);
 // Gets the ends of an edge in the hierarchy's space.
 void edge_task_ends(const struct edge_task *task, uint32_t edge, double ends[2][3]);
 
-// Marks the edges of groups with a total weight of less than eight pixels as specks, in tasks that contain all edges of
-// a draw. Returns false if memory runs out or the call is stopped.
+// Each task contains all edges of a draw. Marks the edges of a group as specks if the total weight of the group is less
+// than eight pixels. Returns false if memory runs out or the call is stopped.
 bool edge_specks_drop(const struct edge_task *draws, int draw_count, struct loop_status *loop);
 
 // Links the measured edges of a draw into chains and computes their positions in the chains. If only two lines meet at

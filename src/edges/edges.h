@@ -1,7 +1,8 @@
 // edges.h: draws edges of surfaces as lines over a finished picture: wireframes and feature edges.
 //
 // Both devices draw the same lines. Rays from points of an edge to the eye determine the visible parts (edge_rays.c),
-// and the distance from a pixel's centre determines the coverage of a line. docs/edges.md describes the rules.
+// and the distance between a line and a pixel's centre determines how much of the pixel the line covers. docs/edges.md
+// describes the rules.
 #ifndef EDGES_H
 #define EDGES_H
 

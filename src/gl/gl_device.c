@@ -13,8 +13,8 @@
 
 // --- a frame
 
-// Resets the choices about lighting, for a program that does not depend on lighting. Also resets the choices about maps
-// if `maps` is false.
+// Resets the choices about lighting, because the program does not depend on lighting. Also resets the choices about
+// maps if `maps` is false.
 static void forget_lighting(struct glsl_choices *c, bool maps)
 {
     const struct glsl_choices wanted = *c;
@@ -101,7 +101,8 @@ static enum vertex_form form_of(const struct gl_frame *f, const struct frame_dra
         return (frame->settings.flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals
                    ? FORM_FLAT_VERTEX
                    : FORM_FLAT_FACE;
-    // Shaders compute triangle numbers as gl_VertexID / 3. A vertex lit for two materials has two colours.
+    // Shaders compute triangle numbers as gl_VertexID / 3. A vertex that several materials use has a lit colour for
+    // each material.
     bool counts = f->layered || frame->settings.output == LAM_OUTPUT_IDS ||
                   (frame->settings.shadows && f->stage != LAM_STAGE_APPLICATION);
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;

@@ -31,10 +31,10 @@ enum texture_unit {
     UNIT_ENVIRONMENT,
     UNIT_LIGHTS,
     UNIT_PRODUCTS,
-    UNIT_NEARER_DEPTH_IDS, // depth and number of the previous layer
-    UNIT_OPAQUE_DEPTH_IDS, // depth and number of the opaque surfaces
+    UNIT_NEARER_DEPTH_IDS, // depth and triangle number of the previous layer
+    UNIT_OPAQUE_DEPTH_IDS, // depth and triangle number of the opaque surfaces
     UNIT_OCCLUSION =
-        // only translucent surfaces read depth ids; the ground is the only such surface that occlusion dims
+        // only translucent surfaces read depth ids; among these, occlusion dims only the ground
     UNIT_NEARER_DEPTH_IDS,
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
@@ -98,7 +98,7 @@ struct gl_sampler {
 };
 enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_FILTER_COUNT * LAM_MIP_COUNT };
 
-// Lit vertex colours of one draw, for LAM_STAGE_APPLICATION.
+// The vertex colours of one draw after lighting, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
     uint64_t key; // hash of all inputs of the colours in the buffer (gl_key_add); 0 means none
     // A counted reference, because the key contains the environment's address.
@@ -302,16 +302,16 @@ static inline bool range_blends(const struct frame *frame, const struct frame_dr
 
 // --- gl_state.c
 
-// Charges the difference between the new size of a GL object, `bytes`, and its previous size, `*held`, to the frame's
-// memory limit. Updates `*held`.
+// Counts a GL object of `bytes` bytes towards the frame's memory limit, instead of its previous size `*held`. Sets
+// `*held` to `bytes`.
 bool gl_charge(struct gl_frame *f, uint64_t *held, uint64_t bytes, lam_error *error);
 
 // Allocates new contents of a vertex buffer and maps them for writing; the caller writes all bytes and unmaps
 // GL_ARRAY_BUFFER. Returns NULL on failure.
 void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum usage, lam_error *error);
 
-// Makes an attribute of the vertex array read `size` floats of each vertex in the bound buffer. `at` is the index of
-// the first float in the vertex.
+// Sets an attribute of the vertex array to `size` floats of each vertex in the bound buffer. `at` is the index of the
+// first of these floats in the vertex.
 void gl_point_to(struct gl_frame *f, GLuint location, GLint size, size_t stride, size_t at);
 
 // Adds bytes to a key, a 64-bit hash of the inputs of uploaded data. The data are uploaded again if the key has
@@ -342,9 +342,9 @@ void gl_state_invalidate(struct gl_device *device);
 // --- gl_meshes.c
 bool mesh_can_share(const lam_mesh *mesh);
 uint32_t mesh_vertex_count(const lam_mesh *mesh, enum vertex_form form);
-// Returns the mesh's buffers, created on first use; `passing` means that the mesh's arrays may change after the frame.
-// If `runs` is not NULL, the elements are ordered by call. The pointer is valid until the next call. Returns NULL on
-// failure.
+// Returns the mesh's buffers, and creates them on first use. If `passing` is set, the mesh's arrays belong to this
+// frame only. If `runs` is not NULL, the elements are ordered by call. The pointer is valid until the next call.
+// Returns NULL on failure.
 struct gl_mesh *mesh_upload(struct gl_frame *f, const lam_mesh *mesh, enum vertex_form form, bool passing,
                             const struct mesh_run *runs, int run_count, lam_error *error);
 // Frees the meshes of scenes that no longer exist, and meshes that the frame's scene no longer draws.
@@ -397,15 +397,16 @@ void programs_free(struct gl_device *device);
 bool light_buffers_send(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
 enum glsl_storage light_buffers_storage(const struct gl_device *device, const struct glsl_choices *choices);
 bool environment_send(struct gl_frame *f, lam_error *error);
-// Uploads f->environment_light in the same way.
+// Uploads f->environment_light.
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
-// --- gl_surfaces.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that
-// has `most` texels. Sets *same to true if the texels and the hierarchy are the same as in the last packing, otherwise
-// to false. Fails with LAM_LIMIT.
+// --- gl_surfaces.c
+// Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that has `most` texels.
+// Sets *same to true if the texels and the hierarchy are the same as in the last packing, otherwise to false. Fails
+// with LAM_LIMIT.
 bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
-// Writes the counted texels into zeroed memory.
+// Writes these texels to `out`, which must be zeroed. Call surfaces_count first.
 void surfaces_pack(struct gl_frame *f, size_t first, float *out);
 uint64_t surfaces_bytes(const struct gl_device *device);
 void surfaces_free(struct gl_device *device);

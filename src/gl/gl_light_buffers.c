@@ -1,6 +1,6 @@
 // gl_light_buffers.c: uploads the lights, the products of materials and lights, and the environment's faces. Lights and
-// products are stored in uniform blocks or, above the maximum size of a block, in textures. Each upload is skipped if
-// the data have not changed.
+// products are stored in uniform blocks or, if they are too large for a block, in textures. Data that have not changed
+// are not uploaded.
 #include "gl_device.h"
 
 #include "cube_map.h"

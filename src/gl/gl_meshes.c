@@ -50,7 +50,7 @@ static void unit(float v[3])
         v[i] *= inverse;
 }
 
-// Computes the unit vector of (p1 − p0) × (p2 − p0). The edges are normalized first, because their product could
+// Computes the normalized vector (p1 − p0) × (p2 − p0). The edges are normalized first, because their product could
 // underflow.
 static void face_normal(const lam_mesh *mesh, uint32_t triangle, float out[3])
 {
@@ -76,7 +76,7 @@ static void copy(float *to, const float *from, size_t count, uint32_t element)
         memcpy(to, from + count * element, count * sizeof *to);
 }
 
-// Writes the vertices `first` to `first + count` of a form, in the order of the vertex buffer.
+// Writes `count` vertices of the vertex buffer, from the index `first`. `form` is the layout of the buffer.
 static void mesh_vertices(const struct gl_device *device, const lam_mesh *mesh, enum vertex_form form, uint32_t first,
                           uint32_t count, struct mesh_vertex *out)
 {

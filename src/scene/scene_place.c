@@ -8,8 +8,8 @@
 
 #include <lambent/material.h>
 
-// Returns a limit: a point whose squared distance is below this limit is nearer than `distance`, regardless of
-// rounding.
+// Returns a limit for squared distances. A point whose squared distance is below the limit is nearer than `distance`,
+// regardless of rounding.
 static double nearer_than(double distance)
 {
     return distance > 1e-100 && distance < 1e100 ? distance * distance * (1 - 1e-9) : 0;
@@ -28,7 +28,7 @@ static void extend_radius(const lam_scene *scene, int mesh_index, const lam_mat4
     for (uint32_t i = 0; i < extent->used_count; i++) {
         const float *p = mesh->positions + 3 * (size_t)(extent->used ? extent->used[i] : i);
         const double x = (double)p[0], y = (double)p[1], z = (double)p[2];
-        // The same operations as in mat4_point, which is not inlined.
+        // These are the operations of mat4_point, which the compiler does not inline.
         lam_vec3 at = v3((m[0][0] * x + m[0][1] * y) + m[0][2] * z + m[0][3] - centre.x,
                          (m[1][0] * x + m[1][1] * y) + m[1][2] * z + m[1][3] - centre.y,
                          (m[2][0] * x + m[2][1] * y) + m[2][2] * z + m[2][3] - centre.z);

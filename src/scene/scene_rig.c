@@ -56,8 +56,8 @@ static bool suits_contrast(const struct lam_scene *scene, lam_rig rig, bool grou
 static lam_rgb grey(double value) { return (lam_rgb){(float)value, (float)value, (float)value}; }
 
 // Lights a grey model for LAM_TONE_CONTRAST: the key light is next to the eye and equally strong everywhere. For
-// terrains it comes from below the view's axis (suit_scene). The lights are dimmed for materials with a kd above
-// GREY_SHOWN, so that no part of these materials is displayed as plain white.
+// terrains, the key light comes from below the view's axis (suit_scene). The lights are dimmed for materials with a kd
+// above GREY_SHOWN, so that no part of these materials is displayed as plain white.
 static void suit_contrast(lam_light *key, lam_light *fill, lam_light *sky, enum scene_form form, double reflectance)
 {
     const double share = reflectance > GREY_SHOWN ? GREY_SHOWN / reflectance : 1;
@@ -83,7 +83,7 @@ static bool lacks_ambient(const struct lam_scene *scene)
     return 2 * count > scene->materials.count;
 }
 
-// A curved model is lit from near the eye, so that outlines are dark and small slopes visible. At most, a point
+// A curved model is lit from near the eye, so that outlines are dark and small slopes are visible. At most, a point
 // reflects 0.9·1.33 (key) + 0.07 (sky) = 1.27 times ka or kd. A terrain is lit from below the view's axis, because
 // light from above brightens all slopes alike: level ground is dark, and slopes that face the viewer are bright.
 // Returns the number of lights, which is `count` for flat faces.

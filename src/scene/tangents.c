@@ -19,8 +19,8 @@ static const lam_texture_map *normal_map_at(const struct lam_scene *scene, int m
                                                : m->maps[LAM_MAP_ANISOTROPY];
 }
 
-// Returns the map that uses a mesh's tangents: the first such map in the materials of its parts, otherwise in the
-// materials of its objects. Returns NULL if there is no such map.
+// Returns the first map that uses a mesh's tangents, or NULL if there is none. Searches the materials of the mesh's
+// parts, then the materials of the mesh's objects.
 static const lam_texture_map *normal_map_of(const struct lam_scene *scene, int mesh)
 {
     const lam_mesh *m = scene_mesh(scene, mesh);

@@ -102,8 +102,8 @@ static double bound_of(const struct search *s, const box_of_six box, int d)
     return v3_dot(s->axis[d], middle) + v3_dot(s->axis_size[d], half) + s->offset[d];
 }
 
-// Descends to the box with the largest bound and searches this box first, because the extents of the box exclude most
-// other boxes.
+// Descends to the box with the largest bound and searches this box first, because the extents found in this box exclude
+// most other boxes.
 static void search_best_block(const struct search *s, int d)
 {
     const struct aabb_tree *tree = &s->extent->boxes;

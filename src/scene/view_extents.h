@@ -15,8 +15,8 @@ struct view_axes {
 // The points whose extents are computed.
 struct view_points {
     const lam_scene *scene;
-    // The scene's vertices as seen along each of these axes. Instead of a rotating scene, the fixed scene is measured
-    // along several axes.
+    // The extents cover the vertices in all of these axes. For a rotating scene, each pose gives one element, because
+    // rotating the axes is the same as rotating the scene.
     const struct view_axes *axes;
     int axes_count;
     double ball_radius; // if above 0, a ball of this radius around the centre of the axes is measured instead
@@ -43,8 +43,8 @@ void view_extents_find(const struct view_points *points, struct view_extents *ex
 void view_extents_horizontal(const struct view_points *points, double kx, struct view_extents *extents);
 void view_extents_vertical(const struct view_points *points, double ky, struct view_extents *extents);
 
-// Gets the smallest and largest distance of the scene's vertices in front of the eye, along the view. Returns false if
-// there are no vertices.
+// Gets the smallest and the largest depth of the scene's vertices: the distance in front of the eye, measured along the
+// view direction. Returns false if there are no vertices.
 bool view_extents_depth(const lam_scene *scene, const lam_mat4 *view, double *nearest, double *farthest);
 
 #endif

@@ -55,7 +55,7 @@ static bool open_picture(void *user, int index, struct call_control *call, struc
     struct pictures *pictures = user;
     const struct import_source *source = pictures->r->source;
     struct companion companion;
-    (void)call; // the source contains the call
+    (void)call; // open_of_scene gets the call from the source
     if (!source->open_of_scene(source, pictures->names[index], &pictures->r->scene->arena, &companion, error))
         return false;
     *file = companion.file;

@@ -275,8 +275,8 @@ static bool read_root(struct scene_reader *r, const json_t *root)
            read_materials(r, root) && read_objects(r, root) && read_lights(r, root);
 }
 
-// Returns the memory that Jansson needs for a file of this size in the worst case: one small value per two bytes
-// ("1,1,1").
+// Returns the memory that Jansson needs for a file of this size in the worst case. In this case, every second byte of
+// the file is a value ("1,1,1").
 static size_t tree_bytes(size_t size) { return size > SIZE_MAX / 32 ? SIZE_MAX : size * 32; }
 
 static bool scene_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)

@@ -113,7 +113,8 @@ static bool read_target(struct scene_reader *r, const struct place *place, const
     if (!take_vector(r, place, value, "target", &target))
         return false;
     light->direction = v3_sub(target, light->position);
-    return v3_length(light->direction) > 0 || fail_place(r, KEY_OF(place, "target"), "is the light's position");
+    return v3_length(light->direction) > 0 ||
+           fail_place(r, KEY_OF(place, "target"), "is the same point as the light's position");
 }
 
 static bool check_attenuation(struct scene_reader *r, const struct place *place, const lam_attenuation *a)

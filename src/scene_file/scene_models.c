@@ -1,9 +1,10 @@
 // scene_models.c: loads the models of a scene file's objects: built-in shapes, formulas, and files that other importers
 // read.
 //
-// A model is read once for each kind of normals, even if several objects use it or spell its file name differently.
-// Objects that do not change the model share its meshes and materials, and so do objects that make the same changes. An
-// object that makes other changes gets its own list of parts and materials, but shares the arrays of vertices.
+// A model is read once for each kind of normals, even if several objects use it or spell its file name differently. All
+// objects that do not change the model share its meshes and materials. Objects that change the model in the same way
+// share the changed version. An object with other changes gets its own list of parts and materials, but shares the
+// arrays of vertices.
 #include "scene_models.h"
 
 #include "companion.h"
@@ -26,7 +27,7 @@ struct variant {
 struct model {
     struct lam_scene inner;            // the model as it was read; its lists and arrays are in the outer scene's arena
     lam_material inner_material;       // the default material of `inner`, which importers may set
-    struct scene_origin origin;        // the model's origin, without counts and copies
+    struct scene_origin origin;        // the origin of the model; its counts and copies are not set
     double crease_angle_rad;           // the angle for its normals; 0 means the default
     struct variant variants[VARIANTS]; // the most recent variants
     int variant_count;                 // number of variants created so far
@@ -141,7 +142,8 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
     model->inner.default_material = &model->inner_material;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
     r->scene->arena = model->inner.arena;
-    for (int i = 0; i < model->inner.textures.count; i++) { // even after an error, so that the outer scene frees them
+    // The outer scene adopts the textures even after an error, so that it frees them.
+    for (int i = 0; i < model->inner.textures.count; i++) {
         lam_texture *texture = ((lam_texture **)model->inner.textures.items)[i];
         ok = scene_adopt_texture(r->scene, texture, ok ? r->error : NULL) && ok;
     }

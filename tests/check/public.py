@@ -79,7 +79,7 @@ The command fails in any of these cases:
 
 - A correct shader gets the verdict `differs`, or a wrong shader passes.
 - The check gives a verdict on a shader that was labelled as impossible to judge.
-- The check reports, without reservation, a mistake that the shader does not contain.
+- The check reports, as certain, a mistake that the shader does not contain.
 - The check gives a verdict for fewer than 70 %% of the pairs.
 
 | label | right verdict | wrong verdict | no verdict |

@@ -244,8 +244,8 @@ static bool write_page(struct journal_sum *sum, const struct batch_tally *tally,
     return batch_page_write(&page, error);
 }
 
-// Returns whether a file may be written. The sandbox is needed because the journals may be untrusted, and they name the
-// pictures from which thumbnails are made.
+// Decides whether the command may write a file in its sandbox. The journals may be untrusted, and they name the
+// pictures from which the command makes thumbnails.
 static enum writer_right right_of(void *user, const char *path)
 {
     const char *page = user;

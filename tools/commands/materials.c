@@ -31,8 +31,8 @@ static double decimal(float x)
     return strtod(text, NULL);
 }
 
-// Returns whether the list shows this field as a column: at least one classic material has a value other than the
-// default. Colours are printed without alpha.
+// Returns whether the list has a column for this field. The list has the column if at least one classic material has a
+// value other than the default. Colours are printed without alpha.
 static bool is_column(const lam_field *field, lam_color_mode color)
 {
     bool differs = false;
@@ -148,7 +148,7 @@ static bool build_scene(lam_scene *scene, lam_color_mode color, lam_error *error
 
 // --- captions
 
-// Draws each material's name below its teapot in grey, which is legible on any background.
+// Draws each material's name below its teapot. The text is grey, so it is legible on any background.
 static bool draw_captions(const lam_scene *scene, const struct options *o, const lam_camera *camera, lam_image *image,
                           lam_error *error)
 {
@@ -226,7 +226,7 @@ static bool make_sheet(const struct options *o, const char *path, lam_error *err
         return false;
     lam_scene *scene = lam_scene_make(error);
     lam_image image = {0};
-    // The default size is square, but the sheet is wider than high.
+    // The default size is square, but the sheet is wider than it is high.
     int height = o->picture.width == o->picture.height ? o->picture.height * 58 / 100 : o->picture.height;
     bool ok = scene && build_scene(scene, (lam_color_mode)o->picture.color_mode, error) &&
               lam_image_make(&image, o->picture.width, height > 0 ? height : 1, format, error) &&

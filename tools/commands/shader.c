@@ -76,8 +76,8 @@ static void shader_contract(FILE *file, const lam_shader *s)
 
 // --- files
 
-// Returns the base NAME of NAME.vert and NAME.frag, allocated with malloc: `output` without its extension or, if
-// `output` is a folder, the model's name in this folder.
+// Returns the path of the shader files without .vert or .frag, allocated with malloc. This is `output` without its
+// extension. If `output` is a folder, this is the model's name in this folder.
 static char *base_of(const char *output, const char *model)
 {
     char *base = output_path(output, model, "");

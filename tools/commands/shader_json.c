@@ -11,7 +11,7 @@ static void numbers(struct json *json, const char *key, const float *values, int
     json_close(json, ']');
 }
 
-// Writes the map of the material that a sampler reads.
+// Writes the material's map that a sampler reads, or null.
 static void map_of(struct json *json, const lam_texture_map *map)
 {
     static const char *const wraps[] = {"repeat", "clamp", "mirror"}, *const filters[] = {"linear", "nearest"};

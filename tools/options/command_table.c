@@ -130,7 +130,7 @@ const struct command command_table[] = {
                         .one_more = "the command lists all shapes; lambent teapot draws one shape"},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
                          .max_operands = 0, .one_more = "the command lists all formats"},
-    [COMMAND_looks] = {"looks", "[NAME]", "List the built-in looks (--look), or print the file of one look.", ABOUT,
+    [COMMAND_looks] = {"looks", "[NAME]", "List the built-in looks (--look), or print the text of one look.", ABOUT,
                        .min_operands = 0, .max_operands = 1},
     [COMMAND_materials] =
         {"materials", NULL,
@@ -203,7 +203,7 @@ const struct example examples[] = {
     {"lambent koala.obj --turntable 36 --fps 12", "writes an animated PNG of the turning model", false},
     {"lambent koala.obj --sweep light.azimuth=0..360 -o 'light-{frame}.png'",
      "draws 36 pictures of the model, with a light that moves around the model", false},
-    {"lambent koala.obj --json", "reports the files read, the camera and the duration of each step", false},
+    {"lambent koala.obj --json", "reports the input files, the camera and the duration of each step", false},
     {"lambent info ship.glb", "lists the model's size, triangles, materials and animations", false},
     {"lambent compare koala.obj --sheet terms", "shows the lighting terms side by side, with captions", false},
     {"lambent compare bunny.ply --across 'light=point;directional:direction=-1/-2/-1'",

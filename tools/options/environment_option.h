@@ -4,8 +4,8 @@
 
 #include "options.h"
 
-// Splits six file names separated by commas. `paths` point into the returned copy, which the caller frees. Returns NULL
-// if `text` does not contain six names.
+// Splits a list of six file names at its commas. `paths` point into the returned copy, which the caller frees. Returns
+// NULL if `text` does not contain six names.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
 // Returns whether the value removes the environment. `text` may be NULL.

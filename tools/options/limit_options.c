@@ -7,7 +7,7 @@ enum { SHARE = 4, DEFAULT_SECONDS = 600 };
 
 uint64_t limits_memory(const struct options *options)
 {
-    static uint64_t kept; // 0 until the first query; the system's limits rarely change
+    static uint64_t kept; // 0 before the first call; kept because the system's limits rarely change
     if (options->limits.memory_limit_bytes)
         return options->limits.memory_limit_bytes == UINT64_MAX ? 0 : options->limits.memory_limit_bytes;
     uint64_t available = __atomic_load_n(&kept, __ATOMIC_RELAXED);

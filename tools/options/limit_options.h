@@ -4,8 +4,8 @@
 
 #include "options.h"
 
-// Returns the memory limit in bytes, which applies separately to reading and to drawing a model: --memory-limit, or a
-// quarter of the memory available to this process. This quarter is divided by the number of models in progress
+// Returns the memory limit in bytes. Reading a model and drawing it have this limit each. The limit is --memory-limit
+// or, by default, a quarter of the memory available to this process, divided by the number of models in progress
 // (`in_flight`). 0 means no limit. Any thread may call it.
 uint64_t limits_memory(const struct options *options);
 

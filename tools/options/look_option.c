@@ -1,4 +1,4 @@
-// look_option.c: implements --look: finds files of options and reads their lines.
+// look_option.c: implements --look: finds a look and reads its options.
 #include "look_option.h"
 
 #include <errno.h>

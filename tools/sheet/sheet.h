@@ -25,7 +25,7 @@ struct sheet {
     char title[160];
     int columns;
     bool inset;  // frames and enlarges the brightest highlight
-    bool across; // a row of variants: each picture's words are options with values
+    bool across; // a row of variants: `words` of each picture contains pairs of an option and a value
     // The first picture is correct; the shaders of the other pictures contain mistakes. With `all`, mistakes that the
     // scene cannot show are omitted.
     bool mistakes, all;
@@ -37,8 +37,8 @@ struct sheet {
 // Returns true if --across can vary the option.
 bool sheet_varies(const struct option *option);
 
-// Selects the sheet that the options request. Stores the words of each --across in `store`; the caller frees them after
-// the sheet.
+// Selects the sheet that the options request. Stores the words of each --across in `store`. The sheet refers to these
+// words; the caller frees them when it no longer needs the sheet.
 bool sheet_choose(const struct options *options, struct sheet *sheet, char *store[ACROSS_MAX], lam_error *error);
 
 #endif

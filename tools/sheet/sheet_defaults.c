@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-// The numbers of segments with which a shape clearly shows its facets. All other shapes use 24x12. A teapot's stacks
-// are counted per patch, a knot is long, and implicit surfaces are divided into cells instead of segments.
+// For some shapes, a number of segments that makes the facets clearly visible. All other shapes use 24x12. A teapot's
+// stacks are counted per patch, a knot is long, and implicit surfaces are divided into cells instead of segments.
 static const struct {
     const char *shape, *segments;
 } coarse_shapes[] = {{"teapot", "24x4"}, {"torus-knot", "72x10"}, {"gyroid", "32"}, {"metaballs", "24"}};
@@ -29,7 +29,7 @@ static bool is_given(const struct sheet *sheet, const struct options *options, c
     return false;
 }
 
-// Returns whether a default applies: the command line contains no option that replaces the default.
+// Returns whether a default applies. Options of the command line and of the sheet replace defaults.
 static bool is_open(const struct sheet *sheet, const struct options *options, const struct sheet_default *one)
 {
     bool light = strcmp(one->option, "--light") == 0;

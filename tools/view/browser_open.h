@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-// Returns whether the browser was started, which requires a display and xdg-open. Must be called before the sandbox is
-// entered.
+// Starting a browser needs a display and xdg-open. Returns whether the browser was started. Call this function before
+// the sandbox is entered.
 bool browser_open(const char *address);
 
 #endif

@@ -1,5 +1,5 @@
-// view.h: implements `lambent view`: a server, reachable only from this machine, for the page that shows a model or the
-// gallery of a folder.
+// view.h: implements `lambent view`. The server sends the page that shows a model or the gallery of a folder, and is
+// reachable only from this machine.
 #ifndef VIEW_H
 #define VIEW_H
 
@@ -24,7 +24,7 @@ struct view_listener {
     struct view_listener *next;
 };
 
-// A connection from its acceptance to its end. The library stores it as the context of the socket.
+// A network connection. The library stores this struct as the context of the socket.
 struct view_socket {
     int file;
     bool waits;      // waits for a request and is in view.waiting

@@ -138,7 +138,7 @@ struct contract {
     // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The check rewrites such shaders
     // (fixed_state.h).
     bool fixed_state;
-    const double *weights; // the points for each reference scene
+    const double *weights; // the weight of each reference scene in the grade
     bool printed;          // the contract of `lambent shader`, whose shaders contain one loop for each kind of light
 };
 
@@ -163,7 +163,7 @@ const struct contract_varying *contract_varying(const struct contract *contract,
 // Returns the name in the contract that is most similar to an unknown name, or NULL if no name is similar.
 const char *contract_nearest(const struct contract *contract, const char *name);
 
-// Returns the name for a semantic: the name that the shaders declare, otherwise the contract's name, otherwise NULL. A
+// Returns the name with this role: a name that the shaders declare, otherwise the contract's name, otherwise NULL. A
 // name may mean the product of the material's colour and the light's colour.
 const char *contract_name_used(const struct contract *contract, enum uniform_semantic semantic,
                                const struct declarations *vertex, const struct declarations *fragment);

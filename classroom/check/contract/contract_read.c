@@ -129,7 +129,7 @@ static lam_light_frame light_frame_of(const struct contract *c)
     return d->has_direction || d->has_position ? (lam_light_frame)d->light_space : c->space;
 }
 
-// Sets members that follow from the names.
+// Computes the members that depend on the contract's names.
 static bool complete(struct contract_reader *r, bool alpha, bool two_sided)
 {
     struct contract *c = r->contract;

@@ -12,7 +12,7 @@ bool contract_read_varyings(struct contract_reader *r, const json_t *root)
     static const struct {
         const char *name;
         enum varying_semantic semantic;
-        bool in_space; // whether the name may begin with a space, as in object_position
+        bool in_space; // whether a coordinate space may precede the name: object_position
     } words[] = {{"normal", VARYING_NORMAL, true},      {"position", VARYING_POSITION, true},
                  {"to_light", VARYING_LIGHT, true},     {"to_eye", VARYING_EYE, true},
                  {"distance", VARYING_DISTANCE, false}, {"texture_coordinate", VARYING_TEXCOORD, false}};

@@ -47,7 +47,7 @@ struct uniform_value map_texel(enum uniform_semantic map, const struct reference
 {
     const lam_vec3 n = s->bump;
     switch (map) {
-    case SEMANTIC_BASE_COLOR_MAP: // for other shaders, the map is white: their colours are separate inputs
+    case SEMANTIC_BASE_COLOR_MAP: // in classic shaders, colours are separate inputs, so the map is white
         return s->physical ? color(s, NUMBER_BASE_COLOR, s->diffuse) : grey(1);
     case SEMANTIC_METALLIC_ROUGHNESS_MAP:
         return (struct uniform_value){{unread_red, texel_of(s, NUMBER_ROUGHNESS, s->roughness),

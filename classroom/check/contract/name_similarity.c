@@ -55,8 +55,8 @@ static int role_of(const char *word)
     return -1;
 }
 
-// Splits "uLightPosition" and "light_position" into "light", "position": at underscores and capitals. Removes the
-// prefix that marks the kind of variable (vNormal, fN, uKa).
+// Splits a name into words at punctuation and capitals: "uLightPosition" and "light_position" become "light",
+// "position". Removes the prefix that marks the kind of variable (vNormal, fN, uKa).
 static void split(const char *name, struct name_words *out)
 {
     *out = (struct name_words){0};
@@ -102,8 +102,8 @@ static bool contradict(const struct name_words *a, const struct name_words *b)
     return false;
 }
 
-// Returns the share of all words that both names contain. Sets `telling` if one of the shared words is more specific
-// than position, matrix or colour.
+// Returns the number of words that occur in both names, divided by the number of different words in the two names. Sets
+// `telling` if one of the shared words is more specific than position, matrix or colour.
 static double shared_words(const struct name_words *a, const struct name_words *b, bool *telling)
 {
     int shared = 0;
@@ -117,8 +117,8 @@ static double shared_words(const struct name_words *a, const struct name_words *
     return all > 0 ? (double)shared / all : 0;
 }
 
-// Gets the sound of a name: its consonants, without doubles and with similar sounds merged. "colour" and "color" become
-// klr; "normalise" and "normalize" become nrmls.
+// Gets the sound of a name: the consonants of the name, without repetitions. Similar consonants become the same letter.
+// "colour" and "color" become klr; "normalise" and "normalize" become nrmls.
 static void sound_of(const char *name, char out[WORD_LENGTH])
 {
     size_t length = 0;

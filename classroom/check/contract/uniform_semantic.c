@@ -52,7 +52,7 @@ static lam_rgb total_ambient(const struct reference_scene *s)
     return sum;
 }
 
-// Returns the matrix that transforms world space to a light frame's space.
+// Returns the matrix that transforms world space to the space `frame`.
 static lam_mat4 matrix_to(lam_light_frame frame, const struct reference_matrices *m)
 {
     lam_mat4 out = lam_mat4_identity();
@@ -69,8 +69,8 @@ static struct uniform_value light_position(const struct reference_light *light, 
                                                 : vector(mat4_point(to, light->position), 1);
 }
 
-// Returns the numbers of a spot light's cone: the cosine of the cutoff and the exponent. The other two numbers give
-// shaders with two angles a hard edge at the cutoff, or no edge.
+// Returns the numbers of a spot light's cone: the cosine of the cutoff and the exponent. The other two numbers are for
+// shaders with two angles. They make the edge at the cutoff hard, or remove the edge if the light is not a spot.
 static struct uniform_value cone(const struct reference_light *light)
 {
     if (light->cutoff_deg <= 0)
@@ -79,8 +79,8 @@ static struct uniform_value cone(const struct reference_light *light)
     return (struct uniform_value){{cosine, light->exponent, cosine, 1e5f}};
 }
 
-// Returns the factor of light intensities. Published shaders with metalness and roughness divide by pi. Lambent's
-// intensities include pi: a white surface that faces a light of intensity 1 has the value 1.
+// Returns the factor for the intensities of lights. Published shaders with metalness and roughness divide the reflected
+// light by pi. Lambent's intensities include pi: a white surface that faces a light of intensity 1 has the value 1.
 static float light_scale(const struct reference_scene *s) { return s->is_radiance ? (float)PI : 1; }
 
 // Returns the inverse transpose of the matrix that transforms the model's space to `space`.

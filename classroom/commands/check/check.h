@@ -38,10 +38,10 @@ void check_free_submissions(struct check_submission *submissions, int count);
 // "a/phong".
 size_t check_stem_length(const char *path);
 bool check_same_stem(const char *a, const char *b);
-bool check_is_vertex(const char *path);   // decided by the extension: .vert, .vs, .vsh or .vertex, also followed by
-                                          // .glsl
-bool check_is_fragment(const char *path); // decided by the extension: .frag, .fs, .fsh or .fragment, also followed by
-                                          // .glsl
+// These functions look at the extension of a file. Vertex shaders end in .vert, .vs, .vsh or .vertex, and fragment
+// shaders in .frag, .fs, .fsh or .fragment. Each of these extensions may be followed by .glsl.
+bool check_is_vertex(const char *path);
+bool check_is_fragment(const char *path);
 
 // Pairs the shader files given on the command line. A vertex shader belongs to the fragment shader that has the same
 // name and is in the same folder. Fragment shaders without a matching vertex shader use `vertex`. Returns the number of
@@ -90,7 +90,7 @@ struct check_points check_points_of(const lam_check_report *report);
 
 // --- output
 
-// Prints a sentence that states that no mistake was found, without a line end.
+// Prints the sentence for a report without mistakes. Prints no line end.
 void check_print_no_finding(FILE *file, const lam_check_report *report);
 void check_report_text(FILE *file, const lam_check_report *report, const char *shader, double tolerance);
 void check_report_line(FILE *file, const struct check_result *result); // prints a line of text for a class
@@ -99,8 +99,8 @@ void check_report_json(FILE *file, const struct check_result *result, const char
 // Prints the lists of contracts, scenes and mistakes.
 bool check_print_lists(FILE *file, lam_error *error);
 
-// Returns one sentence: the first mistake, otherwise the first message, otherwise the meaning of the verdict. Returns
-// "" if the shader passes.
+// Returns a sentence about the first mistake, otherwise the first message, otherwise the meaning of the verdict.
+// Returns "" if the shader passes.
 const char *check_says(const lam_check_report *report);
 
 // Writes a CSV value, in quotes if necessary. Escapes names that a spreadsheet would evaluate as formulas.
@@ -146,7 +146,7 @@ struct check_batch {
     const char *const *scenes; // NULL means all scenes
     int scene_count;
     double tolerance;
-    const lam_check_contract *contract; // NULL detects the contract
+    const lam_check_contract *contract; // if NULL, the check detects the contract
     lam_check_cache *cache;             // NULL means no cache
     const struct check_submission *submissions;
     int count;

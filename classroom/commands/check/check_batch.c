@@ -1,7 +1,7 @@
 // check_batch.c: checks many shaders in parallel and prints the results in order.
 //
-// Each thread takes the next submission, draws it in a separate process and compares the pictures. If its result is the
-// next to be printed, the thread prints this result and all following results that are ready.
+// Each thread takes the next submission, draws it in a separate process and compares the pictures. If this submission
+// is the next to be printed, the thread prints its result and all following results that are ready.
 #include "check.h"
 
 #include <errno.h>
@@ -51,7 +51,7 @@ struct work {
     struct check_batch *b;
     pthread_mutex_t lock;
     pthread_cond_t printed_one;
-    struct check_result **results; // the result of each submission; NULL until it is ready and after it is printed
+    struct check_result **results; // for each submission, the result that is ready but not yet printed, or NULL
     int next, printed, passed, code;
     lam_error *first;
 };

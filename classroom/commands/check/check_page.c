@@ -53,7 +53,7 @@ static void put_address(FILE *file, const char *path)
     html_address(file, slash ? slash + 1 : path);
 }
 
-// Counts a name: a static string.
+// Adds 1 to the count of a name, which must be a static string.
 static void count(struct counted *list, size_t capacity, const char *name)
 {
     for (size_t i = 0; i < capacity; i++) {

@@ -40,8 +40,8 @@ enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
 
 // --- the drawing process
 
-// Returns whether the process has run out of memory, that is, whether it cannot even allocate half of the limit. Called
-// if the driver aborts.
+// Called if the driver aborts. Returns true if the process cannot allocate half of the memory limit, so that it has
+// probably run out of memory.
 static rlim_t memory_limit;
 static bool is_out_of_memory(void)
 {
@@ -138,7 +138,7 @@ static double now_s(void)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Sets a limit on the processor time that the system enforces even if the parent process dies.
+// Limits the processor time of the process. The system enforces this limit even if the parent process dies.
 static void bound_time(double limit_s)
 {
     rlim_t seconds = (rlim_t)limit_s + 2;
@@ -155,7 +155,7 @@ static double processor_time_s(pid_t pid)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-// Starts this program again, from `path` if /proc is missing.
+// Replaces the process by a new instance of this program. If /proc is missing, starts the program from `path`.
 static void become_worker(const char *memory, const char *path)
 {
     execl("/proc/self/exe", "lambent", CHECK_WORKER, memory, (char *)NULL);
@@ -191,8 +191,8 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     return true;
 }
 
-// Sends as many bytes as the pipe accepts. If the process has closed its end of the pipe, it has died, and its exit
-// status will follow.
+// Sends as many bytes as the pipe accepts. If the pipe is closed at the other end, the process has died, and its exit
+// status follows.
 static void send_some(struct child *child, const lam_bytes *request, size_t *sent)
 {
     ssize_t n = write(child->to, (const char *)request->data + *sent, request->size - *sent);

@@ -11,7 +11,7 @@ struct text {
     size_t length, capacity;
     bool failed;
     lam_error error;
-    struct call_control *call; // bytes are charged to this call, which is checked from time to time; may be NULL
+    struct call_control *call; // the call whose memory limit includes the text; may be NULL
     size_t asked;              // the length at the last check
 };
 

@@ -103,7 +103,8 @@ static float min_cosine(const struct frame_light *light)
     }
 }
 
-// Allocates rows from a block, each a multiple of 64 bytes. If `at` is NULL, only the total size is computed.
+// Allocates rows from a block. The size of each row is a multiple of 64 bytes. If `at` is NULL, only the total size is
+// computed.
 struct rows {
     float *at;
     size_t used;
@@ -242,7 +243,7 @@ bool light_bounds_make(struct light_bounds *table, struct buffer *storage, const
             fill_group(&w, g, count);
     }
     fill_materials(&w, count, capacity, frame, materials);
-    // Only these three tone curves are steeper than linear light.
+    // Only these three tone curves have a slope above 1.
     lam_tone tone = frame->settings.tone;
     float steep = tone == LAM_TONE_ACES || tone == LAM_TONE_AGX || tone == LAM_TONE_CONTRAST ? 4.0f : 1.0f;
     float slope = steep * (frame->settings.color == LAM_COLOR_RAW ? 1.0f : SRGB_SLOPE) * frame->exposure;

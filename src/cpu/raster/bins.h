@@ -16,7 +16,7 @@ enum {
 };
 #define CLIPPED 0x80000000u // flag in bin_entry.first: the number of a clipped triangle
 
-// Triangles of a tile whose numbers are similar. Neighbours in a mesh usually touch the same tile, so that one entry
+// Triangles that touch a tile and have similar numbers. Neighbours in a mesh usually touch the same tile, so one entry
 // lists up to LANES triangles.
 struct bin_entry {
     uint32_t first;     // a triangle number

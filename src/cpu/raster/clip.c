@@ -11,8 +11,8 @@ struct corner {
     float x, y, z, w; // pixels·w (y down), clip z, w
 };
 
-// Each plane adds one corner to a convex polygon, and at most doubles the corners of a thin polygon that rounding has
-// folded.
+// Clipping a convex polygon with a plane adds at most one corner. If rounding has folded a thin polygon, clipping at
+// most doubles the number of corners.
 enum { PLANES = 6, CORNERS_MAX = 3 << PLANES };
 
 // Returns the distance to a plane, multiplied by a positive number. The result is ≥ 0 inside. The near and far planes

@@ -1,4 +1,4 @@
-// fragments.c: sorts a tile's fragments by group (surface and side), the order in which they are shaded.
+// fragments.c: sorts a tile's fragments by group (surface and side), because they are shaded group by group.
 #include "fragments.h"
 
 #include <string.h>
@@ -31,8 +31,8 @@ static void sort_by_group(struct fragments *fragments, uint32_t largest)
         memcpy(fragments->order, from, n * sizeof *from);
 }
 
-// Groups the fragments of a single surface, whose two sides are the only groups. Returns whether all fragments belong
-// to the same side.
+// Groups the fragments by side, for pictures with a single surface. Returns whether all fragments belong to the same
+// side.
 static bool group_sides(struct fragments *fragments)
 {
     uint32_t backs = 0, n = (uint32_t)fragments->count;

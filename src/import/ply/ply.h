@@ -22,7 +22,7 @@ enum ply_format { PLY_ASCII, PLY_LITTLE, PLY_BIG };
 
 struct ply_property {
     const char *name;
-    enum ply_type type; // type of the list's items, for a list
+    enum ply_type type; // for a list, the type of the items
     bool list;
     enum ply_type count_type; // the type of a list's count
 };
@@ -79,7 +79,7 @@ struct ply_table {
     // are set. Rows of fewer than three corners reserve no items.
     uint32_t *items;
     const uint32_t *starts; // one more element than the table has rows
-    bool all_used;          // every number below the request's item_limit is known to be an item
+    bool all_used;          // true if every number below the request's item_limit certainly occurs as an item
 };
 
 // The data that a caller requests from an element.
@@ -89,7 +89,7 @@ struct ply_request {
     uint32_t item_limit; // items must be below this limit
     bool restarts;       // a strip: item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
-    struct arena *keep, *scratch; // memory for items of lists, and for everything else
+    struct arena *keep, *scratch; // `keep` is for items, except of strips; `scratch` is for everything else
 };
 #define PLY_RESTART UINT32_MAX
 
@@ -126,7 +126,7 @@ void ply_copy_column(const struct ply_table *table, int property, const uint8_t 
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,
                    lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 
-// All attributes except positions; NULL if the element does not have the attribute.
+// All attributes except positions. A pointer is NULL if the element does not have this attribute.
 enum { PLY_NORMALS = 1, PLY_TANGENTS = 2, PLY_TEXCOORDS = 4, PLY_COLORS = 8, PLY_ALL = 15 };
 struct ply_attributes {
     const float *normals, *tangents, *texcoords;

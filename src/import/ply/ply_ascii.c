@@ -60,7 +60,7 @@ static const uint8_t *read_scalar(const struct ply_reader *reader, size_t row, i
     next = read_integer(reader, at, &value);
     if (!next || value < ranges[type].min || value > ranges[type].max)
         return fail_number(reader, row, property, at, ranges[type].expected, error), NULL;
-    // Two's complement, truncated to the type's size.
+    // The conversions keep the low bytes of the two's complement.
     uint8_t value8 = (uint8_t)value;
     uint16_t value16 = (uint16_t)value;
     uint32_t value32 = (uint32_t)value;

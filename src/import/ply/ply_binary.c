@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-// Reports a wrong item of a row's list. The list is at `items` in memory, and at `offset` in the file.
+// Reports an invalid item in a row's list. The list is at `items` in memory, and at `offset` in the file.
 static bool fail_item(const struct ply_reader *reader, size_t row, const uint8_t *items, size_t offset, uint32_t item,
                       lam_error *error)
 {
@@ -116,7 +116,8 @@ static bool may_be_triangles(const struct ply_reader *reader, const struct ply_h
     return left == 0;
 }
 
-// Reads the rows as triangles. Sets *done to true if all rows have three items, otherwise to false.
+// Assumes that each row has three items, and reads the rows as triangles. Sets *done to true if the assumption is
+// correct, otherwise to false.
 static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct arena *scratch, bool *done,
                           lam_error *error)
 {

@@ -238,7 +238,7 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
             break;
         case END:
             if (!has_format)
-                return fail_word(&lines, word, "a format line before it", error);
+                return fail_word(&lines, word, "a format line before end_header", error);
             header->body = (size_t)(lines.next - source->bytes);
             return true;
         default:

@@ -38,7 +38,7 @@ static inline float ply_load_f32(const uint8_t *at, bool swapped)
     return value;
 }
 
-// Returns a number of an integer type.
+// Loads an integer of any type.
 static inline int64_t ply_load_integer(const uint8_t *at, enum ply_type type, bool swapped)
 {
     switch (type) {
@@ -57,7 +57,7 @@ static inline int64_t ply_load_integer(const uint8_t *at, enum ply_type type, bo
     }
 }
 
-// Returns a number of any type, without rounding.
+// Loads an integer or a floating-point number of any type, without rounding.
 static inline double ply_load_double(const uint8_t *at, enum ply_type type, bool swapped)
 {
     if (type == PLY_F32)

@@ -71,7 +71,7 @@ static bool copy_chunk(void *user, size_t index, const uint8_t *rows, lam_error 
         memcpy(&bits, &positions->out[i], sizeof bits);
         nonfinite |= (bits & 0x7fffffff) + 0x00800000;
     }
-    if (positions->boxes) { // an ASCII file: choose_origin decides whether floats are precise enough
+    if (positions->boxes) { // only for an ASCII file; choose_origin needs the boxes
         struct box *box = &positions->boxes[index];
         box->finite = !(nonfinite & 0x80000000);
         for (int axis = 0; axis < 3; axis++) {
@@ -133,7 +133,8 @@ static bool round_chunk(void *user, size_t index, const uint8_t *at, lam_error *
     return true;
 }
 
-// Merges the chunks' boxes and chooses the origin. Returns whether floats are not precise enough.
+// Merges the chunks' boxes and chooses the origin. Returns true if the positions must be read as doubles, because
+// floats are too imprecise.
 static bool choose_origin(struct positions *positions, size_t chunks)
 {
     struct box all = positions->boxes[0];

@@ -23,7 +23,7 @@ struct ply_reader {
     // ply_binary.c
     size_t offset; // the offset of row 0 in the file
     size_t list_offset;
-    uint8_t *marks; // mesh_mark_vertices; one byte per vertex, or NULL if there are more vertices than items
+    uint8_t *marks; // one byte per vertex (mesh_mark_vertices), or NULL if there are more vertices than items
     int mixed;      // atomic; set if a row contains more or fewer than the expected three items
 };
 

@@ -1,4 +1,4 @@
-// hash_file.h: the file that `lambent hash` writes and reads: a header, and a line for each picture.
+// hash_file.h: reads and writes the file of `lambent hash`. The file contains a header, and a line for each picture.
 //
 //     lambent hashes 1
 //     version 0.9.0
@@ -41,11 +41,13 @@ void hash_file_sort(struct hash_file *file);
 // Returns the text of the file, allocated with malloc, or NULL if memory runs out.
 char *hash_file_text(const struct hash_file *file);
 
-// Returns a model's name for the file `path`, allocated with malloc: its path relative to the file's folder, after
-// links are resolved. Names of built-in shapes are unchanged. Returns NULL if memory runs out.
+// Returns the name under which the hash file `path` lists a model, allocated with malloc. The name is the model's path
+// relative to the folder of `path`, after links are resolved. Names of built-in shapes are unchanged. Returns NULL if
+// memory runs out.
 char *hash_file_name(const char *path, const char *model);
 
-// Returns the path of the model for a name in the file `path`, allocated with malloc. Returns NULL if memory runs out.
+// Returns the path of the model that the hash file `path` lists under a name, allocated with malloc. Returns NULL if
+// memory runs out.
 char *hash_file_model(const char *path, const char *name);
 
 // Returns whether the hash file `path` may refer to the model `file` (a path from hash_file_model). Links are resolved

@@ -13,7 +13,7 @@
 
 enum { WORDS_MAX = 512 };
 
-// Splits a line into words like a shell: at blanks outside single quotes; \' is a quote. Modifies `text`.
+// Splits a line into words at blanks outside single quotes, like a shell. \' means a quote. Modifies `text`.
 static int split(char *text, char **words)
 {
     int count = 0;
@@ -36,11 +36,11 @@ static int split(char *text, char **words)
     return count;
 }
 
-// The picture options whose values are files: one or six for `environment`, one for `look`. Both options also accept
-// built-in names.
+// The picture options whose values are paths of files: one or six paths for `environment`, and one for `look`. Both
+// options also accept built-in names.
 static const char *const of_files[] = {"environment", "look"};
 
-// Writes the value of an option in of_files, but passes each path through `map` first.
+// Writes the value of an option in of_files. Each path is passed through `map` first.
 static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
                       char *(*map)(const char *file, const char *path))
 {

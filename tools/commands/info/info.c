@@ -13,7 +13,7 @@
 #include "report.h"
 #include "sandbox_start.h"
 
-// Reads a file that requires an unknown extension and ignores the extension.
+// Reads a model. If the file requires an unknown extension, reads the file again as with --lenient.
 static bool load(struct info *info, struct job *job, struct options *options, lam_error *error)
 {
     struct progress progress;
@@ -64,7 +64,7 @@ static int print_one(const char *model, const struct options *given, bool first)
     bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error) &&
               info_names_list(job.scene, &names, &error);
     if (ok) {
-        error = (lam_error){0}; // the model may have loaded only at the second attempt, with --lenient
+        error = (lam_error){0}; // if only the second attempt succeeded, the error is from the first
         measure_drawing(&info, &job);
     } else
         say_error(error.text);

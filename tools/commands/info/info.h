@@ -30,7 +30,7 @@ const char *info_color_space(const struct info_texture *texture);    // "srgb" o
 struct info_name {
     const char *name;
     int objects, parts;
-    int order; // the position of the name's first use
+    int order; // the position at which the name first occurs
 };
 struct info_names {
     struct info_name *items; // allocated with malloc
@@ -38,7 +38,7 @@ struct info_names {
 };
 bool info_names_list(const lam_scene *scene, struct info_names *names, lam_error *error);
 
-// A loaded model, or the error of loading it.
+// A loaded model, or the error if the model cannot be loaded.
 struct info {
     const struct job *job;
     const lam_error *error; // LAM_OK if the model is loaded
@@ -70,7 +70,7 @@ struct info_unit info_unit(const lam_scene *scene);
 // The surface of all objects, in the model's units.
 struct info_measure {
     double area;
-    // True if, along every edge, equally many triangles run in each direction. The surface then encloses a volume.
+    // True if the triangles traverse every edge equally often in each direction. The surface then encloses a volume.
     bool closed;
     double volume; // only valid if `closed`; volume shared by two objects is counted twice
 };
@@ -83,7 +83,8 @@ int info_changed_field(const lam_field *field, const lam_material *material, dou
 const char *info_alpha_mode(const lam_material *material); // returns "opaque", "mask" or "blend"
 const char *info_support(lam_extension_support support);   // returns a description
 
-// Returns a light's colour, scaled so that the largest channel is 1. Sets `intensity` to that channel.
+// Returns a light's colour, scaled so that the largest channel is 1. Stores the largest channel before the scaling in
+// `intensity`.
 lam_rgb info_light_color(const lam_light *light, double *intensity);
 
 void info_text(const struct info *info);

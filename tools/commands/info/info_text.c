@@ -265,7 +265,7 @@ static void print_file(const lam_file_info *info)
 {
     char name[NAME_BYTES + 12];
     if (info->scene_count > 1)
-        print_names("scenes", info->scenes, info->scene_count, info->scene, ", the one that is read");
+        print_names("scenes", info->scenes, info->scene_count, info->scene, ", the scene that lambent reads");
     for (int i = 0; i < info->animation_count && !omitted(i, info->animation_count); i++) {
         const lam_file_animation *animation = &info->animations[i];
         const char *text = shown(animation->name, name);

@@ -14,8 +14,8 @@ static void add(struct info_textures *textures, const lam_texture *texture, cons
     textures->items[textures->count++] = (struct info_texture){.texture = texture, .image = image};
 }
 
-// Adds the textures that were made from the picture: at most one that contains colours and one that contains other
-// values.
+// Adds the textures that were made from the picture: one for colours, one for other values, or both. If the picture is
+// not used, adds the picture alone.
 static void add_image(struct info_textures *textures, const lam_file_image *image)
 {
     for (int values = 0; values < 2; values++)

@@ -112,7 +112,7 @@ static void print_text(const struct batch_text *text)
 void batch_print(struct batch_texts *texts, size_t model, char *out, char *err, bool ok, struct batch_tally *tally)
 {
     struct batch_text *text = &texts->list[model], again = {out, err, true};
-    if (model < texts->next) { // a retry; the first attempt printed its errors
+    if (model < texts->next) { // a retry; the errors of the first attempt are already printed
         if (ok)
             print_text(&again);
         free(out);

@@ -11,7 +11,7 @@ enum { TALLY_CLASSES = 12 };
 // Counts of pictures.
 struct batch_tally {
     struct batch_shard shard;
-    // `before` counts pictures of the journal's earlier runs
+    // `before` and `failed_before` count pictures that the journal lists from earlier runs
     size_t total, written, failed, same, before, failed_before;
     size_t cancelled; // the number of cancelled jobs
     size_t warnings;
@@ -19,7 +19,7 @@ struct batch_tally {
         const char *name;
         size_t count;
     } classes[TALLY_CLASSES]; // the failures by class
-    size_t retried;           // the failed pictures to be retried
+    size_t retried;           // failed pictures that wait for a retry; `failed` includes these
     double start_ms;
     bool has_progress; // the terminal shows a progress line
     double drawn_ms;   // when the progress line was last drawn

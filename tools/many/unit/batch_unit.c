@@ -68,8 +68,8 @@ static bool is_untouched(const json_t *record, const char *output)
 }
 
 // Returns the current path of a file that the record names, allocated with malloc. The record may come from a run in
-// another folder. If the file was in the folder of its model in that run, the result is in the model's current folder.
-// Returns NULL if memory runs out.
+// another folder. If the file was next to its model in that run, returns a path in the model's current folder. Returns
+// NULL if memory runs out.
 static char *path_now(const char *recorded, const char *recorded_model, const char *model)
 {
     char *path = journal_path(recorded), *then = journal_path(recorded_model), *now = NULL;
@@ -193,7 +193,7 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
                                .views = views,
                                .outputs = outputs,
-                               .contents = u->contents, // if not NULL, all pictures are open
+                               .contents = u->contents, // if this is not NULL, all pictures of the unit are open
                                .makes_folders = task->job != NULL,
                                .attempts = attempts,
                                .view_count = count,

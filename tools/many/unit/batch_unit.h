@@ -4,7 +4,7 @@
 
 #include "batch_state.h"
 
-// The work on one model and its results. The arrays have picture_count elements.
+// The work on one model, and the results of the work. The arrays have picture_count elements.
 struct batch_unit {
     struct batch_task task;
     int picture_count;              // task.plan->view_count
@@ -28,13 +28,13 @@ void batch_unit_free(struct batch_unit *unit);
 // to be drawn. Any thread may call it.
 bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
 
-// Draws the open pictures. `cancel` stops the drawing. If `cancel` is NULL, Ctrl-C stops the drawing. With `capture`,
-// messages are stored. Otherwise messages are printed immediately, and a terminal shows a progress bar.
+// Draws the open pictures. `cancel` stops the drawing. If `cancel` is NULL, Ctrl-C stops the drawing. If `capture` is
+// set, stores the messages in `unit`. Otherwise prints them immediately, and shows a progress bar on a terminal.
 void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const struct options *options,
                      lam_device *device, const lam_cancel *cancel, bool capture);
 
-// Marks all open pictures as failed with an error class. Called if drawing ended without a report, for example in a
-// crash. The message `text` must name the model.
+// Marks all open pictures as failed with an error class. Call this if the drawing process ended without a report, for
+// example in a crash. The message `text` must name the model.
 void batch_unit_fail(struct batch_unit *unit, const struct batch *batch, const char *class, int exit, const char *text);
 
 #endif

@@ -12,13 +12,13 @@
 #include "sandbox.h"
 
 struct batch_use {
-    // Draws a model of the plan. `job` contains its options, model, device and start time. The loop reports the job's
-    // warnings and frees the job. Results are stored in the object `found`, which becomes part of the model's record.
-    // Any thread may call it; with --isolate, another process calls it.
+    // Draws a model of the plan. `job` contains the options, the model, the device and the start time. The loop reports
+    // the job's warnings and frees the job. Stores its results in the object `found`, which becomes part of the model's
+    // record. Any thread may call `draw`; with --isolate, the loop calls it in another process.
     bool (*draw)(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
     // Adds the paths that a model needs in addition to its own folder. May be NULL.
     void (*reach)(void *user, size_t model, struct sandbox_paths *paths);
-    // Decides which files may be written. NULL allows no files.
+    // Decides which files the sandbox may write. NULL allows no files.
     writer_rule *right;
     // Called after the last model, unless the run was interrupted. Receives the records of all models; `failed` is the
     // number of failed models. Returns the exit code. The loop owns the records.

@@ -116,7 +116,7 @@ static bool take_model(struct drawer *d, struct job *job, lam_error *error)
 
 // --- VIEW_MODEL
 
-// Writes the path of a file in the page. `inside` is the path relative to the model's folder.
+// Writes the path under which the page requests a file. `inside` is the path relative to the model's folder.
 static void put_path(struct json *json, const char *key, const char *page_model, const char *inside)
 {
     char *path = NULL;
@@ -127,7 +127,7 @@ static void put_path(struct json *json, const char *key, const char *page_model,
     free(path);
 }
 
-// Writes the missing files of the model, because the picture changes when one of them is created.
+// Writes the list of the model's missing files. The picture changes when one of these files is created.
 static void put_missing(struct json *json, const struct job *job, const char *page_model)
 {
     const char *slash = strrchr(job->model, '/'), *path;

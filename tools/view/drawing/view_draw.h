@@ -1,4 +1,4 @@
-// view_draw.h: runs the drawing process, which reads requests, draws with their options, and answers. The process keeps
+// view_draw.h: runs the drawing process, which reads requests, draws the pictures, and sends answers. The process keeps
 // the model loaded. It runs in the sandbox for untrusted files, without access to sockets and other processes.
 #ifndef VIEW_DRAW_H
 #define VIEW_DRAW_H
@@ -8,7 +8,7 @@
 
 // The kinds of requests.
 enum view_kind {
-    VIEW_MODEL,   // JSON: the model's files, and whether the page can draw it
+    VIEW_MODEL,   // JSON: the model's files, and whether the page can draw the model
     VIEW_PIXELS,  // JSON about the picture (picture_json.h), and its RGBA pixels
     VIEW_PICTURE, // the picture as a PNG
     VIEW_EXPLAIN, // JSON that explains the pixel x, y

@@ -39,7 +39,7 @@ static void run(void *user, int from, int to)
     const struct start *start = user;
     close_others(from, to);
     // The server's filter allows connections and new processes. A drawing process needs neither, so it installs a
-    // stricter filter. Landlock already restricts the folders of both.
+    // stricter filter. Landlock already restricts the folders of the server and of the drawing process.
     if (sandbox_active()->filter && !sandbox_filter_install(SANDBOX_DRAWS))
         _exit(1);
     view_draw_serve(start->files, start->options, from, to);

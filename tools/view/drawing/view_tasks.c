@@ -57,7 +57,7 @@ static struct view_process *process_of(struct view_tasks *tasks, const struct vi
     return NULL;
 }
 
-// Cancels a task's picture. A task that waits for a process ends in the next step.
+// Cancels a task. If no process works on the task yet, the next call of view_tasks_step ends the task.
 static void cancel(struct view_tasks *tasks, struct view_task *task)
 {
     task->superseded = true;
@@ -100,8 +100,9 @@ void view_tasks_drop(struct view_tasks *tasks, struct view_task *task)
         cancel(tasks, task);
 }
 
-// Returns the process for a task. Prefers an idle process that has loaded the model, then a new process. Replaces an
-// idle process if there are too many. Returns NULL if the task must wait.
+// Returns the process for a task. Prefers an idle process that has loaded the model, then a new process. If the maximum
+// number of processes is running, ends an idle process with another model and returns its entry for the new process.
+// Returns NULL if the task must wait.
 static struct view_process *find_process(struct view_tasks *tasks, const struct view_task *task)
 {
     struct view_process *free_one = NULL, *waiting = NULL;

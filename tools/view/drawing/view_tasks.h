@@ -17,7 +17,8 @@ struct view_result {
 struct view_task {
     struct view_request request;
     char *words; // allocated with malloc
-    // Identifies the page: a newer request of the same page cancels this one. Allocated with malloc; NULL for a thumbnail.
+    // Identifies the page. A newer request of the same kind from this page cancels this task. Allocated with malloc;
+    // NULL for a thumbnail.
     char *client;
     void *user; // NULL if nobody waits for the result any more
     bool running;
@@ -46,8 +47,8 @@ struct view_task *view_tasks_add(struct view_tasks *tasks, const struct view_req
 // Discards a task whose result is no longer needed.
 void view_tasks_drop(struct view_tasks *tasks, struct view_task *task);
 
-// Assigns waiting tasks to processes and reads results. Must be called when one of the processes' files is readable,
-// and regularly.
+// Assigns waiting tasks to processes and reads results. Call this regularly, and whenever the file handle of a process
+// is readable.
 void view_tasks_step(struct view_tasks *tasks);
 
 // Ends all processes, and finishes all tasks with status 503.

@@ -274,7 +274,7 @@ static void check(struct program *p, const struct condition *c)
     end(p, SECCOMP_RET_ERRNO | (unsigned)c->error);
 }
 
-// Adds a list of conditions. If several lists contain a call, the first of them decides about the call.
+// Adds a list of conditions. If several lists contain a call, only the first of these lists applies.
 static void allow_some(struct program *p, const struct condition *list, size_t count)
 {
     for (size_t i = 0, next; i < count; i = next) {

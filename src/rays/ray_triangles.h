@@ -53,9 +53,9 @@ static __attribute__((noinline, unused)) void place_draw(struct placement *place
     }
 }
 
-// Computes the corners of a triangle in world space, bit-identical to ray_corners. Returns false if no ray can meet the
-// triangle. In that case, its corners are not finite, or it belongs to the rectangles of lines and points, which face
-// the eye and cast no shadows.
+// Computes the corners of a triangle in world space, bit-identical to ray_corners. Returns false if rays must ignore
+// the triangle: its corners are not finite, or the triangle is part of a line or point. Lines and points face the eye
+// and cast no shadows.
 LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct placement *place, struct point p[3])
 {
     if (number - place->first >= place->end - place->first)

@@ -4,7 +4,7 @@
 
 #include "prefix.h"
 
-// Finds the contract that contains most of the shaders' names. *out is NULL if no contract contains any of them.
+// Finds the contract that matches the names in the shaders best. *out is NULL if no contract contains any of them.
 // `vertex` may be NULL. Returns false if memory runs out.
 bool contract_recognise(lam_check_contract *const *contracts, int count, const char *vertex, const char *fragment,
                         const struct contract **out, lam_error *error);

@@ -232,8 +232,8 @@ static void store_attributes(const struct builder *b, size_t item, size_t vertex
         interpolate_color(mesh, item, segment_point, (char *)b->to.colors + color_size(mesh) * vertex);
 }
 
-// Stores the corners of a rectangle. Corners 0 and 1 are −(x, y) pixels from the ends of the line; corners 2 and 3 are
-// +(x, y) pixels from them. y points up.
+// Stores the corners of a rectangle. Corners 0 and 1 are offset from the ends of the line by −(x, y) pixels, corners 2
+// and 3 by (x, y) pixels. y points up.
 static void store_corners(const struct builder *b, size_t item, const lam_vec3 ends[2], double x, double y)
 {
     for (size_t corner = 0; corner < LINE_CORNERS; corner++) {

@@ -43,7 +43,7 @@ struct ray_lanes {
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
     unsigned of_k[3]; // for each k, the rays with this k
-    int k, i, j;      // if all requested rays have the same k: this k (only row k is then used); otherwise −1
+    int k, i, j;      // the common k of the requested rays (only row k is then used), or −1 if there is none
 };
 
 LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)

@@ -133,8 +133,8 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
     lam_environment_free(studio);
     if (!ok)
         return false;
-    // The warning is the same for every view, because it does not contain the measured share. A scene with several
-    // views therefore reports it only once.
+    // The warning is the same for every view, because it does not contain the measured share. A scene reports equal
+    // warnings only once.
     lam_scene_add_warning(scene, "the file's own lights leave much of the picture black, so a dim studio also lights "
                                  "the model (the rig 'file' uses only the file's lights)");
     params->exposure = LAM_STUDIO_FILL_EXPOSURE;

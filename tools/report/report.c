@@ -395,7 +395,7 @@ FILE *report_stream(const struct options *options)
     return options->picture.output && strcmp(options->picture.output, "-") == 0 ? stderr : stdout;
 }
 
-// A usage error starts with an option or a command. Prints the command that shows its help.
+// Prints the command that shows the help of an option or a command. `text` is a usage error that starts with its name.
 static void say_where_to_look(const char *text)
 {
     char name[64];

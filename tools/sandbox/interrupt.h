@@ -17,7 +17,7 @@ bool interrupted(void);
 // example, after Ctrl-C a shell reports 130 and ends the loop that called the program.
 void interrupt_finish(void) __attribute__((noreturn));
 
-// Must be called in a new process, with the ID of its parent process. When the thread that started the new process
+// Must be called in a new process, with the ID of the parent process. When the thread that started the new process
 // ends, the system kills the new process.
 void interrupt_with_parent(pid_t parent);
 

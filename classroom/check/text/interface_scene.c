@@ -47,7 +47,7 @@ static lam_rgb *light_color(struct reference_light *light, enum light_term term)
 // Sets the strength of a term to the fixed value if the shader declares no name for the strength. A scene switches a
 // term off by setting its strength to 0. If the shader does not declare the strength, the term's colour becomes black
 // instead. If the shader does not declare this colour either, the colours of the lights become black. `color` is NULL
-// if the shader does not declare the term's colour. `lit` is set if it declares the colours of the lights.
+// if the shader does not declare the term's colour. `lit` is set if the shader declares the colours of the lights.
 static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
                          bool lit, enum light_term term)
 {

@@ -91,8 +91,8 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane)
 {
-    // The distance of a point of the circle from the eye plane differs from the centre's distance by at most the radius
-    // times the sine of the angle between the view direction and `up`.
+    // Along the view direction, the circle extends from its centre by the radius times the sine of the angle between
+    // the view direction and `up`.
     lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
     double reach = 1.01 * (ground->end + 2 * ground->square) * math_sqrt(up.z * up.z < 1 ? 1 - up.z * up.z : 0);
     double nearest = -middle.z - reach, farthest = -middle.z + reach;

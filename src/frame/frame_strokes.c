@@ -273,8 +273,8 @@ static void build_line(const struct builder *b, size_t item)
 {
     lam_vec3 p[2] = {eye_position(b, 2 * item), eye_position(b, 2 * item + 1)};
     struct segment_point ends[2] = {{2 * item, 2 * item + 1, 0}, {2 * item, 2 * item + 1, 1}};
-    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z}; // above 0 if the end is in front of the near
-                                                                         // plane
+    // above 0 if the end is between the eye and the near plane, or behind the eye
+    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z};
     if (!(before[0] <= 0) && !(before[1] <= 0)) {
         store_nothing(b, item, ends[0]);
         return;

@@ -37,7 +37,7 @@ bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, c
                            struct call_control *call, lam_error *error);
 
 // Replaces the lines or points of a draw's mesh with polygons of stroke_triangles triangles each, in the same order.
-// Polygons in front of the near plane have no area.
+// Polygons that are nearer than the near plane have no area.
 void frame_strokes_build(struct frame *frame, struct frame_draw *draw, const lam_mat4 *transform,
                          const struct stroke_view *view);
 

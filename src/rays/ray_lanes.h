@@ -6,8 +6,8 @@
 // not depend on the hierarchy, on the number of lanes, or on which rays are traced together.
 //
 // The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013). Seen along the ray, with
-// the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
-// passes. Rounding is monotonic, so such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for both
+// the origin at (0, 0), the signs of cross products of a triangle's corners show the side on which the ray passes each
+// edge. Rounding is monotonic, so such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for both
 // triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles around a
 // point do not block its rays. A triangle whose plane contains the start point of the ray (through_points) does not
 // block the ray either, because t is then 0 except for rounding.

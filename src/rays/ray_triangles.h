@@ -75,7 +75,7 @@ LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct pl
     return (sum.xy[0] + sum.xy[1]) + sum.z[0] == 0 && frame_draw_casts(place->draw);
 }
 
-// Computes the corners in the hierarchy's space; all are 0 if no ray meets the triangle.
+// Computes the corners in the hierarchy's space. If rays must ignore the triangle, all corners are 0.
 LANE_FN void ray_space_corners(const struct builder *b, uint32_t number, struct placement *place, struct point p[3])
 {
     const double *centre = b->hierarchy->centre, scale = b->hierarchy->scale;

@@ -102,8 +102,8 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
                      LIGHT_SPECULAR);
 }
 
-// Adapts a scene to shaders with metalness and roughness, which have no separate strengths of the terms. In a scene
-// that shows only the ambient term, the lights become black instead.
+// Adapts a scene to shaders with metalness and roughness, which have no separate strengths of the terms. If a scene
+// shows only the ambient term, its lights therefore become black.
 static void adapt_physical(const struct shader_interface *r, struct reference_scene *s)
 {
     const struct contract_defaults *d = &r->defaults;

@@ -9,8 +9,8 @@
 bool contract_recognise(lam_check_contract *const *contracts, int count, const char *vertex, const char *fragment,
                         const struct contract **out, lam_error *error);
 
-// For a program of an unknown contract, describes in a sentence which of its names are missing in `contract`. `unknown`
-// contains the names that the driver reports.
+// If the contract of a program is unknown, describes in a sentence which of the program's names are missing in
+// `contract`. `unknown` contains the names that the driver reports.
 void contract_describe_unknown(const struct contract *contract, const struct declarations *vertex,
                                const struct declarations *fragment, const char *const *unknown, int count, char *out,
                                size_t capacity);

@@ -6,13 +6,14 @@
 #include "up_axis.h"
 #include "view_extents.h"
 
-// The distances at which the ground begins to fade and has faded out, in radii of the scene's sphere. A catcher shows
-// only its shadow.
+// The ground begins to fade at the distance WHOLE, and is invisible from END, in radii of the scene's sphere. A catcher
+// shows only its shadow.
 #define WHOLE       3.0
 #define END         6.0
 #define CATCHER_END 4.0
 // A catcher fades between these distances from the picture's centre, as fractions of half the picture's size, so that
-// no shadow is cut off at the border. The model of a fitted camera is inside (FILL_ON_GROUND in camera_fit.c).
+// no shadow is cut off at the border. If the camera is fitted, the model is inside these distances (FILL_ON_GROUND in
+// camera_fit.c).
 #define BORDER_FIRST 0.8
 #define BORDER_LAST  0.95
 // The distance below the lowest point, in radii. Without this distance, a flat underside would have the same depth as
@@ -90,8 +91,8 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane)
 {
-    // The distance of a point of the circle from the eye plane differs from the centre's distance by at most the radius
-    // times the sine of the angle between the view direction and `up`.
+    // Along the view direction, the circle extends from its centre by the radius times the sine of the angle between
+    // the view direction and `up`.
     lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
     double reach = 1.01 * (ground->end + 2 * ground->square) * math_sqrt(up.z * up.z < 1 ? 1 - up.z * up.z : 0);
     double nearest = -middle.z - reach, farthest = -middle.z + reach;
@@ -125,7 +126,7 @@ static double border_fade(const struct frame *frame, const lam_mat4 *to_pixel, l
 static int64_t whole_number(double x)
 {
     if (!(x > -1e15 && x < 1e15))
-        return 0; // at this distance from zero, squares cannot be distinguished
+        return 0; // so far from zero, a double is too coarse to tell squares apart
     int64_t n = (int64_t)x;
     return n - ((double)n > x);
 }
@@ -138,8 +139,8 @@ bool frame_ground_make(struct frame *frame, const lam_mat4 *view, const lam_mat4
              to_pixel = mat4_mul(view, &place);
     to_pixel = mat4_mul(pixel, &to_pixel);
     bool catcher = ground->kind == LAM_GROUND_SHADOW;
-    // The squares of a checker pattern begin at multiples of their side in world space, so that the ground stays the
-    // same while a model rotates.
+    // In world space, the edges of a checker's squares are at multiples of the square's size, so that the ground stays
+    // the same while a model rotates.
     bool checker = ground->kind == LAM_GROUND_CHECKER;
     double at_x = v3_dot(ground->middle, ground->right), at_y = v3_dot(ground->middle, ground->front);
     int64_t first_x = checker ? whole_number(at_x / ground->square) : 0;
@@ -147,7 +148,7 @@ bool frame_ground_make(struct frame *frame, const lam_mat4 *view, const lam_mat4
     double shift_x = checker ? (double)first_x * ground->square - at_x : 0;
     double shift_y = checker ? (double)first_y * ground->square - at_y : 0;
     if (shift_x < -ground->square || shift_x > 0 || shift_y < -ground->square || shift_y > 0)
-        shift_x = shift_y = 0; // too far from zero for whole squares
+        shift_x = shift_y = 0; // so far from zero, a double is too coarse for the squares
     int half = (int)(ground->end / ground->square) + 2, side = 2 * half;
     size_t corners = 4 * (size_t)side * (size_t)side;
     size_t bytes = corners * (3 + 4) * sizeof(float) + corners / 4 * 6 * sizeof(uint32_t);

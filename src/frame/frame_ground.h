@@ -4,11 +4,11 @@
 
 #include "frame.h"
 
-// Places the ground of a frame. There is no ground if the camera sees its underside, or if the scene has no extent.
-// Sets all members of frame->ground except its mesh and material.
+// Places the ground of a frame. There is no ground if the camera would see it from below, or if the scene has no
+// extent. Sets all members of frame->ground except its mesh and material.
 void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_camera *camera, const lam_mat4 *view);
 
-// Adjusts near and far planes that were fitted to the scene, so that they include the ground.
+// Adjusts near and far planes that were fitted to the scene, so that the ground is between the planes.
 void frame_ground_planes(const struct frame_ground *ground, const lam_mat4 *view, bool orthographic, double *near_plane,
                          double *far_plane);
 

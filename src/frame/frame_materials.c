@@ -48,7 +48,8 @@ size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *sc
         count += !fits(material, frame_reflection(frame, material));
         mixed |= material->physical != physical;
     }
-    // Each material may be used for unlit lines, or for the back of an object whose front has the other kind.
+    // Each material may also need a converted copy for unlit lines, or for the back of an object whose front has the
+    // other kind.
     for (int i = 0; i < scene->meshes.count; i++)
         if (mesh_is_strokes(scene_mesh(scene, i)) && !scene_mesh(scene, i)->normals) {
             count += 2 * ((size_t)scene->materials.count + 1);

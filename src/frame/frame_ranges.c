@@ -38,10 +38,11 @@ static bool is_clear(const struct frame *frame, const lam_mesh *mesh, int materi
            m->diffuse.r >= 1 && m->diffuse.g >= 1 && m->diffuse.b >= 1;
 }
 
-// The effects of one side of a range on the light behind it. A range has the traits of both sides.
+// Traits: the effects of one side of a range on light that passes through. A range combines the traits of its two
+// sides.
 enum side_trait { SIDE_DIMS = 1, SIDE_TRANSMITS = 2, SIDE_REFRACTS = 4, SIDE_SEEN_THROUGH = 8, SIDE_MASKED = 16 };
 
-// Returns the traits of a side with this material. `varies` is as for sees_through.
+// Returns the traits of a side with this material. `varies` has the same meaning as in sees_through.
 static unsigned side_traits(const struct frame *frame, const lam_mesh *mesh, int material, lam_reflection model,
                             bool varies)
 {
@@ -54,7 +55,7 @@ static unsigned side_traits(const struct frame *frame, const lam_mesh *mesh, int
     return traits | (m->alpha_mode == LAM_ALPHA_MASK ? SIDE_MASKED : 0);
 }
 
-// Adds a range of triangles with the traits of its sides to the frame.
+// Adds a range to the frame, and sets the properties that follow from the traits of its sides.
 static void add_range(struct frame *frame, struct frame_draw_range range, unsigned traits)
 {
     lam_output output = frame->settings.output;

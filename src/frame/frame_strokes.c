@@ -232,8 +232,8 @@ static void store_attributes(const struct builder *b, size_t item, size_t vertex
         interpolate_color(mesh, item, segment_point, (char *)b->to.colors + color_size(mesh) * vertex);
 }
 
-// Stores the corners of a rectangle: first to the `right` of both ends, then to the left, offset by (x, y) in pixels, y
-// up.
+// Stores the corners of a rectangle. Corners 0 and 1 are offset from the ends of the line by −(x, y) pixels, corners 2
+// and 3 by (x, y) pixels. y points up.
 static void store_corners(const struct builder *b, size_t item, const lam_vec3 ends[2], double x, double y)
 {
     for (size_t corner = 0; corner < LINE_CORNERS; corner++) {
@@ -273,8 +273,8 @@ static void build_line(const struct builder *b, size_t item)
 {
     lam_vec3 p[2] = {eye_position(b, 2 * item), eye_position(b, 2 * item + 1)};
     struct segment_point ends[2] = {{2 * item, 2 * item + 1, 0}, {2 * item, 2 * item + 1, 1}};
-    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z}; // above 0 if the end is in front of the near
-                                                                         // plane
+    // above 0 if the end is between the eye and the near plane, or behind the eye
+    double before[2] = {b->near_plane + p[0].z, b->near_plane + p[1].z};
     if (!(before[0] <= 0) && !(before[1] <= 0)) {
         store_nothing(b, item, ends[0]);
         return;

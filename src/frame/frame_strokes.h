@@ -1,11 +1,11 @@
 // frame_strokes.h: converts lines and points to polygons that face the eye, so that devices draw only triangles.
 //
-// A line becomes a rectangle in the window. Each end of the line becomes two corners, moved at right angles to the line
-// to both sides, at the depth of the end. A point becomes a square or, if the difference is visible, a regular polygon
-// of 8 or 16 corners. These polygons are planar in space and in the window, so depth and attributes are interpolated
-// along a line as along the edge of a triangle. Each polygon is drawn nearer to the eye by the polygon's width.
-// Otherwise, a slanted surface would hide half of a line on the surface. Lines have no caps at their ends, even if
-// several lines meet.
+// A line becomes a rectangle in the window. Each end of the line becomes two corners, one on each side of the line, at
+// the depth of the end. A point becomes a square or, if the difference is visible, a regular polygon of 8 or 16
+// corners. These polygons are planar in space and in the window, so depth and attributes change along a line in the
+// same way as along the edge of a triangle. Each polygon is drawn nearer to the eye by the polygon's width. Otherwise,
+// a slanted surface would hide half of a line on the surface. Lines have no caps at their ends, even if several lines
+// meet.
 #ifndef FRAME_STROKES_H
 #define FRAME_STROKES_H
 
@@ -32,12 +32,12 @@ size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners);
 void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera, const struct stroke_view *view,
                         int height, double *near_plane);
 
-// Reserves memory for all lines and points of a scene. The memory is empty at first.
+// Reserves memory for the polygons of all lines and points of a scene.
 bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, const struct stroke_view *view,
                            struct call_control *call, lam_error *error);
 
 // Replaces the lines or points of a draw's mesh with polygons of stroke_triangles triangles each, in the same order.
-// Polygons in front of the near plane have no area.
+// Polygons that are nearer than the near plane have no area.
 void frame_strokes_build(struct frame *frame, struct frame_draw *draw, const lam_mat4 *transform,
                          const struct stroke_view *view);
 

@@ -1,5 +1,5 @@
-// edge_keys.h: represents the edges from one point to points with higher numbers as integers, so that sorting groups
-// equal edges.
+// edge_keys.h: integer keys for the edges of one point, so that sorting groups equal edges. The other end of each edge
+// has a higher number than the point.
 #ifndef EDGE_KEYS_H
 #define EDGE_KEYS_H
 

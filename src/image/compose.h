@@ -4,7 +4,7 @@
 
 #include <lambent/image.h>
 
-// Composes the channels of a picture over a background, in linear light unless the picture's values are raw.
+// Tables for compositing a picture over a background, in linear light unless the picture's values are raw.
 struct compose {
     double linear[256]; // the linear value of each byte
     // For i > 0, the smallest linear value that rounds to byte i: the linear value of (i − ½)/255.

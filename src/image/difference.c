@@ -5,7 +5,7 @@
 
 static void difference_bytes(const uint8_t *a, const uint8_t *b, uint8_t *out, size_t pixels, float gain)
 {
-    // A table of all 256 differences times the gain.
+    // The value that is shown for each difference from 0 to 255.
     uint8_t shown[256];
     for (int i = 0; i < 256; i++) {
         float value = (float)i * gain + 0.5f;

@@ -9,11 +9,11 @@
 
 #define KNOWN "PNG, JPEG, WebP, BMP, TGA, PPM (P6), PFM, EXR or Radiance"
 
-// If memory runs out, picture libraries report a damaged file, and loading a library fails. Therefore such an error is
-// reported only if memory can still be allocated.
+// If memory runs out, picture libraries report a damaged file, and loading a library fails. Therefore this function
+// first tests whether memory can still be allocated. If not, it replaces the error.
 static bool blame_memory(lam_error *error)
 {
-    enum { SOME = 1 << 20 }; // larger than the requests of such libraries
+    enum { SOME = 1 << 20 }; // more memory than these libraries request at once
     if (error->code != LAM_CANNOT_READ && error->code != LAM_UNSUPPORTED)
         return false;
     void *volatile some = malloc(SOME); // volatile, so that the unused memory is really allocated

@@ -1,5 +1,5 @@
 // light_rays.h: computes the light that passes along LANES rays (docs/lighting/shadows.md). Define LANES before
-// including this header, before or after ray_lanes.h.
+// including this header.
 #ifndef LIGHT_RAYS_H
 #define LIGHT_RAYS_H
 
@@ -52,8 +52,8 @@ struct side_share {
     float passed[3];
 };
 
-// Gets the light that passes through a point of a triangle, for each of passed_channels. If all points of the side pass
-// the same light, stores the light in `share`.
+// Gets the light that passes through a point of a triangle, with passed_channels() channels. If all points of the side
+// pass the same light, stores the light in `share`.
 static void share_at(const struct frame *frame, uint32_t number, bool back, float b1, float b2,
                      struct side_share *share)
 {
@@ -136,7 +136,7 @@ static int by_number(const void *a, const void *b)
 // Returns the number of channels of the transmitted light: three if a material tints the light, otherwise one.
 static int passed_channels(const struct frame *frame) { return frame->tints_rays ? 3 : 1; }
 
-// Computes the share of the light that passes along LANES rays, for each of passed_channels.
+// Computes the share of the light that passes along LANES rays, with passed_channels() channels.
 static __attribute__((noinline)) void trace(struct light_rays *r, const struct ray_lanes *ray, unsigned active,
                                             float passed[3][LANES])
 {
@@ -190,8 +190,8 @@ LANE_FN void aim_at_point(struct ray_lanes *ray, const struct ray_lanes *centre,
                            (points->x[n] * dnum_load(u[k] + part) + points->y[n] * dnum_load(v[k] + part)));
 }
 
-// Stores the light along the first probe, and returns the lanes for which another probe finds different light. These
-// lanes are in a penumbra.
+// Stores the light along the first probe ray. Returns the lanes in which another probe ray finds a different value;
+// these lanes are in a penumbra.
 static unsigned trace_probes(struct light_rays *r, const struct ray_lanes *centre, double u[3][LANES],
                              double v[3][LANES], unsigned active, float passed[3][LANES])
 {
@@ -265,7 +265,7 @@ LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, co
     }
 }
 
-// Computes the share of a light that reaches the point of each active lane, in each of passed_channels channels.
+// Computes the share of a light that reaches the point of each active lane, with passed_channels() channels.
 LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, const struct frame_light *light,
                          unsigned active, float passed[3][LANES])
 {

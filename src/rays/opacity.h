@@ -4,8 +4,9 @@
 
 #include "frame.h"
 
-// Returns the opacity, 0…1, of a triangle of the frame at the point with the weights 1 − b1 − b2, b1 and b2; textures
-// are read at level 0. The opacity of a masked surface is 0 or 1. `back` selects the triangle's back side.
+// Returns the opacity (0…1) at a point of a triangle. The weights of the triangle's corners at the point are 1 − b1 −
+// b2, b1 and b2. Textures are read at level 0. The opacity of a masked surface is 0 or 1. `back` selects the triangle's
+// back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
 // Gets the light (red, green, blue) that passes through such a point: 1 − opacity, plus opacity · transmission · (1 −
@@ -27,8 +28,8 @@ struct ray_layers {
 };
 
 // The first function gets the linear colour, with alpha, of a corner. The mesh must have colours. The second function
-// gets the texture coordinates of a corner in the set `set`, or returns false if the mesh has no such coordinates.
-// Corners are numbered over all triangles.
+// gets the texture coordinates of a corner from the set with the number `set`, or returns false if the mesh lacks this
+// set. Corners are numbered over all triangles.
 void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4]);
 bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2]);
 

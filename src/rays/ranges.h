@@ -1,4 +1,5 @@
-// ranges.h: ranges of primitives that become a hierarchy's nodes, and the bins by which they are divided.
+// ranges.h: ranges of primitives, which become the nodes of a hierarchy, and the bins that determine how a range is
+// divided.
 //
 // The surface area heuristic (MacDonald and Booth, 1990) with the candidates of Wald, "On fast construction of
 // SAH-based bounding volume hierarchies", 2007. A range's primitives are sorted into bins by the centres of their
@@ -18,7 +19,7 @@ enum {
     BINS = 16,
     FEW_BINS = 8, // the number of bins for ranges of up to FEW triangles
     FEW = 64,
-    BALANCED_AT = 48 // at this depth, ranges are divided in the middle
+    BALANCED_AT = 48 // from this depth on, ranges are divided in the middle
 };
 
 // Four floats; the last is unused.
@@ -47,7 +48,7 @@ static inline float half_area(struct box b)
 // A range of primitives that becomes nodes.
 struct range {
     uint32_t first, count; // triangles
-    uint32_t node;         // index of the first of ray_nodes_below(count) nodes reserved for it
+    uint32_t node;         // the index of the first node reserved for the range (ray_nodes_below(count) nodes)
     int depth;
     bool sorted;                     // whether all centres are equal, and the primitives are in the order of sort_group
     uint32_t first_cell, cell_count; // the cells that contain the triangles; 0 if the triangles are in

@@ -6,8 +6,8 @@
 // not depend on the hierarchy, on the number of lanes, or on which rays are traced together.
 //
 // The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013). Seen along the ray, with
-// the origin at (0, 0), the signs of cross products of a triangle's corners decide on which side of each edge the ray
-// passes. Rounding is monotonic, so such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for both
+// the origin at (0, 0), the signs of cross products of a triangle's corners show the side on which the ray passes each
+// edge. Rounding is monotonic, so such a sign can be 0 but is never wrong. A sign of 0 is treated as inside for both
 // triangles at the edge, so that no ray passes between them. A corner at the origin gives t = 0, so triangles around a
 // point do not block its rays. A triangle whose plane contains the start point of the ray (through_points) does not
 // block the ray either, because t is then 0 except for rounding.
@@ -37,13 +37,13 @@ struct ray_lanes {
 };
 
 // Rays seen along their directions d, where k is the index of the largest component of d: x = p_i − (d_i/d_k) p_k, y =
-// p_j − (d_j/d_k) p_k and z = p_k/d_k with i, j after k. One of the three factors of a row is 1 and one is 0, both
-// exact. Rays with different k can therefore use the same operations. Rays with a common k need fewer operations, with
-// the same results.
+// p_j − (d_j/d_k) p_k and z = p_k/d_k, with k, i, j in cyclic order. In the rows x and y, one of the three factors is
+// exactly 1, and another is exactly 0. Rays with different k can therefore use the same operations. Rays with a common
+// k need fewer operations, with the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
-    unsigned of_k[3]; // the rays with each k
-    int k, i, j;      // the common k of the requested rays, which then use only row k; k is −1 if they have no common k
+    unsigned of_k[3]; // for each k, the rays with this k
+    int k, i, j;      // the common k of the requested rays (only row k is then used), or −1 if there is none
 };
 
 LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
@@ -63,7 +63,7 @@ LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
         dnum to_x = -(dpick(on_x, d[1], dpick(on_y, d[2], d[0])) * inverse);
         dnum to_y = -(dpick(on_x, d[2], dpick(on_y, d[0], d[1])) * inverse);
         for (int k = 0; k < 3; k++) {
-            int before = (k + 2) % 3, after = (k + 1) % 3; // in cyclic order, i follows k, and j precedes k
+            int before = (k + 2) % 3, after = (k + 1) % 3; // i is after k, and j is before k, in cyclic order
             v->of_k[k] |= dmask_bits(on[k]) << at;
             dnum_store(v->x[k] + at, dpick(on[k], to_x, dpick(on[before], one, zero)));
             dnum_store(v->y[k] + at, dpick(on[k], to_y, dpick(on[after], one, zero)));
@@ -386,7 +386,7 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
 }
 
 #if LANES == 1
-// Returns the number in the frame of the nearest triangle on a ray, and the triangle's distance *t. If several
+// Returns the number of the nearest triangle on a ray, and sets *t to the distance of this triangle. If several
 // triangles are at this distance, the function returns the lowest number. Returns NO_TRIANGLE if there is none.
 // `counts` decides whether a triangle is considered.
 LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray,

@@ -53,9 +53,9 @@ static __attribute__((noinline, unused)) void place_draw(struct placement *place
     }
 }
 
-// Computes the corners of a triangle in world space, bit-identical to ray_corners. Returns false if no ray can meet the
-// triangle. In that case, its corners are not finite, or it belongs to the rectangles of lines and points, which face
-// the eye and cast no shadows.
+// Computes the corners of a triangle in world space, bit-identical to ray_corners. Returns false if rays must ignore
+// the triangle: its corners are not finite, or the triangle is part of a line or point. Lines and points face the eye
+// and cast no shadows.
 LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct placement *place, struct point p[3])
 {
     if (number - place->first >= place->end - place->first)
@@ -75,7 +75,7 @@ LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct pl
     return (sum.xy[0] + sum.xy[1]) + sum.z[0] == 0 && frame_draw_casts(place->draw);
 }
 
-// Computes the corners in the hierarchy's space; all are 0 if no ray meets the triangle.
+// Computes the corners in the hierarchy's space. If rays must ignore the triangle, all corners are 0.
 LANE_FN void ray_space_corners(const struct builder *b, uint32_t number, struct placement *place, struct point p[3])
 {
     const double *centre = b->hierarchy->centre, scale = b->hierarchy->scale;

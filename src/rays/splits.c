@@ -222,8 +222,8 @@ static bool sort_group(struct builder *b, const struct range *r)
     return true;
 }
 
-// Divides a range of few triangles at the midpoint between the outermost centres, which is hardly worse than the best
-// of many boundaries, and much faster to find. Returns false if the range becomes a leaf.
+// Divides a range of few triangles at the midpoint between the outermost centres. The best of many boundaries would
+// hardly be better, but takes much longer to find. Returns false if the range becomes a leaf.
 static bool halve_few(struct primitive *p, struct range *r, int axis, struct range *right)
 {
     struct primitive sorted[MIDDLE_MAX];

@@ -32,8 +32,8 @@ static lam_scene *load(const char *model, const lam_render_params *params, lam_e
 {
     if (lam_shape_find(model) >= 0)
         return make_shape(model, params->control, error);
-    // A device that this call makes draws only one frame, so the CPU device can compute the normals of only the visible
-    // triangles. The Kajiya–Kay model is an exception: it needs tangents, which depend on all normals.
+    // If this call makes the device, the device draws only one frame. The CPU device then computes only the normals of
+    // the visible triangles. The Kajiya–Kay model is an exception: it needs tangents, which depend on all normals.
     bool draws_once = !params->device && !(params->draw && reads_tangents(params->draw));
     lam_load_params plain = {.threads = params->threads, .normals_when_drawn = draws_once};
     lam_scene *scene = lam_scene_load(model, params->load ? params->load : &plain, params->control, error);

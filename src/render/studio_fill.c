@@ -38,8 +38,8 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// For each lit pixel, divides the luminance of the pixel by the luminance of the surface. Returns the value that a
-// quarter of these ratios exceed. Returns 0 if no pixel is lit. The pixels of `lit` are overwritten.
+// For each lit pixel, divides the luminance of the pixel by the luminance of the surface. Returns the upper quartile of
+// these ratios. Returns 0 if no pixel is lit. The pixels of `lit` are overwritten.
 static double lit_ratio(const lam_image *lit, const lam_image *surfaces)
 {
     float *ratios = lit->pixels;
@@ -133,7 +133,8 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
     lam_environment_free(studio);
     if (!ok)
         return false;
-    // The warning does not contain the measured share, so pictures of several views do not repeat the warning.
+    // The warning is the same for every view, because it does not contain the measured share. A scene reports equal
+    // warnings only once.
     lam_scene_add_warning(scene, "the file's own lights leave much of the picture black, so a dim studio also lights "
                                  "the model (the rig 'file' uses only the file's lights)");
     params->exposure = LAM_STUDIO_FILL_EXPOSURE;

@@ -58,7 +58,7 @@ bool animation_check(const struct options *o, lam_error *error)
                only_with(o, "turntable-light", "--turntable", error);
     if (o->animation.turntable && o->animation.frames)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--frames' applies only to --sweep: --turntable sets its own number");
+                        "option '--frames' applies only to --sweep; --turntable sets the number of frames itself");
     if (o->batch.view_count > 1 || o->batch.size_count > 1)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs one %s; found several", animation_option(o),
                         o->batch.view_count > 1 ? "--view" : "--size");
@@ -273,7 +273,7 @@ static bool prepare(struct job *job, int frame, lam_error *error)
 
 // --- animations in the file
 
-// Finds the length of the file's animation that the options select.
+// Finds the length of the selected animation of the file.
 static bool find_length(const struct job *job, double *length_s, lam_error *error)
 {
     const lam_file_info *file = lam_scene_file_info(job->scene);
@@ -322,8 +322,8 @@ static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
     high->z = b.z > high->z ? b.z : high->z;
 }
 
-// Computes one centre of rotation and one camera from the bounding box of the model in all frames, for models whose
-// pose changes.
+// For a model whose pose changes, computes one centre of rotation and one camera. Both fit the bounding box around the
+// model's poses in all frames.
 static bool fit_poses(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;

@@ -11,7 +11,8 @@ bool animation_check(const struct options *o, lam_error *error);
 // Replaces job_run for an animation: loads the model, draws the frames and writes the frames.
 bool animation_run(struct job *job, struct progress *progress, lam_error *error);
 
-// Returns whether a path is the file of a frame. `pattern` is the file name, with {frame} instead of the frame number.
+// Returns whether `path` names the file of a frame. `pattern` is the file name, with {frame} instead of the frame
+// number.
 bool animation_is_frame(const struct options *o, const char *pattern, const char *path);
 
 #endif

@@ -18,7 +18,7 @@ bool animation_sweeps(const struct animation *a, const char *option)
     return false;
 }
 
-// Returns the angle of the turntable at a frame, in degrees.
+// Returns the turntable's angle in a frame, in degrees.
 double animation_turn(const struct animation *a, int frame) { return 360.0 * frame / a->count; }
 
 void animation_sphere(const struct job *job, struct model_sphere *sphere)
@@ -53,10 +53,10 @@ static void turn_camera(lam_camera *camera, lam_vec3 centre, lam_vec3 axis, doub
     camera->up = matrix_apply(&turn, camera->up, 0);
 }
 
-// Returns the change of a swept option from its value in the first frame.
+// Returns the value of a swept option minus its value in the first frame.
 static double swept(const struct animation *a, const char *option)
 {
-    for (int i = a->sweep_count - 1; i >= 0; i--) // the last sweep of an option is used
+    for (int i = a->sweep_count - 1; i >= 0; i--) // a later sweep overrides an earlier sweep
         if (sweep_is_option(&a->sweeps[i], option))
             return sweep_value(&a->sweeps[i], a->index, a->count) - sweep_value(&a->sweeps[i], 0, a->count);
     return 0;

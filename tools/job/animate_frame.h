@@ -14,7 +14,7 @@ struct animation {
     struct sweep *sweeps;
     struct sweep_words *words; // the options that the sweeps set, then the option that the turntable sets
     int index, count;          // the frame's index, and the number of frames
-    bool loads;                // whether each frame reads the model again
+    bool loads;                // whether the model is loaded again for each frame
     bool environment;          // the scene contains the environment, which only the first frame loads
     bool drawn;                // the first frame was drawn, so the exposure is known
     bool has_sphere, has_camera;
@@ -31,7 +31,7 @@ const char *animation_option(const struct options *o);
 // Returns whether an option is swept.
 bool animation_sweeps(const struct animation *a, const char *option);
 
-// Returns the angle of the turntable at a frame, in degrees.
+// Returns the turntable's angle in a frame, in degrees.
 double animation_turn(const struct animation *a, int frame);
 
 // Without an animation these functions do nothing. animation_sphere sets the common centre of rotation.

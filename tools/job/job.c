@@ -84,7 +84,7 @@ static void name_formula_option(const char *model, lam_error *error)
     }
 }
 
-// Returns the formula in the options. If there is no formula, its text is NULL.
+// Returns the formula in the options. Without a formula, the returned `text` is NULL.
 static lam_formula formula_of(const struct options *o)
 {
     if (o->shape.implicit)
@@ -286,7 +286,7 @@ static bool lit_by_options(const struct options *o)
            environment_option_is_none(o->shading.environment);
 }
 
-// Removes the dim studio of an earlier picture, so that each view is identical to a view drawn alone.
+// Removes the dim studio of an earlier picture, so that each view is identical to the same view drawn alone.
 static bool remove_fill(struct job *job, lam_error *error)
 {
     bool ok = !job->unfilled || lam_scene_set_environment(job->scene, NULL, 0, error);
@@ -388,7 +388,7 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     return ok;
 }
 
-// Returns whether the output is a colour, which files with 8 bits store sRGB-encoded.
+// Returns true if `output` contains colours. These are encoded as sRGB in files with 8 bits.
 static bool is_color(lam_output output) { return lam_output_is_light(output) || output == LAM_OUTPUT_BASE_COLOR; }
 
 lam_save_params job_save_params(const struct job *job, const lam_control *control)
@@ -428,13 +428,14 @@ bool job_write(struct job *job, lam_error *error)
     return ok;
 }
 
-// Warns if --show environment can only be black.
+// Warns if the picture of --show environment is certain to be black.
 static void warn_environment(struct job *job)
 {
     const char *show = job->options->picture.show;
     if (show && strcmp(show, "environment") == 0 && !lam_scene_environment(job->scene) && !job->studio)
-        lam_scene_add_warning(job->scene, "option '--show environment' is black: no environment lights this model; "
-                                          "'--environment studio' sets one for physical and reflecting materials");
+        lam_scene_add_warning(job->scene,
+                              "the picture of '--show environment' is black: no environment lights this model; "
+                              "'--environment studio' sets one for physical and reflecting materials");
 }
 
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
@@ -498,7 +499,7 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
     }
     bool ok = job_draw(job, job->pixels, progress, error);
     if (ok && progress)
-        progress_end(progress); // the picture may be written to the terminal
+        progress_end(progress); // because the picture is possibly written to the terminal
     return ok && job_write(job, error) && (!job->options->picture.save_scene || scene_settings_save(job, error));
 }
 

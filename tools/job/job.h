@@ -11,7 +11,7 @@
 
 struct job_times {
     double start; // clock_ms() at the job's start
-    // the start of an animation's frame, to which the default time limit applies
+    // the start of the current frame of an animation; the default time limit applies to each frame
     double frame_start;
     double read, prepare, camera, encode, total; // milliseconds
     lam_frame_report frame;                      // the report of the median frame

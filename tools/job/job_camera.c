@@ -120,8 +120,8 @@ static bool shared_camera(const struct job *job, lam_camera *camera)
     return true;
 }
 
-// Fits the camera before the model is rotated, so that one fit is valid for every angle. A camera given as text refers
-// to the rotated model.
+// Fits the camera before the model is rotated, so that one fit is valid for every angle. A camera given as text is not
+// fitted, and does not rotate with the model.
 static void fit_camera(struct job *job, const struct model_sphere *sphere, bool side_is_given)
 {
     const struct options *o = job->options;
@@ -143,7 +143,8 @@ bool job_place_camera(struct job *job, lam_error *error)
     double start = clock_ms();
     if (job->view_count && !(job->cameras = calloc((size_t)job->view_count, sizeof *job->cameras)))
         return complain(error, LAM_LIMIT, "out of memory");
-    for (int i = job->view_count - 1; i >= 0; i--) { // in reverse order, so that the job is left with the first view
+    // in reverse order, so that the first view is the current view afterwards
+    for (int i = job->view_count - 1; i >= 0; i--) {
         job_choose_view(job, &job->views[i]);
         fit_camera(job, sphere, job->views[i].side >= 0);
         job->cameras[i] = job->camera;

@@ -132,8 +132,7 @@ static bool lit_by_environment(const struct job *job)
            lam_scene_rig_lights(job->scene, LAM_RIG_AUTO, false, lights) == 0;
 }
 
-// Sets the studio environment. Drawing sets this environment only for scenes without lights, and options will add
-// lights.
+// Sets the studio environment. Drawing would not set this environment, because the options add lights to the scene.
 static bool set_studio(const struct job *job, lam_error *error)
 {
     return lam_scene_environment(job->scene) ||

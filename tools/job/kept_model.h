@@ -11,9 +11,9 @@ struct kept_model {
     double read_ms;
 };
 
-// Passes the model, in its original state, to the job. Loads the model if another model, or the same model with other
-// options, is stored. The job's options, model, device and environments must be set. `progress` shows the loading and
-// may be NULL. Fails like job_load.
+// Passes the model, in its original state, to the job. If the stored model or its load options are different, loads the
+// model first. The job's options, model, device and environments must be set. `progress` shows the loading and may be
+// NULL. Fails like job_load.
 bool kept_model_take(struct kept_model *model, struct job *job, struct progress *progress, lam_error *error);
 
 void kept_model_forget(struct kept_model *model);

@@ -192,7 +192,7 @@ static void json_model(struct json *json, const struct job *job)
     json_close(json, '}');
 }
 
-// Writes the frames of an animation.
+// Writes the key "animation", which describes the frames.
 static void json_frames(struct json *json, const struct job *job)
 {
     if (!job->frames.count)
@@ -395,7 +395,7 @@ FILE *report_stream(const struct options *options)
     return options->picture.output && strcmp(options->picture.output, "-") == 0 ? stderr : stdout;
 }
 
-// Prints the command that shows the help of the option or command named at the start of a usage error.
+// Prints the command that shows the help of an option or a command. `text` is a usage error that starts with its name.
 static void say_where_to_look(const char *text)
 {
     char name[64];

@@ -21,7 +21,7 @@ FILE *report_stream(const struct options *options);
 // reports it as JSON. Returns the exit code.
 int report_failure(const lam_error *error, const struct options *options);
 
-// Writes the key "error": the class, the exit code and the text, or null if there is none.
+// Writes the key "error": the class, the exit code and the text, or null if there is no error.
 void json_error(struct json *json, const lam_error *error);
 
 // Prints one line in the format of docs/report.schema.json. If `job` is NULL, `error` concerns the command line.

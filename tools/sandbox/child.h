@@ -15,8 +15,8 @@ struct child {
 #define NO_CHILD ((struct child){0, -1, -1})
 
 // Starts `work` in a copy of this process. The copy ends when this process ends. `work` reads from `from`, writes to
-// `to` and does not return. If this process has other threads, `work` may only make system calls, because these threads
-// may hold locks. Returns false and sets errno on failure.
+// `to` and does not return. If this process has other threads, `work` must make only system calls, because the other
+// threads may hold locks. Returns false and sets errno on failure.
 typedef void child_work(void *user, int from, int to);
 bool child_start(struct child *child, child_work *work, void *user);
 
@@ -28,7 +28,7 @@ int child_wait(struct child *child);
 
 void child_kill(const struct child *child);
 
-// Waits for the end of a process without a struct child. Does nothing if `pid` is not positive.
+// Like child_wait, for a process that is known only by its ID. Does nothing if `pid` is not positive.
 int child_wait_pid(pid_t pid);
 
 // Received bytes.

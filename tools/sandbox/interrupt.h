@@ -17,8 +17,8 @@ bool interrupted(void);
 // example, after Ctrl-C a shell reports 130 and ends the loop that called the program.
 void interrupt_finish(void) __attribute__((noreturn));
 
-// Must be called in a new process. The system then kills this process when the thread that started the process ends.
-// `parent` is the process of that thread.
+// Must be called in a new process, with the ID of the parent process. When the thread that started the new process
+// ends, the system kills the new process.
 void interrupt_with_parent(pid_t parent);
 
 #endif

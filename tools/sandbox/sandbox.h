@@ -8,7 +8,7 @@
 
 enum {
     SANDBOX_READ = 1,  // a file, or all files in a folder and its subfolders
-    SANDBOX_WRITE = 2, // a pipe or a device; the writer writes files (writer.h)
+    SANDBOX_WRITE = 2, // a pipe or a device (for regular files, see writer.h)
     // SANDBOX_MAKE lets the writer create a file, and replace a file that Lambent wrote. SANDBOX_REPLACE lets the
     // writer replace any file.
     SANDBOX_MAKE = 4,
@@ -49,9 +49,9 @@ struct sandbox_state {
 // Returns the protections that the kernel offers. Changes nothing.
 struct sandbox_state sandbox_offered(void);
 
-// Enters the sandbox. Must be called before threads start: Landlock applies only to this thread and the threads that it
-// starts later. The filter applies to all threads. Skips protections that the kernel lacks and reports them in `state`.
-// Fails with LAM_LIMIT if memory runs out.
+// Enters the sandbox. Must be called before this thread starts others, because Landlock applies only to this thread and
+// to threads that this thread starts later. The filter applies to all threads. Skips protections that the kernel lacks
+// and reports them in `state`. Fails with LAM_LIMIT if memory runs out.
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error);
 
 // Writes one line such as "Landlock 7 and seccomp", "seccomp; Landlock is missing: …" or "off". Returns `out`.
@@ -62,8 +62,8 @@ const char *sandbox_text(const struct sandbox_state *state, char out[SANDBOX_TEX
 enum sandbox_filter {
     SANDBOX_DRAWS = 0, // reading and drawing: no processes, no sockets, files only read
     // Also accepts connections on listening sockets, watches files, and starts and ends processes of its own program.
-    // These processes may then install SANDBOX_DRAWS. The process still cannot create, bind or connect sockets or run
-    // programs.
+    // These processes may then install SANDBOX_DRAWS. The process still cannot run programs, and cannot create, bind or
+    // connect sockets.
     SANDBOX_SERVES = 1,
     SANDBOX_OPENS_PIPES = 2, // also opens existing files for writing, if Landlock permits it
     // Forbids openat2. Needed if Landlock does not prevent truncation, because a filter cannot check openat2's flags.

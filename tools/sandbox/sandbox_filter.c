@@ -184,7 +184,7 @@ static const struct condition conditions[] = {
     {SYS_clock_gettime, LOW(0), NEGATIVE, EPERM, 1, {0}},
     {SYS_clock_getres, LOW(0), NEGATIVE, EPERM, 1, {0}},
     {SYS_clock_nanosleep, LOW(0), NEGATIVE, EPERM, 1, {0}},
-    // Signals to the process itself, which abort() and the exit after Ctrl-C send.
+    // abort() and the exit after Ctrl-C send signals to the process itself.
     {SYS_kill, LOW(0), ALL, EPERM, 1, {SELF}},
     {SYS_tgkill, LOW(0), ALL, EPERM, 1, {SELF}},
     // The process may read its limits but not set them: the pointer to new limits must be NULL.
@@ -247,8 +247,8 @@ static void put(struct program *p, unsigned short code, unsigned k, unsigned cha
 static void load(struct program *p, size_t offset) { put(p, BPF_LD | BPF_W | BPF_ABS, (unsigned)offset, 0, 0); }
 static void end(struct program *p, unsigned result) { put(p, BPF_RET | BPF_K, result, 0, 0); }
 
-// Executes the next `length` instructions only for this call. These instructions end the filter program. The number of
-// the call must already be loaded.
+// Executes the next `length` instructions only for this call. The last of these instructions must return the result of
+// the filter. The number of the call must already be loaded.
 static void if_call(struct program *p, unsigned call, size_t length)
 {
     put(p, BPF_JMP | BPF_JEQ | BPF_K, call, 0, (unsigned char)length);
@@ -274,7 +274,7 @@ static void check(struct program *p, const struct condition *c)
     end(p, SECCOMP_RET_ERRNO | (unsigned)c->error);
 }
 
-// Adds a list of conditions. If several lists contain a call, the first of them decides about the call.
+// Adds a list of conditions. If several lists contain a call, only the first of these lists applies.
 static void allow_some(struct program *p, const struct condition *list, size_t count)
 {
     for (size_t i = 0, next; i < count; i = next) {

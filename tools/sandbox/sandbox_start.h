@@ -35,13 +35,13 @@ bool sandbox_is_wanted(const struct options *options);
 // Starts the writer unless it already runs or nothing may be written. Then enters the sandbox selected by the options.
 // The sandbox allows access to the given paths, the options' paths, and the system's libraries and fonts. Always frees
 // `paths`. Must be called before threads start. Fails with LAM_UNSUPPORTED if --sandbox require is set and a protection
-// is missing, or with LAM_LIMIT.
+// is missing, and with LAM_LIMIT if the sandbox or the writer cannot be started.
 bool sandbox_start(const struct options *options, struct sandbox_paths *paths, lam_error *error);
 
 // Returns the protections that are active in this process. Before sandbox_start, no protection is active.
 const struct sandbox_state *sandbox_active(void);
 
-// Returns a hint to add to the error about a file that the sandbox may have blocked, or "".
+// Returns a hint for the message if the sandbox may have caused the error, otherwise "".
 const char *sandbox_advice(const lam_error *error);
 
 #endif

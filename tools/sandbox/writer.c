@@ -40,7 +40,7 @@ struct request {
     uint64_t size;      // the size of the contents; 0 unless the action is to save or stage
 };
 
-// Sends everything in one call if possible, so that the receiver wakes once.
+// Sends everything in one call if possible, so that the receiver wakes only once.
 static bool send_all(int to, struct iovec *parts, int count)
 {
     while (count) {
@@ -60,7 +60,7 @@ static bool send_all(int to, struct iovec *parts, int count)
 
 // --- the writer
 
-// A file that this run wrote in a format without metadata: its identity and modification time.
+// The identity and modification time of a file that this run wrote in a format without metadata.
 struct own_file {
     dev_t device;
     ino_t number;
@@ -299,7 +299,7 @@ bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, la
     int made = 0;
     count = count < 1 ? 1 : count < THREADS_MAX ? count : THREADS_MAX;
     while (made < count && make_pair(&writer.connections[made], &there[made]))
-        made++; // with fewer handles than threads, the threads take turns
+        made++; // with fewer connections than threads, the threads take turns
     pid_t process = made ? fork() : -1;
     int reason = errno;
     if (process == 0) {
@@ -394,8 +394,8 @@ static bool ask(enum action action, const char *path, const lam_bytes *bytes, la
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
 {
     struct stat there;
-    // This process itself opens pipes and devices that the user names, because a writer that waits for a reader could
-    // not be interrupted.
+    // This process itself opens pipes and devices that the user names. The writer cannot be interrupted while it waits
+    // for the other end of a pipe.
     if (!writer_is_there() || (stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
         return writer_files_save(path, bytes, durable, error);
     return ask(durable ? SAVE_DURABLY : SAVE, path, bytes, error);

@@ -29,8 +29,8 @@ static lam_rgb color_of(const struct default_color *color, lam_rgb scene, lam_rg
     return scene;
 }
 
-// Returns whether the shader declares a name for the product of a term's colour and strength, with or without the
-// light's colour.
+// Returns whether the shader declares a name for the product of a term's colour and strength. The product may include
+// the light's colour.
 static bool has_product(const struct shader_interface *r, enum uniform_semantic term)
 {
     return declares(r, term) ||
@@ -46,8 +46,8 @@ static lam_rgb *light_color(struct reference_light *light, enum light_term term)
 
 // Sets the strength of a term to the fixed value if the shader declares no name for the strength. A scene switches a
 // term off by setting its strength to 0. If the shader does not declare the strength, the term's colour becomes black
-// instead. If the shader does not declare this colour either, the colours of the lights become black. Without this
-// colour, `color` is NULL or `lit` is false.
+// instead. If the shader does not declare this colour either, the colours of the lights become black. `color` is NULL
+// if the shader does not declare the term's colour. `lit` is set if the shader declares the colours of the lights.
 static void fix_strength(struct reference_scene *s, const struct default_number *fixed, float *strength, lam_rgb *color,
                          bool lit, enum light_term term)
 {
@@ -102,8 +102,8 @@ static void adapt_material(const struct shader_interface *r, struct reference_sc
                      LIGHT_SPECULAR);
 }
 
-// Adapts a scene to shaders with metalness and roughness, which have no separate strengths of the terms. In a scene
-// that shows only the ambient term, the lights become black instead.
+// Adapts a scene to shaders with metalness and roughness, which have no separate strengths of the terms. If a scene
+// shows only the ambient term, its lights therefore become black.
 static void adapt_physical(const struct shader_interface *r, struct reference_scene *s)
 {
     const struct contract_defaults *d = &r->defaults;
@@ -269,8 +269,8 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
             if (kept && black->type != LAM_LIGHT_DIRECTIONAL && s->lights[0].type != LAM_LIGHT_DIRECTIONAL)
                 memcpy(black->attenuation, s->lights[0].attenuation, sizeof black->attenuation);
         }
-    // In an array with more elements, the last element contains a light, so that a shader that omits the last element
-    // is detected. In printed shaders, each element has its own kind.
+    // If an array has more elements than there are lights, puts a light into the last element, to detect shaders that
+    // omit this element. In printed shaders, each element has its own kind.
     for (int g = 0; g < MAX_LIGHT_GROUPS; g++)
         if (kept > 1 && r->groups[g].count == s->light_count && capacity == s->light_count && !r->contract->printed) {
             struct reference_light last = s->lights[kept - 1];
@@ -283,7 +283,7 @@ static void place_lights(const struct shader_interface *r, struct reference_scen
 // a factor and a texel.
 static void adapt_maps(const struct shader_interface *r, struct reference_scene *s)
 {
-    // for lighting in the vertex shader, the texels of maps with a factor are 1
+    // if the vertex shader computes the lighting, maps with a factor are not used (their texels are 1)
     s->maps = r->vertex_lit ? r->maps & ~r->factors : r->maps;
     s->factors = r->factors;
     s->encoded_maps = r->contract->maps.encoded;

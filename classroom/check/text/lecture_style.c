@@ -7,7 +7,7 @@
 #include <string.h>
 
 struct range {
-    int first, end; // the lights that a condition on `i` selects: from `first` to before `end`
+    int first, end; // the lights that a condition on `i` selects: `first` to `end` − 1
 };
 
 // Parses "i >= 1 && i < 3" or one half of such a condition. Without a condition, all lights are selected. Returns the
@@ -39,7 +39,7 @@ static struct range condition_before(const struct declarations *d, int at)
     return range;
 }
 
-// Returns whether a statement contains one of two words.
+// Returns whether a statement contains the word `a` or `b`.
 static bool names(const struct declarations *d, int at, const char *a, const char *b)
 {
     for (; at < d->word_count && !word_is(d, at, ";"); at++)

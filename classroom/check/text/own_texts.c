@@ -7,8 +7,8 @@
 #include "fail.h"
 #include "fixed_state.h"
 
-// Returns a copy in which line feeds replace single carriage returns, the line endings of old Macs. Returns NULL if the
-// source contains no single carriage return. Also returns NULL, and sets *ok to false, if memory runs out.
+// Returns a copy in which single carriage returns (the line endings of old Macs) are replaced by line feeds. Returns
+// NULL if the source contains no single carriage return. Also returns NULL, and sets *ok to false, if memory runs out.
 static char *mend_lines(const char *text, bool *ok)
 {
     const char *lone = text ? strchr(text, '\r') : NULL;

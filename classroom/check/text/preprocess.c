@@ -47,7 +47,8 @@ static bool is_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
 static bool is(const struct token *t, const char *text) { return strcmp(t->text, text) == 0; }
 
-// Makes space for one more element. The capacity doubles at each power of two. Returns NULL if memory runs out.
+// Makes space for one more element. The capacity doubles when `count` is a power of two. Returns NULL if memory runs
+// out.
 static void *grown(void *items, int count, size_t size)
 {
     if (count & (count - 1))
@@ -220,8 +221,8 @@ static void substitute(struct preprocessor *p, const struct macro *m, const stru
     }
 }
 
-// The name of a number, such as LIGHT_SPOT, is kept, because the name is more meaningful than the number. If the size
-// of an array is a name, the name's number replaces the name.
+// The name of a number, such as LIGHT_SPOT, is not expanded, because the name is more meaningful than the number. In
+// the size of an array, such a name is expanded.
 static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 {
     const struct declarations *d = p->d;
@@ -354,7 +355,8 @@ static long primary(struct condition *c)
     return word_is_name(text) ? value_of_name(c, text) : strtol(text, NULL, 0);
 }
 
-// Binary operators in ascending precedence. A longer operator precedes an operator that is its prefix.
+// Binary operators in ascending precedence. "<=" is listed before "<", and ">=" before ">", so that the longer operator
+// is found first.
 static const struct {
     const char *text;
     int precedence;

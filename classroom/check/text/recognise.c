@@ -65,8 +65,8 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, const c
         bool completed = false;
         ok = prefix_applies(contract, vertex ? &sides[0] : NULL, &sides[1], &completed, error) &&
              (!completed || score_completed(contract, vertex, fragment, &points, error));
-        // Contracts with any strengths are skipped: roles are inferred for such shaders, in more spaces than a contract
-        // describes.
+        // Contracts with any strengths are skipped. For their shaders, the roles of the names are inferred, and the
+        // shaders may use more spaces than a contract describes.
         if (points > best && !contract->any_strengths) {
             best = points;
             *out = contract;

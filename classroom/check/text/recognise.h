@@ -4,13 +4,13 @@
 
 #include "prefix.h"
 
-// Finds the contract that contains most of the shaders' names. *out is NULL if no contract contains any of them.
+// Finds the contract that matches the names in the shaders best. *out is NULL if no contract contains any of them.
 // `vertex` may be NULL. Returns false if memory runs out.
 bool contract_recognise(lam_check_contract *const *contracts, int count, const char *vertex, const char *fragment,
                         const struct contract **out, lam_error *error);
 
-// For a program of an unknown contract, describes in a sentence which of its names are missing in `contract`. `unknown`
-// contains the names that the driver reports.
+// If the contract of a program is unknown, describes in a sentence which of the program's names are missing in
+// `contract`. `unknown` contains the names that the driver reports.
 void contract_describe_unknown(const struct contract *contract, const struct declarations *vertex,
                                const struct declarations *fragment, const char *const *unknown, int count, char *out,
                                size_t capacity);

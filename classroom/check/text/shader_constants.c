@@ -55,8 +55,8 @@ static bool read_exponent(const struct declarations *d, int at, double *out)
     return false;
 }
 
-// Finds the exponent of a highlight: the largest number in all pow(x, number). Squares and similar powers have other
-// meanings.
+// Finds the exponent of a highlight: the largest constant exponent in the calls of pow(). Smaller exponents, such as 2,
+// have other meanings.
 static bool find_exponent(const struct declarations *d, double *out)
 {
     bool found = false;

@@ -10,8 +10,8 @@ void shader_constants_find(struct shader_interface *interface);
 
 enum { MAX_NUMBERS = 12 };
 
-// Lists the semantics that the contract allows as numbers, and for which no number was found in the shaders. Returns
-// their count.
+// Lists the semantics that the contract allows as constants, but for which the shaders contain no recognised constant.
+// Returns their count.
 int shader_constants_open(const struct shader_interface *interface, enum uniform_semantic out[SEMANTIC_COUNT]);
 
 // Lists the distinct numbers, or vec3 of numbers, in the source of the shader that computes the lighting. Numbers that

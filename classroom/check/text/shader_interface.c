@@ -12,8 +12,8 @@
 #include "maps.h"
 #include "shader_constants.h"
 
-// Returns whether the shader reads a declared uniform. A struct member is read only if its name follows a dot; any
-// other name is read if the name occurs.
+// Returns whether the shader reads a declared uniform. A member of a struct counts as read if its name occurs after a
+// dot. Any other name counts as read if it occurs at all.
 static bool is_used(const struct declarations *d, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -180,9 +180,10 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-// Finds the lighting of a shader printed by `lambent shader` from its functions. The Lambert lobe is ignored, because
-// the other lobes call it. If the Lambert lobe is the only lobe, the contract's own model applies, without a highlight.
-// If several rows match, the last row is used, because a coat adds the GGX lobe to another base.
+// Finds out how a shader printed by `lambent shader` computes lighting, from the names of its functions. The Lambert
+// lobe is ignored, because the other lobes call it. If the Lambert lobe is the only lobe, the contract's own model
+// applies, without a highlight. If several rows match, the last row is used, because a coat adds the GGX lobe to
+// another base.
 static void find_printed(struct shader_interface *r)
 {
     static const struct {
@@ -283,8 +284,7 @@ static unsigned kind_of(enum uniform_semantic semantic, const char *type)
     }
 }
 
-// Returns the number of elements of an array that the shaders read, if all indices are constants. Otherwise, returns
-// `count`.
+// Returns how many elements of an array the shaders read, if all indices are constants. Otherwise, returns `count`.
 static int read_elements(const struct shader_interface *r, const char *name, int count)
 {
     const struct declarations *sides[] = {&r->vertex, &r->fragment};

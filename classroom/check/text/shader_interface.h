@@ -44,7 +44,7 @@ bool shader_interface_make(struct shader_interface *interface, const struct comp
                            const struct contract *contract, lam_error *error);
 void shader_interface_free(struct shader_interface *interface);
 
-// Return whether one of the shaders declares, or reads, a uniform of the semantic.
+// Return whether one of the shaders declares, or reads, a uniform with this semantic.
 bool shader_interface_declares(const struct shader_interface *interface, enum uniform_semantic semantic);
 bool shader_interface_uses(const struct shader_interface *interface, enum uniform_semantic semantic);
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// One of the two edges of a corner that meet at the position.
+// One of the two triangle edges that meet in a corner.
 struct fan_edge {
     uint32_t end[3]; // bits of the position of the edge's other end
     uint32_t corner;
@@ -110,9 +110,9 @@ static void look(const lam_mesh *mesh, uint32_t corner, struct fan_corner *c)
     c->normal[0] = spans ? x * scale : 0;
     c->normal[1] = spans ? y * scale : 0;
     c->normal[2] = spans ? z * scale : 0;
-    // |a × b| and a·b are the sine and the cosine of the angle, both times |a| |b|. The weight is below 1e78, and above
-    // 1e-90 if it is not 0, so neither a sum of weighted normals nor its square overflows or underflows, regardless of
-    // the unit.
+    // |a × b| is |a| |b| times the sine of the angle, and a·b is |a| |b| times its cosine. The weight is below 1e78,
+    // and above 1e-90 if it is not 0, so neither a sum of weighted normals nor its square overflows or underflows,
+    // regardless of the unit.
     c->weight = spans ? length * angle_of(length, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) : 0;
 }
 
@@ -144,7 +144,7 @@ static void join(struct fan_corner *around, uint32_t a, uint32_t b, double min_c
 }
 
 // Neighbours with consistent winding traverse their common edge in opposite directions: one triangle's next corner is
-// the other triangle's previous corner. Tests every pair, so it is used only for few corners.
+// the other triangle's previous corner. This function tests every pair, so it is called only for few corners.
 static void join_few(struct fan_corner *around, uint32_t count, double min_cosine)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -246,7 +246,8 @@ uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corn
         if (!has_area(&around[i]))
             around[i].fan = neighbouring_fan(around, count, i, first_with_area);
 
-    // The numbers are also stored in the corners, and the edges are no longer needed, so both arrays are reused.
+    // The memory of scratch->numbers and scratch->edges is reused: `around` contains the numbers too, and the edges are
+    // no longer needed.
     uint32_t fans = number_fans(around, count, scratch->numbers);
     double(*sums)[3] = (double(*)[3])scratch->edges;
     memset(sums, 0, fans * sizeof *sums);

@@ -121,8 +121,8 @@ static void look(struct corner_fan_block *b)
 }
 
 // Finds the joined corners, like join_few() in corner_fan.c. No coordinate is NaN, so floats are equal if their bits
-// are equal, except for the sign of zero. `by_vertex` also finds open vertices; the function is compiled for both
-// cases.
+// are equal, except for the sign of zero. If `by_vertex` is set, also finds open vertices. The compiler makes a copy of
+// the function for each case.
 static inline __attribute__((always_inline)) void link(struct corner_fan_block *b, double min_cosine, bool grouped,
                                                        const bool by_vertex)
 {
@@ -166,7 +166,7 @@ static inline __attribute__((always_inline)) void link(struct corner_fan_block *
                           (b->next[i][2][p] == b->previous[i][2][p]);
 }
 
-// Adds the corners that are joined to members. Returns whether any corner was added.
+// Adds to `members` every corner that is joined to a member. Returns whether any corner was added.
 static bool spread(const struct corner_fan_block *b, fan_row members)
 {
     fan_row more;

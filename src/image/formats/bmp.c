@@ -37,7 +37,7 @@ static bool bmp_probe(const uint8_t *bytes, size_t size)
         return false;
     uint32_t header = u32_at(bytes + FILE_HEADER);
     return header >= CORE_HEADER &&
-           header <= 4096; // excludes texts that begin with BM: as a number, their next bytes are larger
+           header <= 4096; // excludes texts that begin with BM: their bytes at this position form a larger number
 }
 
 static bool fail_end(const struct bmp *bmp, const char *within, lam_error *error)
@@ -81,8 +81,8 @@ static bool read_masks(struct bmp *bmp, lam_error *error)
     return true;
 }
 
-// Reads the palette. An entry has three bytes if the header has 12 bytes, otherwise four; blue is first. A palette may
-// have fewer entries than a pixel has values.
+// Reads the palette. An entry has three bytes if the header has 12 bytes, otherwise four; blue is first. The palette
+// may be too short for some values of a pixel.
 static bool read_palette(struct bmp *bmp, uint32_t used, lam_error *error)
 {
     size_t start = FILE_HEADER + bmp->header, entry = bmp->header == CORE_HEADER ? 3 : 4;
@@ -238,8 +238,8 @@ static bool put_rows(const struct bmp *bmp, const lam_image *image, lam_error *e
 }
 
 // Decodes run lengths, two bytes at a time. Usually the bytes are a count and a colour (with 4 bits, two alternating
-// colours). A code follows a count of 0: code 0 ends the row, code 1 ends the picture, and code 2 x y moves right and
-// up. Any other code n means that n colours follow, padded to two bytes.
+// colours). If the count is 0, the second byte is a code: 0 ends the row, 1 ends the picture, and 2 moves right by x
+// and up by y (the next two bytes). After any other code n, n colours follow, padded to two bytes.
 static bool put_runs(const struct bmp *bmp, const lam_image *image, lam_error *error)
 {
     const uint8_t *at = bmp->file->bytes + bmp->pixels, *end = bmp->file->bytes + bmp->file->size;

@@ -258,8 +258,8 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
     return (int64_t)((const struct source *)user)->size;
 }
 
-// Returns the index, in a pixel of the picture, of a channel of the file, or −1 if the picture does not use the
-// channel. Y is the luminance, which is used for all three colours.
+// Returns the position of the file's channel `name` in a pixel (0 to 3), or −1 if the picture does not use the channel.
+// Y is the luminance, which is used for all three colours.
 static int place_of(const char *name)
 {
     static const char letters[] = "RGBA";

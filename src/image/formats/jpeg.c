@@ -24,7 +24,7 @@ struct jpeg_decoder {
     bool rgb;           // decodes to LAM_RGB8 instead of LAM_RGBA8, except for CMYK files
     bool stopped;       // the call must stop
     bool out_of_memory; // libjpeg ran out of memory
-    size_t charged;     // number of bytes charged for libjpeg's coefficients
+    size_t charged;     // bytes of libjpeg's coefficients that count towards the call's limit
 };
 
 _Noreturn static void give_up(j_common_ptr jpeg)
@@ -64,15 +64,16 @@ static bool jpeg_probe(const uint8_t *bytes, size_t size)
     return size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-// Checks that the file is large enough for the declared size. A block of 64 pixels needs at least one bit in the
-// component with the most blocks, and this component may contain only 1/16 of the picture's pixels.
+// Checks that the file is large enough for the declared size. Each block of 64 samples needs at least one bit. The
+// largest component has at least 1/16 as many samples as the picture has pixels.
 static bool jpeg_fits(const struct jpeg_decompress_struct *jpeg, size_t size)
 {
     return (uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) <= size;
 }
 
-// Charges the coefficients. A file with several scans keeps all of its coefficients in memory before the first row.
-// A coefficient needs two bytes, and there are at most as many coefficients as if all components had full resolution.
+// Counts the coefficients towards the call's memory limit. A file with several scans keeps all of its coefficients in
+// memory before the first row. A coefficient needs two bytes, and there are at most as many coefficients as if all
+// components had full resolution.
 static bool charge_coefficients(struct jpeg_decoder *reader, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;
@@ -116,10 +117,9 @@ static bool decode(struct jpeg_decoder *reader, lam_image *image, lam_error *err
     lam_pixel_format format = reader->rgb && !inks ? LAM_RGB8 : LAM_RGBA8;
     jpeg->out_color_space = inks ? JCS_CMYK : format == LAM_RGB8 ? JCS_RGB : JCS_EXT_RGBA; // alpha 255
     jpeg->dct_method = JDCT_ISLOW;
-    jpeg->do_fancy_upsampling =
-        TRUE; // chroma at half the size is interpolated linearly, with integers, which is identical on every machine
+    jpeg->do_fancy_upsampling = TRUE; // linear interpolation of chroma, with integers: identical on every machine
     jpeg->do_block_smoothing = FALSE; // only affects files with missing scans, which are rejected
-    // The picture is allocated first, because no memory for coefficients is needed if this allocation fails.
+    // The picture is allocated first. If this allocation fails, the coefficients are not counted.
     if (!picture_make(file, jpeg->image_width, jpeg->image_height, format, image, error) ||
         !charge_coefficients(reader, error))
         return false;
@@ -143,8 +143,7 @@ static bool fail_jump(const struct jpeg_decoder *reader, lam_error *error)
     return fail(error, LAM_CANNOT_READ, "%s: JPEG: %s", reader->file->name, reader->message);
 }
 
-// Calls setjmp, so that libjpeg can return here with longjmp. No local variable of this function changes between the
-// two calls.
+// Calls setjmp, so that libjpeg can return here with longjmp. No local variable of this function changes after setjmp.
 static bool decode_or_jump(struct jpeg_decoder *reader, lam_image *image, lam_error *error)
 {
     return setjmp(reader->out) == 0 ? decode(reader, image, error) : fail_jump(reader, error);

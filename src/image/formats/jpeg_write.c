@@ -76,8 +76,7 @@ static bool fail_jump(const struct writer *writer, lam_error *error)
     return fail(error, LAM_LIMIT, "JPEG: %s", message);
 }
 
-// Calls setjmp, so that libjpeg can return here with longjmp. No local variable of this function changes between the
-// two calls.
+// Calls setjmp, so that libjpeg can return here with longjmp. No local variable of this function changes after setjmp.
 static bool encode_or_jump(struct writer *writer, lam_error *error)
 {
     return setjmp(writer->out) == 0 ? encode(writer, error) : fail_jump(writer, error);

@@ -112,7 +112,7 @@ static bool put_pixel(const struct tga *tga, const uint8_t *from, uint8_t *to, l
     return true;
 }
 
-// Returns the address in the picture of pixel `x` of row `y`, both counted in the order of the file.
+// Returns the address of a pixel in the picture. `x` and `y` are the pixel's column and row in the order of the file.
 static uint8_t *place_of(const struct tga *tga, const lam_image *image, uint32_t x, uint32_t y)
 {
     size_t row = tga->top_down ? y : tga->height - 1 - y, column = tga->right_to_left ? tga->width - 1 - x : x;
@@ -182,7 +182,7 @@ static bool tga_read(const struct picture_file *file, lam_image *image, lam_erro
         return fail_end(&tga, palette > file->size ? "remark" : "palette", error);
     if (!picture_size_check(file, tga.width, tga.height, error))
         return false;
-    // A packet that stores a byte and one pixel expands to at most 128 pixels.
+    // A run-length packet (one byte and one pixel) expands to at most 128 pixels.
     uint64_t count = (uint64_t)tga.width * tga.height, step = bytes_of(tga.bits);
     uint64_t least = tga.runs ? (count + 127) / 128 * (1 + step) : count * step;
     if (least > file->size - pixels)

@@ -1,4 +1,4 @@
-// fault_sets.c: searches for several faults that explain the pictures together.
+// fault_sets.c: searches for sets of faults that together explain the pictures.
 #include "fault_candidate.h"
 
 #include <stdlib.h>
@@ -8,19 +8,18 @@
 
 enum { BEAM = 6 };
 
-// The search for three faults starts if, after two faults, at most this fraction of the difference without faults
-// remains.
+// The search adds a third fault only if the best two faults leave at most this fraction of the original difference.
 static const double max_score_for_a_third = 0.75;
-static const double min_gain = 0.03; // the smallest fraction that each further fault must explain
-// another fault is a rival if its remaining difference, over all scenes, is at most this many times the fault's
+static const double min_gain = 0.03; // each further fault must reduce the score by this much
+// another fault is a rival if its score is at most this many times the score of the fault
 static const double max_rival = 1.25;
 static const double max_exact =
-    2e-4; // an explanation is exact if its mean difference over all scenes is at most this rounding error
+    2e-4; // an explanation is exact if its mean difference over all scenes is at most this (rounding errors)
 
 // --- several faults
 
-// Removes unnecessary faults, and checks the others: each fault must explain some scene alone, or the whole explanation
-// must be exact.
+// Removes unnecessary faults, and checks the others: each fault must by itself explain a scene, or the whole set must
+// be exact.
 static bool reduce(struct state *t, struct candidate *c, lam_error *error)
 {
     for (int i = 0; i < c->count && c->count > 1;) {
@@ -185,7 +184,7 @@ bool sets_try(struct state *t, struct candidate *best, lam_error *error)
             if (next[i].fits)
                 *best = next[i];
         }
-        // A further fault must explain more.
+        // Stops if a further fault would hardly reduce the score.
         if (best->fits || count == 0 || next[0].score > before - min_gain || next[0].score > max_score_for_a_third)
             break;
         memcpy(beam, next, sizeof beam);

@@ -14,8 +14,8 @@
 
 enum switch_group { GROUP_VECTORS, GROUP_OUTPUT, GROUP_TERMS, GROUP_COUNT };
 
-// The variant of a program. Its constants are part of the source, so that the program computes only the terms that a
-// picture needs. With uniforms instead, a software driver would compute both sides of every branch.
+// The constants that select a variant of the program. They are part of the source, so that the program computes only
+// the terms that a picture needs. With uniforms instead, a software driver would compute both sides of every branch.
 struct specialization {
     bool in_vertex, physical, phong, products, ambient_by_light, flat, two_sided;
     int masking, diffuse_share, tone, encoding;
@@ -46,7 +46,7 @@ struct fault_shader {
     int value_count;
     float numbers[MAX_NUMBERS];
     int number_count;
-    bool full; // set if a value did not fit
+    bool full; // set if `values` or `numbers` is full
 };
 
 static const char *const bit_names[FAULT_BIT_COUNT] = {"NONE",
@@ -60,8 +60,8 @@ static enum switch_group group_of(int bit)
     return bit <= BIT_MEAN_DISTANCE ? GROUP_VECTORS : bit <= BIT_USE_ACES ? GROUP_OUTPUT : GROUP_TERMS;
 }
 
-// Returns whether a switch can be on in a program. The possible switches differ between programs for shaders with an
-// exponent and programs for shaders with metalness and roughness.
+// Returns whether a switch can be on in a program. Shaders with an exponent and shaders with metalness and roughness
+// have different switches.
 static bool is_possible(const struct specialization *made_for, int bit)
 {
     if (!made_for->groups[group_of(bit)])
@@ -233,7 +233,7 @@ void fault_shader_close(struct fault_shader *m)
     free(m);
 }
 
-// Sets the elements of a uniform that the program reads. Each element consists of `each` floats.
+// Sets the elements of a uniform, as far as the program reads them. Each element consists of `each` floats.
 static void set(struct fault_shader *m, const char *name, int count, int each, const float *numbers)
 {
     int input = place_input(m->program, name, false);

@@ -32,7 +32,7 @@ struct model_diff {
     struct batch_plan plan;       // one model for each pair
     struct model_pair *pairs;     // for each model of the plan
     bool folders;                 // compares two folders, not two models
-    atomic_int *rows;             // counts the models whose pictures are kept for the page
+    atomic_int *rows;             // the number of models whose pictures are kept for the page
     size_t counts[CHANGE_COUNT];  // valid after all models are drawn
 };
 

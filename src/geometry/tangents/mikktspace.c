@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-enum { CHECK_INTERVAL = 1 << 13 }; // triangles or corners between two checks of the call
+enum { CHECK_INTERVAL = 1 << 13 }; // the number of triangles or corners after which the call's limits are checked again
 // a sum is treated as zero if its length is below this fraction of the sum of the summands' lengths
 #define ZERO_SUM 1e-6
 

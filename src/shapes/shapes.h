@@ -26,8 +26,8 @@ struct shape_request {
 bool tessellate_parametric(const lam_parametric *surfaces, int count, const struct shape_request *request,
                            lam_mesh *mesh);
 
-// Works like tessellate_parametric, but with one thread. Allocates `border` in `scratch`: one byte per vertex, 1 at a
-// border of the vertex's surface.
+// Works like tessellate_parametric, but with one thread. Allocates `border` in `scratch`: one byte per vertex, which is
+// 1 if the vertex is on a border of its surface.
 bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                          lam_mesh *mesh, struct arena *scratch, uint8_t **border, lam_error *error);
 

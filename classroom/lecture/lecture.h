@@ -1,6 +1,7 @@
 // lecture.h: makes shaders in the lecture style. The code of these shaders is simple, with at most about forty lines
 // per stage, and uses names that are common in lectures (N, L, V, R, H, T, ka, kd, ks). Uniforms and pictures are the
-// same as in the full style. The application stage is a C function. Known mistakes change these shaders.
+// same as in the full style. The application stage is a C function. mistake_apply inserts known mistakes into these
+// shaders.
 #ifndef LECTURE_H
 #define LECTURE_H
 

@@ -81,7 +81,7 @@ void show_clear_scene(struct lam_scene *scene, const char *name)
     char count[40] = "";
     if (scene->clear_materials > 1)
         snprintf(count, sizeof count, ", the first of %d", scene->clear_materials);
-    const char *opaque = "a picture would show nothing else, so everything is drawn opaque";
+    const char *opaque = "the picture would be empty, so everything is drawn opaque";
     if (scene->first_clear)
         scene_warn(scene, "%s%s%s%s", scene->first_clear, count, clear ? "; " : "", clear ? opaque : "");
     else if (clear)

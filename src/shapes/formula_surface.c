@@ -223,7 +223,7 @@ static int find_cuts(struct surface *s, int axis, int *cuts, struct call_control
 // --- The mesh of all parts
 
 struct border_point {
-    double along; // position along a direction, chosen so that few points of a shape have the same position
+    double along; // position along a direction that is chosen so that few vertices of a shape have the same position
     const float *p;
     uint32_t vertex;
 };

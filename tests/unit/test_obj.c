@@ -603,7 +603,7 @@ static void test_mtl_warnings(void **unused)
 static void test_clear(void **unused)
 {
     (void)unused;
-#define OPAQUE "; a picture would show nothing else, so everything is drawn opaque"
+#define OPAQUE "; the picture would be empty, so everything is drawn opaque"
     static const struct {
         const char *faces, *mtl;
         float a, b; // opacities of the materials

@@ -516,7 +516,7 @@ static void test_numbers_left_over(void **state)
     lam_scene_free(scene);
 }
 
-// If all colours are transparent, they become opaque, because a picture would show nothing else.
+// If all colours are transparent, they become opaque, because the picture would otherwise be empty.
 static void test_clear_colors(void **state)
 {
     (void)state;

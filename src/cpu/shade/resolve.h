@@ -26,11 +26,11 @@ struct pixel_sums {
     // the channels. Otherwise NULL.
     float *tint[3];
     const float *background;     // the background behind layers that transmit light (frame.glass_background)
-    const struct behind *behind; // NULL if nothing is blurred or refracted, and while this picture is being drawn
+    const struct behind *behind; // NULL while the picture behind glass is drawn, and if nothing is blurred or refracted
 };
 
 // Returns the number of bytes per pixel of a working format. Each return value is a constant, so that the compiler
-// inlines copies of one pixel.
+// inlines short copies.
 static inline size_t working_bytes(const lam_image *image) { return image->format == LAM_RGBA8 ? 4 : 16; }
 
 // Returns a row of a tile in the picture.

@@ -75,8 +75,8 @@ static void make_group(struct tangent_maker *m, uint32_t corner)
             break;
 }
 
-// Completes a corner that no group reached. A corner of a degenerate triangle gets the group of the first equal corner
-// that is in a group. All other corners start their own groups.
+// Assigns a group to a corner that no group reached: the group of the first equal corner in the list of corners, if
+// that corner exists and is in a group. Otherwise, the corner starts its own group.
 static void finish_corner(struct tangent_maker *m, uint32_t corner)
 {
     uint32_t v = m->weld.of[corner];

@@ -616,16 +616,17 @@ const struct fault faults[] = {
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz), B = cross(N, T) * {tangent}.w;",
         .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-by-normal-matrix", BITS(TANGENT_BY_NORMAL_MATRIX), 0, NEED_NORMAL_MAP,
-        "the tangent is transformed by the normal matrix; it lies in the surface and moves with the model's own matrix",
+        "the tangent is transformed by the normal matrix; a tangent lies in the surface, so it needs the vertex's "
+        "matrix",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-by-normal-matrix", BITS(TANGENT_BY_NORMAL_MATRIX, TANGENT_LONG), 0, NEED_NORMAL_MAP,
-        "the tangent is transformed by the normal matrix, and not normalized; it lies in the surface and moves with "
-        "the "
-        "model's own matrix",
+        "the tangent is transformed by the normal matrix, and not normalized; a tangent lies in the surface, so it "
+        "needs "
+        "the vertex's matrix",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-by-normal-matrix", BITS(TANGENT_BY_NORMAL_MATRIX, BITANGENT_BY_MODEL), 0, NEED_NORMAL_MAP,
-        "tangent and bitangent are transformed by the normal matrix; they lie in the surface and move with the model's "
-        "own "
+        "tangent and bitangent are transformed by the normal matrix; both lie in the surface, so they need the "
+        "vertex's "
         "matrix",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-object-space", BITS(TANGENT_OBJECT), 0, NEED_NORMAL_MAP,

@@ -621,13 +621,11 @@ const struct fault faults[] = {
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-by-normal-matrix", BITS(TANGENT_BY_NORMAL_MATRIX, TANGENT_LONG), 0, NEED_NORMAL_MAP,
         "the tangent is transformed by the normal matrix, and not normalized; a tangent lies in the surface, so it "
-        "needs "
-        "the vertex's matrix",
+        "needs the vertex's matrix",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-by-normal-matrix", BITS(TANGENT_BY_NORMAL_MATRIX, BITANGENT_BY_MODEL), 0, NEED_NORMAL_MAP,
         "tangent and bitangent are transformed by the normal matrix; both lie in the surface, so they need the "
-        "vertex's "
-        "matrix",
+        "vertex's matrix",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-object-space", BITS(TANGENT_OBJECT), 0, NEED_NORMAL_MAP,
         "the tangent stays in the model's space: no matrix transforms it",

@@ -43,7 +43,7 @@ static bool is_clear(struct lam_scene *scene, const lam_object *object)
     struct shown shown = {0};
     while (next_shown(scene, object, &shown)) {
         bool materials = !(shown.front->diffuse.a > 0) && (!shown.back || !(shown.back->diffuse.a > 0));
-        if (!materials) // the material is visible, so the object is transparent only if the mesh's colours are transparent
+        if (!materials) // a material is visible, so only transparent mesh colours can hide the object
             return colors_are_clear(scene_mesh(scene, object->mesh));
     }
     return true;

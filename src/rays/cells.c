@@ -50,7 +50,8 @@ struct large {
 
 // --- the grid
 
-// Makes the grid: each bit of a cell's number halves the side that is then the longest.
+// Makes the grid. For each bit of a cell's number, the axis along which the cells are then the longest is divided in
+// half.
 static struct grid grid_over(const struct box *middles, uint32_t count)
 {
     int bits = 31 - __builtin_clz(count) - 2, of_axis[3] = {0, 0, 0};
@@ -235,7 +236,7 @@ static bool halve_cells(struct large *l, struct range *r, struct range *right)
     return true;
 }
 
-// Removes the triangles of a range from their cells.
+// Copies the triangles of a range from in_cells back to the builder's primitives, and measures the range.
 static void leave_cells(const struct large *l, struct range *r)
 {
     struct primitive *to = l->builder->primitives + r->first;

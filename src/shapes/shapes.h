@@ -35,9 +35,9 @@ bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena
 bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                          lam_error *error);
 
-// Returns the point of the unit circle after `steps` of `around` steps per turn, from (1, 0) towards (0, 1). Quarter
-// turns are exact, and mirrored steps give bit-identical mirrored points, so round shapes are closed and symmetric to
-// the last bit.
+// Divides the unit circle into `around` steps. Returns the point after `steps` of these steps, from (1, 0) towards (0,
+// 1). Quarter turns are exact, and mirrored steps give bit-identical mirrored points, so round shapes are closed and
+// symmetric to the last bit.
 struct circle_point {
     double c, s;
 };

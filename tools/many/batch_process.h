@@ -17,8 +17,8 @@ struct batch_process {
 typedef void batch_work(void *user, struct child_bytes *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 
-// Waits up to `wait_ms` until one of the processes sends data or ends, or until the file `also` (−1 if there is none)
-// is readable. Returns the index of a process that has ended, with the status from waitpid, or −1 if no process has
+// Waits until a process sends data, a process ends, or the file `also` (−1 if there is none) is readable, but at most
+// `wait_ms`. Returns the index of a process that has ended, with the status from waitpid, or −1 if no process has
 // ended.
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status);
 

@@ -12,8 +12,8 @@
 
 #include <lambent/mesh.h>
 
-// Normals of a set of triangles of one or several meshes. The triangles of all meshes are numbered consecutively. The
-// normal at corner k of the triangle with rank r in the set is normals[elements[3r + k]].
+// Normals for a set of triangles from one or several meshes. The triangles of all meshes are numbered consecutively.
+// The normal at corner k of the triangle with rank r in the set is normals[elements[3r + k]].
 struct visible_normals {
     struct rank_bitset triangles;
     uint32_t *elements; // 3 · triangles.count

@@ -118,8 +118,8 @@ static int run(int count, char **words)
     return code;
 }
 
-// By default, glibc keeps small freed blocks in lists, and searches all of them whenever a large block becomes free. A
-// glTF file with 2 MB of JSON would need 12 % more processor time.
+// Disables glibc's lists of small freed blocks. glibc searches these lists whenever a large block becomes free, so
+// reading a glTF file with 2 MB of JSON would need 12 % more processor time.
 static void merge_freed_blocks(void)
 {
 #ifdef __GLIBC__
@@ -132,7 +132,7 @@ int main(int count, char **words)
     merge_freed_blocks();
     if (count == 3 && strcmp(words[1], CHECK_WORKER) == 0)
         check_worker(words[2]);
-    signal(SIGXFSZ, SIG_IGN); // if a file exceeds the size limit, the write fails
+    signal(SIGXFSZ, SIG_IGN); // if a file exceeds the size limit, the write fails, but the program does not end
     console_start();
     option_table_fill();
     int code = run(count - (count > 0), words + (count > 0));

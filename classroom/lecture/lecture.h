@@ -1,6 +1,7 @@
 // lecture.h: makes shaders in the lecture style. The code of these shaders is simple, with at most about forty lines
 // per stage, and uses names that are common in lectures (N, L, V, R, H, T, ka, kd, ks). Uniforms and pictures are the
-// same as in the full style. The application stage is a C function. Known mistakes change these shaders.
+// same as in the full style. The application stage is a C function. mistake_apply inserts known mistakes into these
+// shaders.
 #ifndef LECTURE_H
 #define LECTURE_H
 
@@ -13,8 +14,8 @@ extern const struct glsl_style lecture_style;
 // unsupported option.
 bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
 
-// Makes the C source of the application stage: a function `light_vertex` that computes the colours of a vertex of one
-// of the draws `ranges`. order[i] is the frame's index of light i of the shader. The function contains the mistake
+// Makes the C source of the application stage: a function `light_vertex` that computes a vertex's colours for one of
+// the draws in `ranges`. order[i] is the index in the frame of the shader's light i. The function contains the mistake
 // choices->mistake. The caller frees the result. Returns NULL on failure: LAM_UNSUPPORTED with the option that the
 // style does not support, LAM_LIMIT, or an error of mistake_apply.
 char *lecture_application(const struct glsl_choices *choices, const struct frame *frame, const int *order,
@@ -27,7 +28,7 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
 void lecture_add_flags(struct known_table *table, const struct glsl_facts *facts);
 // Appends the vector from the point to light i: `against` for directional lights, `towards` for the others.
 void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);
-// Appends the lines that set `spot`, the factor of a spotlight's cone, with the type `number`.
+// Appends the lines that set `spot`, the factor of a spotlight's cone. `number` is the type of `spot`.
 void lecture_add_spots(struct text *text, const struct glsl_choices *choices, const char *number);
 
 // --- mistakes

@@ -16,14 +16,14 @@
 
 enum { EDITS_MAX = 2 };
 
-// `before` occurs exactly once in the two source files of a shader to which the mistake applies. "@lights@" is the
+// If a mistake applies to a shader, `before` occurs exactly once in the shader's two source files. "@lights@" is the
 // number of lights.
 struct edit {
     const char *before, *after;
 };
 
 // Adjacent rows with the same id are forms of one mistake, and the first applicable form is used. Only the first of
-// these rows contains the sentences. Forms for the C function of the application stage come last.
+// these rows sets `looks` and `needs`. Forms for the C function of the application stage come last.
 struct mistake {
     const char *id, *looks, *needs;
     struct edit edits[EDITS_MAX];
@@ -116,7 +116,8 @@ static const struct mistake mistakes[] = {
             EDIT("normalize(way);    // from the point to the light", "way;"), .contains = "lights[i].position"),
     // --- the highlight
     MISTAKE("half-of-raw-light",
-            "The highlight is larger and shifted towards the light, because a distant light outweighs the eye.",
+            "The highlight is larger and shifted towards the light, because the vector to a distant light is longer "
+            "than the vector to the eye.",
             BLINN " and " PLACE, EDIT("normalize(L + V)", "normalize(way + V)"), .contains = "lights[i].position.xyz"),
     FORM("half-of-raw-light", EDIT(C_HALF, "normalize(add(way, V))"), .contains = "lights[i].position"),
     MISTAKE("half-not-unit", "The highlight is blown out, and many times too large.", BLINN,

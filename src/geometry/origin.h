@@ -1,11 +1,11 @@
 // origin.h: decides, by the same rule for every format, whether a mesh needs an origin other than zero, and computes
 // the origin.
 //
-// Positions are floats, with a relative precision of 2⁻²⁴. A model far from zero (survey coordinates, a car in its
-// factory) would lose detail. Therefore a mesh has an `origin` in double, which is subtracted before positions are
-// rounded to float. Readers of file formats with more precision than floats subtract the origin themselves. For all
-// other files, scene_measure subtracts the origin from the floats. This subtraction is exact, and later calculations
-// then lose no more detail.
+// Positions are floats, with a relative precision of 2⁻²⁴. A model far from zero (for example in survey coordinates)
+// would lose detail. Therefore a mesh has an `origin` in double, which is subtracted before positions are rounded to
+// float. Readers of file formats with more precision than floats subtract the origin themselves. For all other files,
+// scene_measure subtracts the origin from the floats. This subtraction is exact, and later calculations then lose no
+// more detail.
 #ifndef ORIGIN_H
 #define ORIGIN_H
 

@@ -2,8 +2,8 @@
 //
 // Ear clipping (Meisters 1975): a corner is an ear if it is convex and its triangle contains no other corner. Cutting
 // an ear changes only its two neighbours, so each corner is tested about three times. Only corners that are not convex
-// can be inside an ear. Such corners are stored in a tree of boxes over their Morton order. Therefore a test takes
-// about √count steps even for long thin ears, for any distribution of the corners.
+// can be inside an ear. Such corners are sorted in Morton order and stored in a tree of bounding boxes. Therefore a
+// test takes about √count steps even for long thin ears, for any distribution of the corners.
 //
 // Decisions are exact. The corners are projected along the axis of the normal's largest component and snapped to
 // integers, with 2^30 steps along the longer side of their bounding box. The grid is finer than the resolution of a
@@ -14,8 +14,9 @@
 
 enum {
     NONE = UINT32_MAX,
-    LEAF = 8,      // points per leaf of the tree
-    STEP_RATE = 4, // maximum of visited nodes and points, divided by count·√count; simple polygons need a third
+    LEAF = 8, // points per leaf of the tree
+    STEP_RATE =
+        4, // a polygon may visit STEP_RATE · count·√count nodes and points; simple polygons need a third of this
     CHECK_INTERVAL = 65536,
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };
@@ -87,7 +88,7 @@ static void face_normal(const float *a, const float *b, const float *c, double o
     out[2] = u[0] * v[1] - u[1] * v[0];
 }
 
-// Returns whether two triangles that share an edge of a quad face the same way.
+// Returns whether the two triangles of a quad face in the same direction.
 static bool same_side(const float *a, const float *b, const float *c, const float *d, const float *e, const float *f)
 {
     double m[3], n[3];
@@ -284,8 +285,8 @@ static bool point_inside(const struct corner *const triangle[3], const struct co
     return true;
 }
 
-// Returns whether a non-convex corner is inside corner i's triangle (with `touching`, also on its edges). For a polygon
-// with few, often repeated points, the search could visit all nodes for each corner. Once the maximum number of steps
+// Returns whether a non-convex corner is inside corner i's triangle (with `touching`, also on its edges). If a polygon
+// repeats a few points many times, the search could visit all nodes for each corner. Once the maximum number of steps
 // is reached, all corners are therefore treated as blocked.
 static bool blocked(struct clip *clip, uint32_t i, bool touching)
 {
@@ -431,7 +432,8 @@ static bool clip_ears(struct clip *clip, uint32_t count, struct call_control *ca
     return true;
 }
 
-// Divides the block of the scratch memory, which only grows, into the arrays for a polygon of `count` corners.
+// Divides the block of scratch memory into the arrays for a polygon with `count` corners. The block grows if necessary
+// and never shrinks.
 static bool reserve_memory(struct triangulator *scratch, uint32_t count, struct clip *clip, uint32_t **extra)
 {
     uint32_t leaves = 1;

@@ -1,11 +1,11 @@
 // triangulate.h: splits polygons of any size, convex or not, into triangles.
 //
 // A triangle is unchanged, a quad is split along its inner diagonal, and a larger convex polygon becomes a fan. Every
-// other polygon is cut ear by ear in its dominant plane, snapped to an integer grid so that every decision is exact.
-// Simple polygons are covered exactly, even if points are collinear, repeated or touching (holes joined by a bridge). A
-// polygon without area or with self-intersections still gives count − 2 triangles. The function takes at most about
-// count·√count steps. A polygon that needs more steps, because of repeated points or many crossing edges, is then cut
-// at its convex corners without further tests.
+// other polygon is projected onto its dominant plane, snapped to an integer grid so that every decision is exact, and
+// cut ear by ear. Simple polygons are covered exactly, even if points are collinear, repeated or touching (holes joined
+// by a bridge). A polygon without area or with self-intersections still gives count − 2 triangles. The function takes
+// at most about count·√count steps. A polygon that needs more steps, because of repeated points or many crossing edges,
+// is then cut at its convex corners without further tests.
 #ifndef TRIANGULATE_H
 #define TRIANGULATE_H
 
@@ -33,7 +33,7 @@ void triangulator_stop(struct triangulator *scratch);
 bool triangulate(struct triangulator *scratch, const float *positions, const uint32_t *corners, uint32_t count,
                  uint32_t *triples);
 
-// Returns which edges of a triple are inside the polygon of `count` corners. Bit k is the edge from corner k to the
+// Returns which edges of a triangle are inside the polygon with `count` corners. Bit k is the edge from corner k to the
 // next corner (lam_mesh.inner_edges).
 static inline uint8_t triangulated_inner_edges(const uint32_t triple[3], uint32_t count)
 {

@@ -1,5 +1,5 @@
-// context.c: makes OpenGL contexts without a window: on a device that EGL enumerates, on Mesa's surfaceless platform,
-// or on the default display, with a surface of one pixel.
+// context.c: makes OpenGL contexts without a window. Uses a device that EGL enumerates, Mesa's surfaceless platform, or
+// a surface of one pixel on the default display.
 #include "context.h"
 
 #include "fail.h"

@@ -4,7 +4,7 @@
 // src/glsl/text. These files contain the code for all choices. For one set of choices, branches with known conditions
 // are resolved, and unread names are removed (specialize.h).
 //
-// Names in the source. Attributes, with their locations (GLSL 120: bound by name):
+// The attributes have these locations (GLSL 120 binds attributes by name):
 //    0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,
 //    8 second_texcoord.
 // glsl_rows.c contains the table of uniforms. All colours are vec4, so that arrays of colours have the same layout in
@@ -43,10 +43,11 @@ enum glsl_environment {
 enum glsl_layer {
     GLSL_NO_LAYERS,
     GLSL_WRITES_DEPTH_IDS, // an opaque surface
-    GLSL_PEELS,            // a layer: the fragments after nearer_depth_ids and before opaque_depth_ids
+    GLSL_PEELS,            // a layer: the fragments behind nearer_depth_ids and in front of opaque_depth_ids
 };
 
-// Lights are grouped by kind and falloff; the shader has a loop for each group, with its kind as a constant.
+// Lights are grouped by kind and falloff. The shader contains a loop for each group; in the loop, the group's kind is a
+// constant.
 struct glsl_group {
     int kind, falloff; // LIGHT_…, FALLOFF_… of src/lighting/light_kinds.h
     int count;
@@ -60,7 +61,8 @@ struct glsl_map {
     uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
 };
 
-// The choices that determine a shader's source. If memcmp compares two structs, zero them before assigning members.
+// The choices that determine a shader's source. Before memcmp can compare two structs, both must be zeroed before their
+// members are assigned.
 struct glsl_choices {
     enum glsl_version version;
     enum glsl_storage storage;
@@ -82,7 +84,7 @@ struct glsl_choices {
     // the variance of the normals increases the roughness of physical materials (lam_specular_aa); not in 120
     bool widens;
     bool passed;      // each light is multiplied by its unblocked share, which the program sets (in texels: position.w)
-    bool shadows;     // traverses the hierarchy, stored in a texture (shadows.glsl); not in 120
+    bool shadows;     // the shader traverses the hierarchy, which is in a texture (shadows.glsl); not in 120
     bool passes_rays; // with shadows, whether some triangles transmit light
     bool tints_rays;  // with passes_rays, whether these triangles also tint the light
     bool catches;     // a shadow catcher: black, with the blocked share of the light as opacity
@@ -110,8 +112,8 @@ struct glsl_choices {
 };
 
 // Sets the choices for a range of a frame. Zeroes the struct first, so that memcmp can compare it. The caller sets
-// version, storage, encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective.
-// LAM_STAGE_AUTO means the vertex stage with Gouraud shading, otherwise the fragment stage.
+// version, storage, encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective. With
+// Gouraud shading, LAM_STAGE_AUTO means the vertex stage. With any other shading, it means the fragment stage.
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 
@@ -123,7 +125,8 @@ static inline bool glsl_output_is_geometry(lam_output output)
            output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW || output == LAM_OUTPUT_AMBIENT_OCCLUSION;
 }
 
-// Lets the hardware filter textures, so that the program no longer depends on the wrapping and filters of maps.
+// Sets choices->hardware_filter: the hardware filters the textures. The shader program then does not depend on the
+// wrapping and filters of maps.
 void glsl_use_hardware_filter(struct glsl_choices *choices);
 
 struct glsl_text {
@@ -159,7 +162,8 @@ struct glsl_light {
     // these shaders, the position of a directional light is the world axis along which the light's direction has its
     // smallest component.
     float position[4];
-    // the unit direction of travel in eye space; w is 0 or, with `occlusion`, the share that occlusion dims
+    // the unit direction of travel in eye space; w is 0 or, with `occlusion`, the share of the light that occlusion
+    // dims
     float direction[4];
     float attenuation[4]; // constant, linear, quadratic, 1 / range (0 if there is none)
     float cone[4];        // cos cutoff, exponent, cos outer, 1 / max(0.001, cos inner − cos outer)
@@ -187,7 +191,7 @@ void glsl_pack_lights(const struct glsl_choices *choices, const struct frame *fr
 // glsl_products_bytes returns the size of one material's products: the block Products or BackProducts, or the
 // material's texels in product_list. glsl_pack_products writes the products. The products are, for each light, the
 // diffuse, the specular and (with gl1) the ambient product, then, for each hemisphere, the products of sky and ground.
-// The uniforms first_product and back_first_product contain the index of the first texel.
+// The uniforms first_product and back_first_product contain the index of a material's first texel.
 size_t glsl_products_bytes(const struct glsl_choices *choices);
 void glsl_pack_products(const struct glsl_choices *choices, const struct frame *frame, const lam_material *material,
                         float *out);
@@ -195,8 +199,8 @@ void glsl_pack_products(const struct glsl_choices *choices, const struct frame *
 // Sets the choices for the maps of a range.
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
 
-// Returns whether a shader of these materials separates the light that the diffuse map multiplies from other light
-// (glsl_facts.separate_texture_terms).
+// Returns whether a shader for these materials computes two sums of light: with and without the factor of the diffuse
+// map (glsl_facts.separate_texture_terms).
 bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_draw_range *range);
 
 // Returns the smallest visible opacity of a masked surface. For outputs of surface properties, only maps and vertex
@@ -215,8 +219,8 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
 // Returns the name of a field in the shader.
 const char *glsl_field_name(const struct material_field *field, bool products);
 
-// Returns the frame's index of the next light in the shader's order, or −1 after the last light. Lights of a group keep
-// the frame's order. A zeroed cursor is before the first light.
+// Returns the index (in the frame) of the light that is next in the shader's order, or −1 after the last light. Lights
+// of a group keep the frame's order. A zeroed cursor is before the first light.
 struct glsl_light_cursor {
     int group, light;
 };

@@ -63,7 +63,7 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
             text_print(text, "    float own_%s = front ? %s : back_%s;\n", parameters[i], parameters[i], parameters[i]);
 }
 
-// `own` selects the values of the material and its maps, before lighting changes them.
+// If `own` is set, adds the parameter's value in the material and its maps, before lighting changes the value.
 static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length, bool own)
 {
     char member[32];

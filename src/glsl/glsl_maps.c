@@ -305,7 +305,7 @@ static void add_own(struct words *w, const char *name)
 
 static const char *footprint_word(const struct glsl_map *map) { return map->texcoords ? "second" : "first"; }
 
-// Writes the arguments for the texture lookup: its texture coordinates, and the filters that the shader computes.
+// Writes the arguments of the texture lookup: the map's texture coordinates, and the filters that the shader computes.
 static void write_sampling(char out[WORD_MAX], const struct glsl_map *map)
 {
     static const char *const wraps[] = {"WRAP_REPEAT", "WRAP_CLAMP", "WRAP_MIRROR"};

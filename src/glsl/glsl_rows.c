@@ -141,7 +141,7 @@ static void add_environment(struct list *list, const struct glsl_facts *f)
             "a texel for each pixel: the unoccluded share of surrounding light", "ambient_occlusion");
 }
 
-// Adds the light for an output of one light.
+// For an output that shows one light, adds the uniform of this light.
 static void add_one_light(struct list *list, const struct glsl_facts *f)
 {
     bool texture = f->choices->storage == GLSL_TEXTURE;

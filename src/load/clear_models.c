@@ -43,7 +43,7 @@ static bool is_clear(struct lam_scene *scene, const lam_object *object)
     struct shown shown = {0};
     while (next_shown(scene, object, &shown)) {
         bool materials = !(shown.front->diffuse.a > 0) && (!shown.back || !(shown.back->diffuse.a > 0));
-        if (!materials) // the material is opaque, so the mesh's colours decide
+        if (!materials) // a material is visible, so only transparent mesh colours can hide the object
             return colors_are_clear(scene_mesh(scene, object->mesh));
     }
     return true;
@@ -81,7 +81,7 @@ void show_clear_scene(struct lam_scene *scene, const char *name)
     char count[40] = "";
     if (scene->clear_materials > 1)
         snprintf(count, sizeof count, ", the first of %d", scene->clear_materials);
-    const char *opaque = "a picture would show nothing else, so everything is drawn opaque";
+    const char *opaque = "the picture would be empty, so everything is drawn opaque";
     if (scene->first_clear)
         scene_warn(scene, "%s%s%s%s", scene->first_clear, count, clear ? "; " : "", clear ? opaque : "");
     else if (clear)

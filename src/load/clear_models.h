@@ -4,7 +4,7 @@
 
 #include "scene_internal.h"
 
-// Makes all materials and colours opaque, and warns, if they make every triangle fully transparent. Some programs write
+// If the materials and colours make every triangle fully transparent, makes them opaque and warns. Some programs write
 // opaque models in this form: MeshLab writes `Tr 1` without `d`, or colours with an alpha of 0. Otherwise warns of
 // fully transparent materials in MTL files. There is at most one warning. `name` is the name of the file.
 void show_clear_scene(struct lam_scene *scene, const char *name);

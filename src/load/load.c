@@ -92,15 +92,14 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     if (importer->up_is_habit && params->up == LAM_UP_AUTO && is_terrain_on_z(scene)) {
         scene->up = LAM_UP_Z;
         lam_scene_add_warning(scene, "z is assumed to be up, because the model is a terrain in the plane of x and y "
-                                     "(the up axis y keeps the file's axes)");
+                                     "(to keep the file's axes, choose y as the up axis)");
     }
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
     call_progress(source->call, 1, "normals");
     return true;
 }
 
-// Adds an explanation to the error of a path that cannot be opened, if the path is a web address or the file's format
-// is not supported.
+// If a path cannot be opened, and is a web address or names an unsupported format, adds an explanation to the error.
 static void explain_path(const char *path, lam_error *error)
 {
     char list[FORMAT_LIST_SIZE];

@@ -3,11 +3,12 @@
 
 #include "linear.h"
 
-// A model is a terrain if it is much thinner along z than along x and y, and its area faces +z almost everywhere.
+// A model is a terrain if it is thinner along z than THIN times its smaller side in x and y, and if its area, projected
+// along z, is more than FACING times its whole area. (Area that faces −z counts as negative.)
 #define THIN     0.3
 #define NOT_FLAT 0.01 // thinner models are flat pictures, which usually stand upright
 #define FACING   0.6
-#define EVEN     0.999 // with a larger share, the model has no slopes, like stacked cards
+#define EVEN     0.999 // if the projected area is larger, the model has no slopes, like stacked cards
 
 // A model with fewer triangles may be an upright sheet.
 enum { TRIANGLES_MIN = 1000 };

@@ -33,9 +33,10 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
     return true;
 }
 
-// Adds the rounding errors of a draw. The errors come from the coordinates in the file (frame_draw.rounding), from the
-// transform to the hierarchy's space, and from the computation of a point in a triangle. The transform and the
-// computation together need fewer than eight operations in double precision. Their operands are at most the sum below.
+// Raises h->rounding to the rounding errors of a draw. The errors come from the coordinates in the file
+// (frame_draw.rounding), from the transform to the hierarchy's space, and from the computation of a point in a
+// triangle. The transform and the computation together need fewer than eight operations in double precision. Their
+// operands are at most the sum below.
 static void add_rounding(struct hierarchy *h, const struct frame_draw *draw)
 {
     for (int i = 0; i < 3; i++) {

@@ -14,7 +14,8 @@
 struct ray_triangle {
     double p[3][3];  // corners
     uint32_t number; // in the frame
-    uint32_t twin;   // the lowest number of a triangle with the same three positions; usually its own
+    uint32_t
+        twin; // the lowest number of all triangles with the same three positions; usually the triangle's own number
 };
 
 // A node: the boxes of its children as conservative floats. A node has the size of four cache lines.

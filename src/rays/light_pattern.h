@@ -2,8 +2,8 @@
 //
 // The points are on a disc perpendicular to the direction to the light. The disc also represents spherical lights. The
 // points are on Vogel's spiral (1979), and each represents the same area of the disc: point i of N is at the radius
-// √((i + ½)/N) and the angle of i golden angles. The points are the same for every lit point, so that the rays of
-// neighbouring points are nearly parallel and visit the same part of the hierarchy.
+// √((i + ½)/N), at an angle of i times the golden angle. The points are the same for every lit point, so that the rays
+// of neighbouring points are nearly parallel and visit the same part of the hierarchy.
 //
 // If N exceeds LIGHT_PROBES, LIGHT_PROBES probes are traced first. Probe i is at the radius √(i/(LIGHT_PROBES − 1)),
 // and the probe at the rim is traced first. If the probes agree, the lit point is in full light or full shadow.

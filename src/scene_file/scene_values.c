@@ -245,7 +245,7 @@ bool take_field(struct scene_reader *r, const struct place *place, const json_t 
     case LAM_FIELD_NUMBER:
     case LAM_FIELD_ANGLE:
         if (field->light_types && field->max == 1 && json_is_boolean(json_object_get(object, field->key)))
-            numbers[0] = json_is_true(json_object_get(object, field->key)); // true or false sets a fraction to 1 or 0
+            numbers[0] = json_is_true(json_object_get(object, field->key)); // true means 1, and false means 0
         else if (!take_number(r, place, object, field->key, min, max, numbers))
             return false;
         break;

@@ -542,7 +542,7 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
     json_t *out = json_object();
     if (s->present & LAM_SETTING_SIZE)
         put(w, out, "size", list_of(w, (double[]){s->width, s->height}, 2));
-    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // otherwise the default for the picture's size applies
+    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // readers choose missing samples by the size
         put(w, out, "samples", json_integer(s->draw.samples));
     if (s->present & LAM_SETTING_BACKGROUND)
         put(w, out, "background", color(w, &s->draw.background.r, 4));

@@ -263,7 +263,7 @@ static const struct formula_node *evaluate(const struct formula *formula, int co
 double formula_value(void *user, lam_vec3 p)
 {
     const struct formula *formula = user;
-    int f = formula->outputs[0]; // f needs no later operation
+    int f = formula->outputs[0]; // f does not depend on later nodes
     return evaluate(formula, f + 1, (double[]){p.x, p.y, p.z})[f].value;
 }
 

@@ -14,8 +14,8 @@ enum {
     CHECKED_OPERATIONS = 1 << 20, // number of operations between two checks of the call's limits: a few milliseconds
 };
 
-// Half the sides of the cubes that are searched. Textbook examples fit into the first cube, and most closed surfaces
-// fit into the second.
+// Half the side lengths of the cubes in which the surface is searched for. Textbook examples fit into the first cube,
+// and most closed surfaces fit into the second.
 static const double search_sides[] = {4, 16};
 
 struct implicit {
@@ -78,8 +78,8 @@ static lam_vec3 gradient_at(void *user, lam_vec3 p)
 
 static double step_of(double from, double to, int i) { return from + (to - from) * ((double)i / SEARCH_CELLS); }
 
-// Searches a coarse lattice for edges that the surface crosses. Gets the first and the last end of these edges along
-// each axis. Returns false if the surface crosses no edge.
+// Searches a coarse lattice for edges that the surface crosses. Along each axis, gets the lowest and the highest
+// lattice position of these edges. Returns false if the surface crosses no edge.
 static bool find_crossings(struct implicit *s, bool *inside, int first[3], int last[3])
 {
     static const int strides[3] = {1, SEARCH_POINTS, SEARCH_POINTS * SEARCH_POINTS};

@@ -1,4 +1,4 @@
-// formula_surface.c: makes a mesh of a parametric formula: its resolution, seams and creases.
+// formula_surface.c: makes a mesh from a parametric formula, and chooses the mesh's resolution, seams and creases.
 //
 // Creases: the domain is cut along grid lines where the normals of the two sides differ, and along lines whose points
 // coincide (a pole inside the domain). At these lines, each part of the domain has its own normals, computed from its
@@ -17,9 +17,10 @@
 #include <string.h>
 
 enum { SEGMENTS_MAX = 16384, LEAST_SEGMENTS = 16, MOST_CHOSEN = 512, PROBES = 17, PROBED_LINES = 65 };
-// The distance from the end of a part at which a one-sided derivative is evaluated, as a fraction of the domain.
+// At the ends of a part, derivatives are one-sided: they are evaluated at this distance inside the part, as a fraction
+// of the domain.
 #define ASIDE 1e-7
-// The largest distance of an edge's midpoint from the surface, as a fraction of the size.
+// The maximum distance between the midpoint of an edge and the surface, as a fraction of the size.
 #define SAGITTA (1.0 / 4000)
 // If the normals of the two sides of a line differ by more than a degree, the line is a crease.
 #define CREASE_COSINE 0.99985
@@ -61,8 +62,8 @@ static lam_surface_point evaluate(struct surface *s, double u, double v)
     return point;
 }
 
-// Returns a derivative at the end of a part. At this end, the formula's own derivative may not exist, or may belong to
-// the other side of a crease.
+// Returns a derivative at the end of a part. `own` is the formula's derivative at this end, which may not exist or may
+// belong to the other side of a crease. `inner` is the derivative slightly inside the part.
 static lam_vec3 one_sided(const struct surface *s, lam_vec3 own, lam_vec3 inner, int axis)
 {
     double unit = s->size / (s->to[axis] - s->from[axis]);
@@ -222,7 +223,7 @@ static int find_cuts(struct surface *s, int axis, int *cuts, struct call_control
 // --- The mesh of all parts
 
 struct border_point {
-    double along; // position along a direction, chosen so that few points of a shape have the same position
+    double along; // position along a direction that is chosen so that few vertices of a shape have the same position
     const float *p;
     uint32_t vertex;
 };

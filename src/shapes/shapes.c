@@ -403,7 +403,7 @@ int lam_shape_find(const char *name)
 
 // --- Adding to a scene
 
-// Adds a mesh, whose arrays are in the scene's arena, if `made` is true. Returns the mesh's index, or −1 on failure.
+// If `made` is true, adds a mesh whose arrays are in the scene's arena. Returns the mesh's index, or −1 on failure.
 static int add_mesh(struct lam_scene *scene, bool made, const lam_mesh *mesh, lam_error *error)
 {
     int index = made ? scene_adopt_mesh(scene, mesh, error) : -1;
@@ -414,7 +414,7 @@ static int add_mesh(struct lam_scene *scene, bool made, const lam_mesh *mesh, la
     return index;
 }
 
-// Between begin and end, allocations from the scene's arena are charged to the call.
+// Between begin and end, allocations from the scene's arena count towards the limits of the call.
 static uint64_t begin(struct lam_scene *scene, struct call_control *call, const lam_control *control)
 {
     call_start(call, control);

@@ -26,8 +26,8 @@ struct shape_request {
 bool tessellate_parametric(const lam_parametric *surfaces, int count, const struct shape_request *request,
                            lam_mesh *mesh);
 
-// Works like tessellate_parametric, but with one thread. Allocates `border` in `scratch`: one byte per vertex, 1 at a
-// border of the vertex's surface.
+// Works like tessellate_parametric, but with one thread. Allocates `border` in `scratch`: one byte per vertex, which is
+// 1 if the vertex is on a border of its surface.
 bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena *arena, struct call_control *call,
                          lam_mesh *mesh, struct arena *scratch, uint8_t **border, lam_error *error);
 
@@ -35,9 +35,9 @@ bool tessellate_bordered(const lam_parametric *surfaces, int count, struct arena
 bool tessellate_implicit(const lam_implicit *surface, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                          lam_error *error);
 
-// Returns the point of the unit circle after `steps` of `around` steps per turn, from (1, 0) towards (0, 1). Quarter
-// turns are exact, and mirrored steps give bit-identical mirrored points, so round shapes are closed and symmetric to
-// the last bit.
+// Divides the unit circle into `around` steps. Returns the point after `steps` of these steps, from (1, 0) towards (0,
+// 1). Quarter turns are exact, and mirrored steps give bit-identical mirrored points, so round shapes are closed and
+// symmetric to the last bit.
 struct circle_point {
     double c, s;
 };

@@ -109,7 +109,7 @@ class Models(Case):
         done = self.good("m.obj", "-s", 40, "-o", "-")
         self.assertEqual(done.stdout, wanted)
         self.assertEqual(done.stderr.count(b"warning"), 2)
-        self.assertIn(b"warning: m.obj.mtl:10: material 'material_0' is fully transparent (Tr 1); a picture would show nothing else, "
+        self.assertIn(b"warning: m.obj.mtl:10: material 'material_0' is fully transparent (Tr 1); the picture would be empty, "
                       b"so everything is drawn opaque", done.stderr)
         self.good("m.obj", "-s", 40, "-o", "a.png", "--save-scene", "a.json")
         self.given |= {"a.png", "a.json"}

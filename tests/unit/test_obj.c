@@ -599,11 +599,12 @@ static void test_mtl_warnings(void **unused)
     }
 }
 
-// If a picture would show nothing, everything is opaque, because MeshLab writes Tr 1 for this. One warning states this.
+// If the picture would be empty, everything is drawn opaque, because MeshLab writes Tr 1 for opaque materials. One
+// warning states this.
 static void test_clear(void **unused)
 {
     (void)unused;
-#define OPAQUE "; a picture would show nothing else, so everything is drawn opaque"
+#define OPAQUE "; the picture would be empty, so everything is drawn opaque"
     static const struct {
         const char *faces, *mtl;
         float a, b; // opacities of the materials

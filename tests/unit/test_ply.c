@@ -516,7 +516,7 @@ static void test_numbers_left_over(void **state)
     lam_scene_free(scene);
 }
 
-// If all colours are transparent, they become opaque, because a picture would show nothing else.
+// If all colours are transparent, they become opaque, because the picture would otherwise be empty.
 static void test_clear_colors(void **state)
 {
     (void)state;
@@ -540,9 +540,10 @@ static void test_clear_colors(void **state)
             assert_true(alpha == (rows[i].clear == 3 ? 1.0f : c == 1 ? 1.0f / 255 : 0.0f));
         }
         if (rows[i].clear == 3)
-            assert_string_equal(lam_scene_warning(scene, 0),
-                                "a.ply: every material or colour is fully transparent (alpha 0); a picture would show "
-                                "nothing else, so everything is drawn opaque");
+            assert_string_equal(
+                lam_scene_warning(scene, 0),
+                "a.ply: every material or colour is fully transparent (alpha 0); the picture would be empty, "
+                "so everything is drawn opaque");
         assert_null(lam_scene_warning(scene, rows[i].clear == 3));
         lam_scene_free(scene);
     }

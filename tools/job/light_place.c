@@ -44,7 +44,8 @@ lam_mat4 light_to_world(const struct job *job, const lam_light *light)
 {
     lam_mat4 m = lam_mat4_identity();
     if (light->frame == LAM_FRAME_CAMERA ||
-        light->frame == LAM_FRAME_VIEW) { // the inverse of a rigid view: its rotation transposed, and the eye as origin
+        light->frame ==
+            LAM_FRAME_VIEW) { // the inverse of a rigid view: the transposed rotation, with the eye as the origin
         lam_mat4 view = lam_camera_view_matrix(&job->camera);
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
@@ -127,7 +128,7 @@ static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth,
     return times(turned(ahead, cross(ahead, s->up), degrees), length);
 }
 
-// Rotates `v` together with the light, which moves from one position to another without roll.
+// Rotates `v` by the rotation, without roll, that takes the direction `from` to the direction `to`.
 static lam_vec3 carried(lam_vec3 v, lam_vec3 from, lam_vec3 to, const struct surroundings *s)
 {
     lam_vec3 axes[2][3];
@@ -181,7 +182,7 @@ void light_brighten(lam_light *light, double factor)
     brighten(&light->ground, factor);
 }
 
-// Returns the row of the field for a light's type, or NULL if this type has no such field.
+// Returns the field with this key, or NULL if lights of this type do not have such a field.
 static const lam_field *field_of(const lam_light *light, const char *key)
 {
     for (int i = 0; lam_light_field(i); i++)

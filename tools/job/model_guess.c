@@ -1,4 +1,4 @@
-// model_guess.c: makes suggestions for a model that cannot be read: for example, another command or a similar file.
+// model_guess.c: if a model cannot be read, suggests, for example, another command or a file with a similar name.
 #include "model_guess.h"
 
 #include <dirent.h>
@@ -14,7 +14,8 @@
 
 enum { FILE_NAME_SIZE = 256, ADVICE_SIZE = 600 };
 
-// Finds the model with the most similar name in the folder of a missing file. Returns false if there is none.
+// In the folder of a missing file, finds the model whose name is most similar to the missing name. Returns false if no
+// name is similar.
 static bool nearest_file(const char *model, char nearest[FILE_NAME_SIZE])
 {
     const char *slash = strrchr(model, '/'), *name = slash ? slash + 1 : model;

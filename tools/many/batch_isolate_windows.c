@@ -7,6 +7,6 @@ void batch_isolate(struct batch *batch)
 {
     lam_error error;
     complain(&error, LAM_UNSUPPORTED, "%s: lambent for Windows draws all models in one process",
-             batch->options->batch.isolate ? "option '--isolate'" : "option '--resume' for a killed run");
+             batch->options->batch.isolate ? "option '--isolate'" : "option '--resume' after a killed run");
     batch_stop(batch, &error);
 }

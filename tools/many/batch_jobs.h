@@ -17,10 +17,11 @@ void batch_jobs_close(struct batch_jobs *jobs); // NULL is allowed
 const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
 
 // Waits up to `wait_ms` for the next line, reads the line, and accepts, rejects or cancels a job. After an interrupt,
-// or if the batch or the answers have failed, cancels all jobs. Only the main thread may call it.
+// or if the batch has failed or an answer could not be written, cancels all jobs. Call this function only from the main
+// thread.
 void batch_jobs_step(struct batch_jobs *jobs, int wait_ms);
 
-// Returns the file to poll() for the next line, or −1 if no line is needed now.
+// Returns the file descriptor to pass to poll() to wait for the next line, or −1 if no line is needed now.
 int batch_jobs_wanted(const struct batch_jobs *jobs);
 
 // Returns whether batch_jobs_step can make progress without input.
@@ -29,11 +30,11 @@ bool batch_jobs_is_ready(const struct batch_jobs *jobs);
 // Returns whether no job is waiting and none will arrive.
 bool batch_jobs_over(struct batch_jobs *jobs);
 
-// Gets the next waiting job. Waits until there is a job if `waits` is set. Returns false if there is no job. Any thread
-// may call it.
+// Gets the next waiting job. If `waits` is set, waits until there is a job. Returns false if there is no job. Any
+// thread may call this function.
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
-// Answers a job with its result, and frees the job. Any thread may call it.
+// Answers a job with its result, and frees the job. Any thread may call this function.
 void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit);
 
 #endif

@@ -170,7 +170,7 @@ static void put_picture(FILE *out, const char *page, const json_t *record)
     free(thumbnail);
 }
 
-// Writes the failures, or the pictures.
+// Writes the records of the failed pictures if `failures` is set; otherwise writes the records of the other pictures.
 static void put_records(FILE *out, const struct batch_page *page, bool failures)
 {
     for (size_t i = 0; i < page->record_count; i++) {

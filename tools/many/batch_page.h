@@ -4,7 +4,8 @@
 
 #include "batch_unit.h"
 
-// Makes the thumbnails of a unit's pictures, in the folder beside the page. Any thread may call it. Errors are ignored.
+// Makes the thumbnails of a unit's pictures, in the folder beside the page. Any thread may call this function. Errors
+// are ignored.
 void batch_page_thumbnails(const struct batch *batch, const struct batch_unit *unit);
 
 // Returns whether a thumbnail is missing, or older than its picture.

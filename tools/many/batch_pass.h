@@ -14,10 +14,11 @@ bool batch_begin_suspects(struct batch *batch);
 void batch_end_suspects(struct batch *batch);
 
 // Gets the next model of the pass, or the next job. Waits for a job if `waits` is set. Returns false if there is no
-// next model or job, or if the batch must not start any more models. Any thread may call it.
+// next model or job, or if the batch must not start any more models. Any thread may call this function.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
-// Processes the results of a unit: counters, journal lines, messages, the answer to a job. Any thread may call it.
+// Processes the results of a unit: counters, journal lines, messages, the answer to a job. Any thread may call this
+// function.
 void batch_deliver(struct batch *batch, struct batch_unit *unit);
 
 // Removes the temporary files that a killed process left beside a model's pictures. `host` is the machine of the

@@ -9,16 +9,16 @@ struct batch_process {
     struct child_bytes answer;
     double stop_ms; // the clock_ms() at which the process will be killed, or 0
     bool stopped;   // whether the process was killed at `stop_ms`
-    pid_t writer;   // the writer for this process, which ends after this process; or 0
+    pid_t writer;   // 0, or the writer for this process; the writer ends after the process
 };
 
-// Starts `work` in a copy of this process, which must have no other thread. The copy sends back the bytes that `work`
-// adds to the answer. Returns false and sets errno on failure.
+// Starts `work` in a copy of this process. The process must have no other thread. The copy sends back the bytes that
+// `work` adds to the answer. Returns false and sets errno on failure.
 typedef void batch_work(void *user, struct child_bytes *answer);
 bool batch_process_start(struct batch_process *process, batch_work *work, void *user);
 
-// Waits up to `wait_ms` until one of the processes sends data or ends, or until the file `also` (−1 if there is none)
-// is readable. Returns the index of a process that has ended, with the status from waitpid, or −1 if no process has
+// Waits until a process sends data, a process ends, or the file `also` (−1 if there is none) is readable, but at most
+// `wait_ms`. Returns the index of a process that has ended, with the status from waitpid, or −1 if no process has
 // ended.
 int batch_process_wait(struct batch_process *list, int count, int also, int wait_ms, int *status);
 

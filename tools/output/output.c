@@ -75,7 +75,7 @@ bool output_check(const char *path, const char *model, enum output_given given, 
     bool named = given != OUTPUT_BY_MODEL;
     if (stat(path, &there) != 0)
         return check_folder(path, given != OUTPUT_NAMED, error);
-    // If `path` is the model itself, loading the model reports that it is not a model.
+    // If `path` is the model's own path, the model has no model format, and loading it reports this error.
     if (given != OUTPUT_NAMED && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev &&
         there.st_ino == of_model.st_ino)
         return true;
@@ -108,7 +108,7 @@ bool output_is_stream(const char *path)
                                       !lam_image_format_for(path, &format, NULL));
 }
 
-// Thumbnailers are given names without an extension and expect a PNG.
+// File managers pass a thumbnailer a name without an extension, and expect a PNG.
 static bool is_without_ending(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;

@@ -23,8 +23,8 @@ struct part {
     bool placeholder;
 };
 
-// Removes the next part from the start of a pattern. Returns false at the end, or at an unmatched brace, in which case
-// *pattern is not "".
+// Removes the next part from the start of a pattern. Returns false at the end of the pattern (*pattern is then "") or
+// at an unmatched brace.
 static bool next_part(const char **pattern, struct part *part)
 {
     const char *at = *pattern;

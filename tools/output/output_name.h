@@ -20,7 +20,7 @@ enum { OUTPUT_FRAME_OPEN = -1 };
 // The placeholders that a command supports in addition to {stem}, {ext} and {dir}, as bits.
 enum { NAME_VIEW = 1, NAME_SIZE = 2, NAME_FRAME = 4 };
 
-// Returns true if a name contains a brace of a pattern. "{{" and "}}" are escaped braces.
+// Returns true if a name contains a brace and is therefore a pattern. In patterns, "{{" and "}}" mean literal braces.
 bool output_name_is_pattern(const char *name);
 
 // Returns true if the pattern contains the placeholder, which is given without braces.

@@ -136,7 +136,8 @@ static bool show_png(const lam_bytes *png, const lam_image *image, lam_error *er
     char *text = base64_encode(png->data, png->size, &length), dimension[32] = "";
     if (!text)
         return complain(error, LAM_LIMIT, "out of memory");
-    // The terminal scales the picture and computes the other side from the aspect ratio.
+    // The sequence contains only the width or only the height. The terminal scales the picture and computes the other
+    // dimension from the aspect ratio.
     bool tall, kitty = terminal.kind == TERM_KITTY;
     struct chafa_size size = fit(image);
     if (scale_of(image, &tall) < 1)

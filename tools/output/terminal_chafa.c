@@ -1,7 +1,7 @@
 // terminal_chafa.c: makes sixels and block characters with libchafa, which is loaded with dlopen only if it is needed.
 //
 // This file declares the few functions and constants itself, so a build does not need the library's header. They belong
-// to the stable interface (https://hpjansson.org/chafa/ref/), which is unchanged since version 1.6.
+// to the stable interface (https://hpjansson.org/chafa/ref/), which has not changed since version 1.6.
 #include "terminal.h"
 
 #include <dlfcn.h>

@@ -131,7 +131,7 @@ void page_model_free(struct page_model *model)
 
 // File types that the page's module cannot decode.
 static const struct {
-    const char *ending, *extension; // NULL if not used to recognise the type
+    const char *ending, *extension; // NULL if the name's ending, or the glTF extension, does not identify the type
     const char *sentence;
 } unreadable[] = {
     {".webp", "EXT_texture_webp", "the page cannot read pictures in WebP"},

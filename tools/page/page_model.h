@@ -30,8 +30,8 @@ void page_model_free(struct page_model *model);
 const char *page_model_lacks(const struct page_model *model, const lam_file_info *info, int index);
 
 // Prints the picture's command line as a JSON array: the model, and one string for each option with its value. The text
-// contains no '<'. `given` contains the options of the command line. Options about the machine (threads, device,
-// limits) and about output files are omitted. Fails with LAM_LIMIT.
+// contains no '<'. `given` contains the options of the command line. The result omits the options for the machine
+// (threads, device, limits) and for output files. Fails with LAM_LIMIT.
 bool page_model_words(FILE *out, const struct job *job, const struct options *given, const struct page_model *model,
                       lam_error *error);
 

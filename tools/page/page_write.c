@@ -67,7 +67,7 @@ static bool put_file(FILE *out, const struct page_file *file, size_t *left, lam_
     return true;
 }
 
-// Writes the page's own text with the model inserted before its end.
+// Writes the page, with the model inserted before the last </body>.
 static bool put_page(FILE *out, const struct job *job, const struct options *given, const char *page,
                      const struct page_model *model, lam_error *error)
 {
@@ -114,7 +114,8 @@ static bool write_page(struct job *job, const struct options *given, const char 
 
 bool page_run(struct job *job, struct progress *progress, lam_error *error)
 {
-    const struct options *given = job->options; // loading adds a scene file's settings
+    const struct options *given =
+        job->options; // without the settings of the scene file, which loading adds to job->options
     char *page = NULL;
     bool ok = check(job, &page, error);
     job->format = "html";

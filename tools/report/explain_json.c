@@ -220,7 +220,7 @@ static void write_point(struct json *json, const lam_explanation *e, const lam_e
     json_close(json, '}');
 }
 
-// Writes a field that is not in the matrix.
+// Writes a field of the material, unless the material's matrix contains the field.
 static void write_field(struct json *json, const lam_field *field, const lam_material *m)
 {
     double numbers[4];

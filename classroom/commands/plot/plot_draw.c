@@ -190,8 +190,8 @@ static bool draw_marks(const struct plot *plot, const struct layout *at, struct 
     return true;
 }
 
-// Draws a curve's line in the legend. If the curve falls below 1/255 outside the axis, the plot contains no dot for
-// this value, and the legend states it.
+// Writes a curve's line in the legend. If the curve falls below 1/255 beyond the end of the x axis, the plot shows no
+// dot, and the legend states the position instead.
 static const char *legend_of(const struct plot *plot, const struct curve *curve, char text[LEGEND_SIZE])
 {
     snprintf(text, LEGEND_SIZE, "%s", curve->label);

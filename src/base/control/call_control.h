@@ -19,7 +19,7 @@ struct call_control {
     uint64_t input_bytes;
     bool unknown_field; // the control sets a field that this version does not know
     double last_share;
-    // The number of operations in the formulas of a scene file, and the limit for it; a limit of 0 means no limit.
+    // The number of operations in the formulas of a scene file, and the maximum number; 0 means no limit.
     uint64_t operations, operation_limit;
 };
 
@@ -34,10 +34,11 @@ bool call_should_continue(struct call_control *call);
 // Fills the error with the reason why call_should_continue returned false, and returns false.
 bool call_error(struct call_control *call, lam_error *error);
 
-// These functions charge memory to the call, or refund it. call_charge returns false if the memory exceeds the budget.
-// Any thread may call these functions.
+// call_charge counts memory towards the call's memory budget, and call_refund subtracts it again. call_charge returns
+// false if the memory exceeds the budget. Any thread may call these functions.
 bool call_charge(struct call_control *call, size_t bytes);
-// Charges memory that the call does not strictly need: if the budget is exceeded, the call still continues.
+// Works like call_charge, but for memory that the call can do without: if the memory exceeds the budget, the call still
+// continues.
 bool call_charge_spare(struct call_control *call, size_t bytes);
 void call_refund(struct call_control *call, size_t bytes);
 

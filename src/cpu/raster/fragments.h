@@ -9,7 +9,7 @@
 // groups them, and shade_fragments fills in the colours.
 struct fragments {
     int count;
-    uint32_t *id;    // triangle number with BACK_SIDE
+    uint32_t *id;    // triangle number; BACK_SIDE is set if the back is visible
     uint16_t *pixel; // y·TILE + x
     uint8_t *weight; // number of samples that show the triangle
     uint8_t *sample; // the index of the sample that is nearest to the pixel's centre

@@ -20,8 +20,8 @@ struct raster_frame {
     struct work *work; // the frame's work, to which every worker adds
     int tiles_across, tiles_down;
     bool without_glass; // surfaces that transmit light are omitted, to draw the picture behind these surfaces
-    // The guard band: the largest |x| and |y| of a vertex for which a triangle needs no clipping. x and y are measured
-    // from the window's centre, in multiples of w.
+    // The guard band: a triangle needs no clipping if |x| and |y| of its vertices are at most these values. x and y are
+    // measured from the window's centre, in multiples of w.
     float guard[2];
     // x, y and key of each vertex of the indexed meshes. x and y are in pixels (y down, not snapped); larger keys are
     // nearer. Corners of other meshes are transformed on demand (corners.inc).

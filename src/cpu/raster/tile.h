@@ -10,8 +10,8 @@ enum {
     SUBPIXEL = 256, // steps per pixel to which vertices are snapped
     SUBPIXEL_SHIFT = 8,
     LANES_MAX = 16,
-    LAYERS_MAX = 65536, // the maximum number of translucent fragments that a thread stores, and therefore that one
-                        // pixel may have
+    // the maximum number of translucent fragments that a thread stores, and therefore the maximum number in one pixel
+    LAYERS_MAX = 65536,
 };
 
 #define NOTHING   0xffffffffu // a sample that no triangle covers

@@ -41,7 +41,7 @@ struct tile_search {
 // need more than a megabyte.
 enum { LARGE_PICTURE = 64 };
 
-// Finds the lowest and the highest triangle of the fragments.
+// Finds the lowest and the highest triangle number of the fragments.
 static void range_of_triangles(const struct fragments *fragments, uint32_t *lowest, uint32_t *highest)
 {
     int32_t low = INT32_MAX, high = 0; // every processor has vector comparisons for signed integers
@@ -233,8 +233,8 @@ bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, la
     }
     if (!work_continues(&cpu->work))
         return true; // the caller reports the reason
-    // The transformed vertices are no longer needed either, so their memory is reused. (The vertices of meshes without
-    // indices are not stored.)
+    // The transformed vertices are no longer needed, so their memory is reused. (The vertices of meshes without indices
+    // are not stored.)
     struct scratch_memory scratch = {0};
     if (cpu->fragment_stores) {
         release_bins(cpu);

@@ -19,9 +19,9 @@ struct visible_buffers {
 // Returns whether cover_in_advance would find each tile's fragments and keep them until they are shaded.
 bool keeps_fragments(const struct cpu_frame *cpu);
 
-// If the frame needs them, finds the distances of the surfaces (cpu->occlusion), the visible triangles, and the normals
-// of these triangles. If all surfaces are opaque, each tile's fragments are found at the same time and kept; otherwise
-// every binned triangle is treated as visible.
+// Finds the distances of the surfaces (cpu->occlusion), the visible triangles, and the normals of these triangles, each
+// only if the frame needs it. If all surfaces are opaque, the search keeps each tile's fragments; otherwise it treats
+// every binned triangle as visible.
 bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error);
 void visible_buffers_empty(struct visible_buffers *buffers, int threads); // frees the fragment stores
 

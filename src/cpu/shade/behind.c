@@ -46,9 +46,9 @@ static const float *texel_at(const struct behind *behind, int level, int x, int 
     return behind->texels[level] + 4 * (row + (size_t)clamped(x, behind->width[level]));
 }
 
-// Texel `i` of the next level, which has `count` texels, covers several texels of a level. Returns these texels, with
-// the covered fraction of each as its weight. A texel covers two texels, or three if the size is odd; the outer two of
-// three are covered only partly.
+// Texel `i` of the next level, which has `count` texels, covers several texels of this level, which has `size` texels.
+// Returns these texels, with the covered fraction of each as its weight. A texel covers two texels, or three if the
+// size is odd; the outer two of three are covered only partly.
 static struct taps covered_taps(int i, int count, int size)
 {
     if (size == 1)

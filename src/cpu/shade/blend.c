@@ -163,7 +163,7 @@ static void rank_layers(const struct fragments *fragments, const struct layer_ro
     sort_by_rank(layers, count);
 }
 
-// Blends the layers of one pixel: adds to the pixel's sums, and sets the transmittance of each sample.
+// Blends the layers of one pixel: adds their light to the pixel's sums, and sets the transmittance of each sample.
 static void blend_pixel(const struct fragments *fragments, const struct layer_rows *rows, struct blend_scratch *scratch,
                         int samples, int pixel, struct pixel_sums *sums, struct recorder *recorder)
 {
@@ -239,7 +239,7 @@ struct tinted_pixel {
     int number;      // index in the tile
     float x, y;      // the centre of the pixel in the picture
     int samples;     // per pixel
-    float looked[4]; // the value of the picture behind at the last sample that refracts
+    float looked[4]; // the colour of the picture behind the glass, read for the last sample that refracts
     struct layer_sum last;
 };
 

@@ -12,7 +12,7 @@ struct resolve_target {
     lam_image *image;     // the picture in a working format (pixels.h), without pixels if `converted` is set
     lam_image *converted; // the caller's picture in another format, into which tiles are converted; or NULL
     uint8_t empty_pixel[16];
-    const struct behind *behind; // if not NULL, its first level receives the sums instead of the picture
+    const struct behind *behind; // if not NULL, the pixels are written to its first level, and the picture is unchanged
 };
 
 // Sums of a tile's pixels.
@@ -26,11 +26,11 @@ struct pixel_sums {
     // the channels. Otherwise NULL.
     float *tint[3];
     const float *background;     // the background behind layers that transmit light (frame.glass_background)
-    const struct behind *behind; // NULL if nothing is blurred or refracted, or while the picture behind itself is drawn
+    const struct behind *behind; // NULL while the picture behind glass is drawn, and if nothing is blurred or refracted
 };
 
-// Returns the number of bytes per pixel of a working format. Both results are constants, so that the compiler inlines
-// short copies.
+// Returns the number of bytes per pixel of a working format. Each return value is a constant, so that the compiler
+// inlines short copies.
 static inline size_t working_bytes(const lam_image *image) { return image->format == LAM_RGBA8 ? 4 : 16; }
 
 // Returns a row of a tile in the picture.

@@ -15,7 +15,7 @@ struct light_products {
 struct material_products {
     float ambient[3]; // ka ⊙ (La_global + Σ La)
     float emission[3];
-    float diffuse[4];      // kd and opacity, for unlit painting
+    float diffuse[4];      // kd and opacity
     float reflectivity[3]; // kr
     bool mirrors;          // there is an environment, kr is not 0, and the material is classic
     const lam_material *given;

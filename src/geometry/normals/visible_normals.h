@@ -1,8 +1,8 @@
 // visible_normals.h: computes normals for some or all triangles of a mesh.
 //
-// A picture of a large model shows only a few of the model's triangles. Only the corners at the positions of visible
-// triangles are searched. The normals at these corners are bit-identical to the normals that are computed for the whole
-// mesh.
+// A picture of a large model shows only a few of the model's triangles. The search is limited to corners at the
+// positions of visible triangles' corners. The normals at these corners are bit-identical to the normals that are
+// computed for the whole mesh.
 #ifndef VISIBLE_NORMALS_H
 #define VISIBLE_NORMALS_H
 
@@ -12,8 +12,8 @@
 
 #include <lambent/mesh.h>
 
-// Normals of a set of triangles of one or several meshes. The triangles of all meshes are numbered consecutively. The
-// normal at corner k of the triangle with rank r in the set is normals[elements[3r + k]].
+// Normals for a set of triangles from one or several meshes. The triangles of all meshes are numbered consecutively.
+// The normal at corner k of the triangle with rank r in the set is normals[elements[3r + k]].
 struct visible_normals {
     struct rank_bitset triangles;
     uint32_t *elements; // 3 · triangles.count
@@ -24,7 +24,7 @@ struct visible_normals {
     uint32_t *first_corners; // a corner of the mesh for each normal, with the same capacity; NULL if not needed
 };
 
-// Returns the element of a corner of a triangle in the set.
+// For corner k of a triangle in the set, returns the index of the normal.
 static inline uint32_t visible_element(const struct visible_normals *visible, size_t triangle, uint32_t k)
 {
     return visible->elements[3 * (size_t)rank_bitset_rank(&visible->triangles, triangle) + k];

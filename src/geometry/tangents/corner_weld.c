@@ -10,7 +10,7 @@ enum {
     DIGIT_BITS = 11,
     DIGITS = 3, // digits of 32 bits
     BUCKETS = 1 << DIGIT_BITS,
-    CHECK_INTERVAL = 1 << 16, // items between two checks of the call
+    CHECK_INTERVAL = 1 << 16, // the number of items after which the call's limits are checked again
 };
 
 struct hashed_item {

@@ -6,9 +6,10 @@
 
 #include <string.h>
 
-enum { CHECK_INTERVAL = 1 << 13 }; // welded numbers between two checks of the call
+enum { CHECK_INTERVAL = 1 << 13 }; // the number of welded numbers after which the call's limits are checked again
 
-// Pairs the outgoing and incoming edges with the same other end. Edges with the same ends are paired in their order.
+// Pairs each outgoing edge with an incoming edge that has the same other end. If several edges have the same ends, they
+// are paired in their order.
 static void join(uint32_t *twin, const uint64_t *out, uint32_t out_count, const uint64_t *in, uint32_t in_count)
 {
     for (uint32_t i = 0, k = 0; i < out_count && k < in_count;) {

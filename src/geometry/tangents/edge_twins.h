@@ -9,9 +9,9 @@ enum { NO_CORNER = UINT32_MAX };
 static inline uint32_t next_corner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 static inline uint32_t prev_corner(uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-// Edge c is the edge from corner c to the next corner of its triangle. The twin of an edge has the opposite direction
-// between the same welded corners. If more than two triangles share an edge, the first edge of one direction is paired
-// with the first of the other, the second with the second, and so on.
+// Edge c is the edge from corner c to the next corner of its triangle. The twin of an edge connects the same welded
+// corners in the opposite direction. If more than two triangles share an edge, the first edge of one direction is
+// paired with the first of the other, the second with the second, and so on.
 struct edge_twins {
     uint32_t *twin; // the twin of each edge, or NO_CORNER
     // The corners of each welded number v, in order: list[first[v]] … list[first[v + 1] − 1].

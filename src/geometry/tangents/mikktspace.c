@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-enum { CHECK_INTERVAL = 1 << 13 }; // triangles or corners between two checks of the call
+enum { CHECK_INTERVAL = 1 << 13 }; // the number of triangles or corners after which the call's limits are checked again
 // a sum is treated as zero if its length is below this fraction of the sum of the summands' lengths
 #define ZERO_SUM 1e-6
 
@@ -75,8 +75,8 @@ static void make_group(struct tangent_maker *m, uint32_t corner)
             break;
 }
 
-// Completes a corner that no group reached. A corner of a degenerate triangle gets the group of the first equal corner
-// that is in a group. All other corners start their own groups.
+// Assigns a group to a corner that no group reached: the group of the first equal corner in the list of corners, if
+// that corner exists and is in a group. Otherwise, the corner starts its own group.
 static void finish_corner(struct tangent_maker *m, uint32_t corner)
 {
     uint32_t v = m->weld.of[corner];

@@ -17,8 +17,8 @@ struct triangles {
     float s[3][LANES], t[3][LANES];
 };
 
-// Fetches the elements of an attribute at the corners of LANES triangles, starting with `first`. After the end of the
-// mesh, its last triangle is repeated.
+// Fetches the elements of an attribute at the corners of LANES triangles, starting with triangle `first`. After the end
+// of the mesh, its last triangle is repeated.
 static void fetch_elements(const lam_mesh *mesh, const uint32_t *own, uint32_t first, uint32_t vertex[3][LANES])
 {
     uint32_t number[LANES];

@@ -1,5 +1,5 @@
-// tangent_kernels.h: the calculations of MikkTSpace for each triangle and each corner, for LANES triangles at a time.
-// The code is compiled once for each instruction set (meson.build). All versions give identical results.
+// tangent_kernels.h: MikkTSpace's calculations for triangles and corners, LANES triangles at a time. The code is
+// compiled once for each instruction set (meson.build). All versions give identical results.
 #ifndef TANGENT_KERNELS_H
 #define TANGENT_KERNELS_H
 
@@ -12,7 +12,7 @@ enum triangle_flags {
     TRIANGLE_DEGENERATE = 4,  // two of its positions are equal
     TRIANGLE_HAS_A_GROUP = 8, // a corner has a group
 };
-enum { TRIANGLES_AFTER = 15 }; // number of flags after the last triangle that may be overwritten
+enum { TRIANGLES_AFTER = 15 }; // the kernels may overwrite this number of flags after the last triangle's flag
 
 struct tangent_kernels {
     // Sets the flags of the triangles from `first` to `end`, except TRIANGLE_HAS_A_GROUP.

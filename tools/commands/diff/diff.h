@@ -32,14 +32,14 @@ struct model_diff {
     struct batch_plan plan;       // one model for each pair
     struct model_pair *pairs;     // for each model of the plan
     bool folders;                 // compares two folders, not two models
-    atomic_int *rows;             // counts the models whose pictures are kept for the page
+    atomic_int *rows;             // the number of models whose pictures are kept for the page
     size_t counts[CHANGE_COUNT];  // valid after all models are drawn
 };
 
 // diff_draw.c: draws a pair with one camera and determines how the model has changed (batch_use.draw).
 bool diff_draw(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
 
-// Returns how a model has changed, according to its record.
+// Returns the change that a model's record states.
 enum change diff_change_of(const json_t *record);
 
 // diff_page.c: builds the page as one file, allocated with malloc. Returns NULL if memory runs out.

@@ -35,8 +35,8 @@ static bool box_of(const lam_scene *a, const lam_scene *b, struct box *box)
     return true;
 }
 
-// Computes the sphere around both models and a camera that shows both, unless the options or the new model's scene file
-// define a camera.
+// Computes the sphere around both models. Also computes a camera that shows both models, unless the options or the new
+// model's scene file define a camera.
 static bool share(struct job *old, struct job *new, struct job_shared *shared, lam_error *error)
 {
     // If the up axes differ, no single camera shows both models upright, so each model uses its own camera.
@@ -167,7 +167,7 @@ bool diff_draw(void *user, size_t model, struct job *job, struct progress *progr
         put_counts(found, "counts_before", &old.model_counts);
         put_counts(found, "counts_after", &job->model_counts);
     } else if (!old.scene) {
-        job->model = pair->old; // makes the report name the old model
+        job->model = pair->old; // the report then names the old model
     }
     job_free(&old);
     return ok;

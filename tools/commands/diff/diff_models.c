@@ -1,4 +1,4 @@
-// diff_models.c: `lambent diff` for two models, or the models in two folders: pairs the models and prints the summary.
+// diff_models.c: `lambent diff` for models and folders: pairs the models and prints the summary.
 #include "diff.h"
 
 #include <stdio.h>

@@ -20,7 +20,7 @@ struct pair {
     char *output; // the path of the picture, or NULL
     lam_image image[2];
     lam_difference difference;
-    lam_image where; // the difference; made only for --output
+    lam_image where; // the picture of the difference; drawn only for --output
 };
 
 static bool load_pair(struct pair *pair, const struct options *o, lam_error *error)

@@ -8,7 +8,7 @@ void explain_layers_over(char text[60], const lam_explained_layers *layers, floa
     snprintf(text, 60, "%s%s", layers->coat > 0 ? "(1 − share) · " : "", sheen_left < 1 ? "left · " : "");
 }
 
-// Prints the fraction of a light that each layer reflects (docs/lighting/layers.md).
+// For one light, prints the fraction of the light that each layer reflects (docs/lighting/layers.md).
 void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all)
 {
     row_color(4, "base", layers->base, "F S");
@@ -32,7 +32,7 @@ void explain_layers(const lam_explained_layers *layers)
         row_color(4, "transmittance", layers->transmittance, "multiplies the light from behind the surface");
     if (layers->behind_x != 0 || layers->behind_y != 0)
         row_three(4, "bent by", (double)layers->behind_x, (double)layers->behind_y, 0,
-                  "pixels to the right and down: where the light behind enters");
+                  "pixels by which the picture behind is shifted to the right and down");
     if (layers->behind_blur > 0)
         row_number(4, "blurred over", (double)layers->behind_blur,
                    "pixels: height · 1024^(roughness · min(2 ior − 2, 1) − 1), at most height / 8");

@@ -14,13 +14,13 @@ void row_color(int indent, const char *name, lam_rgb c, const char *remark);
 void row_number(int indent, const char *name, double x, const char *remark);
 void row_angle(const char *name, double radians, const char *remark); // prints degrees; NaN means no angle
 
-// Prints the matrices, and the corners and the point of a triangle in each space (explain_places.c). Prints nothing for
-// lines and points.
+// Prints the matrices, and the coordinates of a triangle's corners and of the explained point in each space
+// (explain_places.c). Prints nothing for lines and points.
 void explain_places(const lam_explanation *explanation, const lam_explained_fragment *fragment);
 
 // Print the layers of a physical material (explain_layers.c): the properties that are the same for all lights, and the
-// shares of a light and of the environment light that each layer reflects. explain_layers_over writes the factors of
-// the existing layers over the base, such as "(1 − share) · left · ".
+// fractions of one light and of the environment light that each layer reflects. explain_layers_over writes the factors
+// by which the sheen and the coat, if present, dim the base: "(1 − share) · left · ".
 void explain_layers(const lam_explained_layers *layers);
 void explain_layers_over(char text[60], const lam_explained_layers *layers, float sheen_left);
 void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all);

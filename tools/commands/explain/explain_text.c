@@ -340,7 +340,7 @@ static void print_color(const lam_explanation *e, const lam_field *field, const 
     double numbers[4];
     char text[64];
     bool mirrored = field->offset == offsetof(lam_material, reflectivity);
-    // Omits fields of physical materials with default values.
+    // Omits the fields of physical materials that have their default values.
     bool known = field->symbol || field->offset == offsetof(lam_material, emission);
     if (lam_field_get(field, m, numbers) > 1 && (e->has_environment || !mirrored) && (known || differs(field, numbers)))
         row_three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
@@ -471,7 +471,7 @@ static void print_result(const lam_explanation *e, const lam_explained_fragment 
     }
     lam_rgb c = {f->color.r, f->color.g, f->color.b};
     row_color(2, "colour", c,
-              f->ground == LAM_GROUND_SHADOW   ? "black: the ground stores the blocked light as its alpha"
+              f->ground == LAM_GROUND_SHADOW   ? "black: the ground's alpha is the blocked share of the light"
               : f->point_count == 3            ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
               : e->shading == LAM_SHADING_FLAT ? "the sum, constant over the triangle"
                                                : "the sum");

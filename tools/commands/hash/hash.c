@@ -112,7 +112,8 @@ static bool name_models(struct hash_run *run, lam_error *error)
     return ok;
 }
 
-// Finds the models in the hash file that exist but are not on the command line. --update keeps their hashes.
+// Finds the models that the hash file lists and that exist, but that are not on the command line. --update keeps their
+// hashes.
 static bool find_kept(struct hash_run *run, lam_error *error)
 {
     run->kept = calloc(run->then.count + 1, sizeof *run->kept);
@@ -335,7 +336,8 @@ static int finish(void *user, json_t *const *records, size_t failed)
 
 // --- the run
 
-// Reports a different version or different options first, since they may explain changes.
+// If the file was written by another version or with other options, prints a warning, because the pictures may differ
+// for this reason.
 static bool say_head(const struct hash_run *run, lam_error *error)
 {
     char *now = hash_options_text(run->options, run->path);
@@ -398,7 +400,7 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
     return add_models(run, count, operands, error) && name_models(run, error) && find_kept(run, error);
 }
 
-// Draws and compares the models with the options of the command line and of the file.
+// Draws the models with run->options, which hash_options_take completed from the hash file, and compares their hashes.
 static int run_with(struct hash_run *run, int operand_count, char **operands)
 {
     lam_error error = {0};
@@ -409,7 +411,7 @@ static int run_with(struct hash_run *run, int operand_count, char **operands)
     drawn.picture.output = NULL;
     run->by_file = !operand_count && !run->options->batch.lists.count;
     drawn.limits.files_inside |=
-        run->by_file; // scenes of a hash file may read only the folders that the file itself may read
+        run->by_file; // scene files that the hash file lists may refer only to files below their own folders
     struct batch_use use = {draw, reach, right_of, finish, run};
     bool ok = check(operand_count, run->options, &error) && batch_plan_start(&run->plan, &drawn, &error) &&
               prepare(run, operand_count, operands, &error);

@@ -154,7 +154,8 @@ bool hash_file_read(struct hash_file *file, const char *path, lam_error *error)
 {
     *file = (struct hash_file){0};
     struct stat about;
-    int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY); // do not wait for a pipe
+    int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK |
+                                O_NOCTTY); // O_NONBLOCK: opening a named pipe must not wait for its writer
     FILE *in = opened < 0 ? NULL : fdopen(opened, "r");
     if (!in)
         return complain(error, LAM_CANNOT_READ, "%.400s: cannot open: %s", path, strerror(errno));

@@ -6,7 +6,7 @@
 // The file is longer than 600 lines because it contains a single table.
 #include "fault.h"
 
-// The switches without their prefix.
+// The names in FAULT_BITS, without the prefix BIT_, are constants for the rows below.
 enum {
 #define SWITCH(name) name = BIT_##name,
     FAULT_BITS(SWITCH)
@@ -14,7 +14,7 @@ enum {
 };
 
 #define BITS(...) {__VA_ARGS__}
-// The last arguments are the correction, then other members as designated initializers.
+// The arguments after `explanation` are the correction and, as designated initializers, other members.
 #define ROW(id, bits, where, needs, explanation, ...) {id, bits, where, needs, explanation, .correction = __VA_ARGS__}
 
 const struct fault faults[] = {
@@ -163,8 +163,8 @@ const struct fault faults[] = {
         "a point is subtracted from a directional light (w = 0), and the length includes the resulting w of -1",
         "vec3 L = {light}.w == 0.0 ? {light_direction} : {light_eye} - P;"),
     ROW("direction-minus-origin", BITS(DIRECTION_MINUS_ORIGIN), 0, NEED_DIRECTIONAL,
-        "0, 0, 0, 1 is subtracted from a directional light (w = 0) before it is normalized; the length includes the "
-        "resulting w of -1, so l is too short",
+        "the origin (0, 0, 0, 1) is subtracted from a directional light (w = 0) before l is normalized; the length "
+        "includes the resulting w of -1, so l is too short",
         "vec3 L = {light_direction}; // .xyz alone, without a subtraction"),
     ROW("direction-reversed", BITS(DIRECTION_REVERSED), 0, NEED_DIRECTIONAL,
         "the directional light comes from the wrong side", "vec3 L = {light_direction}; // it points to the light"),
@@ -431,7 +431,8 @@ const struct fault faults[] = {
     ROW("fresnel-inverted", BITS(FRESNEL_INVERTED), WHERE_PHYSICAL, 0,
         "the Fresnel factor is the fifth power of h.v instead of 1 - h.v",
         "vec3 F = F0 + (1.0 - F0) * pow(1.0 - max(dot(H, V), 0.0), 5.0);"),
-    ROW("fresnel-without-power", BITS(FRESNEL_LINEAR), WHERE_PHYSICAL, 0, "the Fresnel factor lacks its fifth power",
+    ROW("fresnel-without-power", BITS(FRESNEL_LINEAR), WHERE_PHYSICAL, 0,
+        "the Fresnel factor uses 1 - h.v instead of its fifth power",
         "vec3 F = F0 + (1.0 - F0) * pow(1.0 - max(dot(H, V), 0.0), 5.0);"),
     ROW("no-fresnel", BITS(NO_FRESNEL), WHERE_PHYSICAL, 0, "the Fresnel factor is F0 at every angle",
         "vec3 F = F0 + (1.0 - F0) * pow(1.0 - max(dot(H, V), 0.0), 5.0);"),
@@ -446,7 +447,7 @@ const struct fault faults[] = {
     ROW("metal-keeps-diffuse", BITS(METAL_KEEPS_DIFFUSE), WHERE_PHYSICAL, 0,
         "the diffuse part is not multiplied by 1 - metallic: metals have no diffuse part", "kD *= 1.0 - {metallic};"),
     ROW("diffuse-not-reduced", BITS(SHARE_WHOLE), WHERE_PHYSICAL | WHERE_SHARED, 0,
-        "the diffuse part is not multiplied by 1 - F: reflected light is scattered too",
+        "the diffuse part is not multiplied by 1 - F: light that the surface reflects as a highlight is also scattered",
         "vec3 kD = (vec3(1.0) - F) * (1.0 - {metallic});"),
     ROW("metallic-roughness-swapped", BITS(METAL_ROUGH_SWAPPED), WHERE_PHYSICAL, 0,
         "metalness and roughness are swapped",
@@ -495,8 +496,8 @@ const struct fault faults[] = {
         "metalness is read from the red channel of the metallic-roughness map; metalness is in the blue channel",
         "float metallic = texture({metallic_roughness_map}, {uv}).b;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("metallic-from-green", BITS(METAL_FROM_GREEN), WHERE_PHYSICAL, 0,
-        "metalness is read from the green channel of the metallic-roughness map, which is roughness; metalness is in "
-        "the blue channel",
+        "metalness is read from the green channel of the metallic-roughness map, which contains roughness; "
+        "metalness is in the blue channel",
         "float metallic = texture({metallic_roughness_map}, {uv}).b;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("metallic-from-alpha", BITS(METAL_FROM_ALPHA), WHERE_PHYSICAL, 0,
         "metalness is read from the alpha channel of the metallic-roughness map; metalness is in the blue channel",
@@ -505,8 +506,8 @@ const struct fault faults[] = {
         "roughness is read from the red channel of the metallic-roughness map; roughness is in the green channel",
         "float roughness = texture({metallic_roughness_map}, {uv}).g;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("roughness-from-blue", BITS(ROUGH_FROM_BLUE), WHERE_PHYSICAL, 0,
-        "roughness is read from the blue channel of the metallic-roughness map, which is metalness; roughness is in "
-        "the green channel",
+        "roughness is read from the blue channel of the metallic-roughness map, which contains metalness; "
+        "roughness is in the green channel",
         "float roughness = texture({metallic_roughness_map}, {uv}).g;", .maps = MAPS_METALLIC_ROUGHNESS),
     ROW("roughness-from-alpha", BITS(ROUGH_FROM_ALPHA), WHERE_PHYSICAL, 0,
         "roughness is read from the alpha channel of the metallic-roughness map; roughness is in the green channel",
@@ -615,17 +616,16 @@ const struct fault faults[] = {
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz), B = cross(N, T) * {tangent}.w;",
         .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-by-normal-matrix", BITS(TANGENT_BY_NORMAL_MATRIX), 0, NEED_NORMAL_MAP,
-        "the tangent is transformed by the normal matrix; it lies in the surface and moves with the model's own matrix",
+        "the tangent is transformed by the normal matrix; a tangent lies in the surface, so it needs the vertex's "
+        "matrix",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-by-normal-matrix", BITS(TANGENT_BY_NORMAL_MATRIX, TANGENT_LONG), 0, NEED_NORMAL_MAP,
-        "the tangent is transformed by the normal matrix, and not normalized; it lies in the surface and moves with "
-        "the "
-        "model's own matrix",
+        "the tangent is transformed by the normal matrix, and not normalized; a tangent lies in the surface, so it "
+        "needs the vertex's matrix",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-by-normal-matrix", BITS(TANGENT_BY_NORMAL_MATRIX, BITANGENT_BY_MODEL), 0, NEED_NORMAL_MAP,
-        "tangent and bitangent are transformed by the normal matrix; they lie in the surface and move with the model's "
-        "own "
-        "matrix",
+        "tangent and bitangent are transformed by the normal matrix; both lie in the surface, so they need the "
+        "vertex's matrix",
         "vec3 T = normalize(mat3({model_view}) * {tangent}.xyz);", .maps = MAPS_NORMAL | MAPS_TANGENTS),
     ROW("tangent-object-space", BITS(TANGENT_OBJECT), 0, NEED_NORMAL_MAP,
         "the tangent stays in the model's space: no matrix transforms it",
@@ -753,11 +753,11 @@ const struct fault faults[] = {
         NULL, .style = true),
     ROW("diffuse-of-dielectric", BITS(SHARE_OF_DIELECTRIC), WHERE_PHYSICAL | WHERE_OF_MIX, 0,
         "the diffuse part is reduced by the dielectric's Fresnel factor, as in glTF's appendix B, but the course uses "
-        "the factor of the mixed F0; they differ between dielectrics and metals",
+        "the factor of the mixed F0; they differ only for materials between dielectric and metal",
         NULL, .style = true),
     ROW("diffuse-of-mix", BITS(SHARE_OF_MIX), WHERE_PHYSICAL | WHERE_NOT_OF_MIX, 0,
         "the diffuse part is reduced by the Fresnel factor of the mixed F0, kD = (1 - F)(1 - metallic); it differs "
-        "from the expected form only between dielectrics and metals, and both are in use",
+        "from the expected form only for materials between dielectric and metal, and both forms are in use",
         NULL, .style = true),
     ROW("diffuse-of-dielectric", BITS(SHARE_OF_DIELECTRIC), WHERE_PHYSICAL | WHERE_LINEAR | WHERE_NOT_OF_MIX, 0,
         "the diffuse part is reduced by the dielectric's Fresnel factor, as in glTF's appendix B; both forms are in "

@@ -345,8 +345,8 @@ static inline __attribute__((always_inline)) void find_packed(struct deflate *de
         *last = here;
         const uint8_t *there = row + at - (back <= DEFLATE_FARTHEST ? back : 0);
         // also compares the bytes after the key, because most repeated keys do not begin a match of the shortest length
-        if ((back <= DEFLATE_FARTHEST) & (eight_bytes(there) == key) &
-            (eight_bytes(there + KEY) == eight_bytes(row + at + KEY))) {
+        if ((int)(back <= DEFLATE_FARTHEST) & (int)(eight_bytes(there) == key) &
+            (int)(eight_bytes(there + KEY) == eight_bytes(row + at + KEY))) {
             const int there_at = (int)((position - 1) % ((uint32_t)size + 1));
             const int left = size - (at > there_at ? at : there_at);
             const int max = left < DEFLATE_LONGEST ? left : DEFLATE_LONGEST;

@@ -10,7 +10,7 @@ struct pool;
 struct recorder;
 
 struct device_type {
-    // Draws the frame into the image. Every format and stride is supported (pixels.h). Fills the times and counters of
+    // Draws the frame into the image. Every format and stride is supported (pixels.h). Sets the times and counters in
     // device->report, except frame_ms and total_ms.
     bool (*draw)(struct lam_device *device, const struct frame *frame, lam_image *image, struct call_control *call,
                  lam_error *error);

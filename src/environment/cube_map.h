@@ -60,8 +60,8 @@ void cube_close(struct lam_environment *cube);
 // Computes the direction of a point on a face: major · axis + across · s + down · t (the inverse of OpenGL's table).
 void cube_direction(int face, double major, double across, double down, double out[3]);
 
-// The built-in studio environment. The first thread that uses the environment makes it. Returns NULL if memory runs
-// out.
+// The built-in studio environment. The first call of lazy_environment_studio builds the environment. Returns NULL if
+// memory runs out.
 struct lazy_environment;
 struct lazy_environment *lazy_environment_make(void);
 const struct lam_environment *lazy_environment_studio(struct lazy_environment *lazy, lam_error *error);

@@ -6,7 +6,7 @@
 
 enum view_bytes {
     VIEW_BORROWED, // the caller's bytes, valid until the server ends
-    VIEW_OWNED,    // bytes allocated with malloc, which the answer frees
+    VIEW_OWNED,    // bytes allocated with malloc; view_answer takes ownership of them
 };
 
 // Queues an answer. If `type` is NULL, the answer is plain text.

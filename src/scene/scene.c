@@ -291,7 +291,7 @@ const lam_light *lam_scene_light(const lam_scene *scene, int index)
 }
 
 // Returns the sum of a count, such as the number of a mesh's triangles, over all objects. `offset` is the position of
-// this member in lam_mesh.
+// the count in lam_mesh.
 static uint64_t sum_of(const lam_scene *scene, size_t offset)
 {
     uint64_t count = 0;

@@ -112,8 +112,8 @@ static double take_fullest(struct areas *sum)
     return taken;
 }
 
-// Returns the triangle of a sample: one of every `step` triangles. The position varies, because equal steps through a
-// grid of triangles would find only some directions.
+// Returns the triangle of a sample: one of every `step` triangles. The position of this triangle among the `step`
+// triangles varies, because equal steps through a grid of triangles would find only some directions.
 static uint64_t sampled(uint64_t index, uint64_t step)
 {
     uint32_t varying = (uint32_t)index * 2654435769u; // multiples of the golden ratio, modulo 1

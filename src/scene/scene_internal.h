@@ -105,7 +105,8 @@ struct lam_scene {
     bool first_all_used;     // the importer of the first mesh knows that triangles use every vertex
 };
 
-// Works like lam_scene_make, but charges allocations to `call` (may be NULL) until scene_built is called.
+// Works like lam_scene_make, but allocations count towards the limit of `call` (may be NULL) until scene_built is
+// called.
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
@@ -134,7 +135,7 @@ bool scene_adopt_texture(struct lam_scene *scene, lam_texture *texture, lam_erro
 
 // Appends an item to a list in an arena. Returns false if memory runs out.
 bool scene_list_append(struct scene_list *list, const void *item, size_t size, struct arena *arena);
-// Appends an item to a list of the scene. Returns its index, or −1 if memory runs out.
+// Appends an item to a list of the scene. Returns the item's index, or −1 if memory runs out.
 int scene_append(struct lam_scene *scene, struct scene_list *list, const void *item, size_t size, lam_error *error);
 
 // Adds a formatted warning. At most SCENE_WARNINGS_MAX warnings are kept; the last one says that others were omitted.
@@ -149,7 +150,8 @@ void scene_note_clear(struct lam_scene *scene, const char *format, ...) __attrib
 // false if memory runs out.
 bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int first_object, lam_error *error);
 
-// Adds a built-in shape as a mesh, charged to the call of the scene's arena. Returns its index, or −1 on failure.
+// Adds a built-in shape as a mesh. The memory counts towards the limit of the call of the scene's arena. Returns the
+// mesh's index, or −1 on failure.
 int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
                     struct call_control *call, lam_error *error);
 int scene_add_formula(struct lam_scene *scene, const lam_formula *formula, struct call_control *call, lam_error *error);
@@ -160,7 +162,7 @@ bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_a
 // Prepares every mesh for drawing, but leaves smooth normals to the device.
 void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double crease_angle_rad);
 
-// Returns whether some mesh has no tangents, although its material uses a normal map.
+// Returns whether at least one mesh has no tangents, although the mesh's material uses a normal map.
 bool scene_needs_tangents(const struct lam_scene *scene);
 
 // Assigns a white material to surfaces that have vertex colours but no material, because the default grey would darken
@@ -168,7 +170,7 @@ bool scene_needs_tangents(const struct lam_scene *scene);
 bool scene_give_colors_white(struct lam_scene *scene, lam_error *error);
 // Computes MikkTSpace tangents for meshes without tangents whose material uses a normal map. If `all` is set, every
 // mesh that has normals and texture coordinates but no tangents gets MikkTSpace tangents. The tangents follow the
-// texture coordinates of the normal map. Memory is charged to `call`.
+// texture coordinates of the normal map. The memory counts towards the limit of `call`.
 bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);
 
 // Checks a mesh, copies it to the scene's arena and computes its missing normals. Fails with LAM_BAD_ARGUMENT or

@@ -1,4 +1,4 @@
-// device_option.h: creates the device that the options select: `--device`, `--gl-device`, `--isa` and `--threads`.
+// device_option.h: creates the device that the options select.
 #ifndef DEVICE_OPTION_H
 #define DEVICE_OPTION_H
 

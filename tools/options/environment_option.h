@@ -4,8 +4,8 @@
 
 #include "options.h"
 
-// Splits a list of six file names at its commas. `paths` point into the returned copy, which the caller frees. Returns
-// NULL if `text` does not contain six names.
+// Splits a list of six file names at its commas. The elements of `paths` point into the returned copy, which the caller
+// frees. Returns NULL if `text` does not contain six names.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
 // Returns whether the value removes the environment. `text` may be NULL.
@@ -15,8 +15,8 @@ bool environment_option_is_none(const char *text);
 // `name` names files.
 const char *environment_option_built_in(const char *name);
 
-// Loads or makes the environment that a value of --environment describes. The caller frees it. Returns NULL on failure;
-// for the errors see lam_environment_load.
+// Loads or makes the environment that a value of --environment describes. The caller frees the environment. Returns
+// NULL on failure; for the errors see lam_environment_load.
 lam_environment *environment_option_load(const char *text, lam_color_mode color, const lam_control *control,
                                          lam_error *error);
 

@@ -4,9 +4,9 @@
 
 #include "options.h"
 
-// Returns the memory limit in bytes. Reading a model and drawing it have this limit each. The limit is --memory-limit
-// or, by default, a quarter of the memory available to this process, divided by the number of models in progress
-// (`in_flight`). 0 means no limit. Any thread may call it.
+// Returns the memory limit in bytes. The limit applies separately to reading a model and to drawing the model. The
+// limit is --memory-limit or, by default, a quarter of the memory available to this process, divided by the number of
+// models in progress (`in_flight`). 0 means no limit. Any thread may call it.
 uint64_t limits_memory(const struct options *options);
 
 // Returns the time limit for a model in seconds. 0 means no limit.

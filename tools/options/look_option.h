@@ -16,8 +16,8 @@ const char *look_find(const char *name);
 void look_summary(const char *text, char *out, size_t size);
 
 // Calls `take` for each option of a built-in look or a look file until `take` returns false. Passes the line number,
-// the option's name without dashes and its value ("" for an option without a value). These strings live as long as
-// *kept, which the caller frees even after a failure. Fails with LAM_BAD_ARGUMENT.
+// the option's name without dashes and its value ("" for an option without a value). These strings are valid until the
+// caller frees *kept. The caller must free *kept even after a failure. Fails with LAM_BAD_ARGUMENT.
 bool look_read(const char *name, char **kept,
                bool (*take)(void *user, int line, char *option, char *value, lam_error *error), void *user,
                lam_error *error);

@@ -21,8 +21,8 @@ static struct uniform_value color_factor(const struct reference_scene *s, enum m
         {map_factor(s, number, c.r), map_factor(s, number, c.g), map_factor(s, number, c.b), alpha}};
 }
 
-// Returns a colour, such as the diffuse colour of a light, divided by the texel of the base colour map. The shader then
-// multiplies the colour by that texel.
+// Returns a colour, such as the diffuse colour of a light, divided by the texel of the base colour map. The shader
+// multiplies the result by this texel.
 static struct uniform_value without_texel(const struct reference_scene *s, struct uniform_value c)
 {
     const float base[] = {s->diffuse.r, s->diffuse.g, s->diffuse.b};

@@ -15,7 +15,7 @@ void compiler_hints_for_text(struct diagnostics *diagnostics, const struct decla
                              bool vertex);
 
 // Adds hints about the outputs of a fragment shader that compiles. `output` is the output's name in the course, or
-// NULL. Returns false if the shader writes no floating-point output, which is the only kind that a picture can store.
+// NULL. Returns false if no output of the shader is floating-point, because a picture cannot store other outputs.
 bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                                const char *output);
 

@@ -62,7 +62,7 @@ static void number_corners(void *user, size_t index, int thread)
         n->indices[c] = n->made.first_corners[n->indices[c]];
 }
 
-// Makes a set with space for `size` numbers: with all numbers if `full` is set, otherwise empty.
+// Makes a set with space for `size` numbers. The set contains all numbers if `full` is set, and is empty otherwise.
 static bool make_set(struct rank_bitset *set, size_t size, bool full, struct arena *arena)
 {
     size_t words = rank_bitset_words(size);

@@ -49,11 +49,11 @@ char *journal_line(const json_t *record);
 // Returns the path of FILE.running, which journal_close removes.
 const char *journal_running_path(const struct journal *journal);
 
-// Records the model that a process draws in a slot of FILE.running. A NULL model frees the slot.
+// Writes a model and the process that draws the model to a slot of FILE.running. A NULL model frees the slot.
 void journal_begin(struct journal *journal, int slot, int process, const char *model);
 
-// Calls `visit` for each model that a killed run was drawing. Passes the process and the machine that were drawing the
-// model.
+// Calls `visit` for each model that a killed run was drawing. Passes the process that was drawing the model, and the
+// machine of this process.
 void journal_each_running(const struct journal *journal,
                           void (*visit)(void *user, const char *model, int process, const char *host), void *user);
 
@@ -61,8 +61,8 @@ void journal_each_running(const struct journal *journal,
 // failure; errno is 0 if the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
-// Closes the journal. `done` means that the run was completed. If the run was interrupted while drawing, FILE.running
-// remains; otherwise, the function removes this file. NULL is allowed.
+// Closes the journal. `done` means that the run was completed. If `interrupted` is set, the file FILE.running remains;
+// otherwise, the function removes this file. NULL is allowed.
 void journal_close(struct journal *journal, bool done, bool interrupted);
 
 // Converts text for JSON: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. The result is allocated

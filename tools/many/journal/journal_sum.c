@@ -113,8 +113,8 @@ static void begin_run(struct journal_part *part, const json_t *record)
     part->ended = false;
 }
 
-// Ignores lines that are not JSON: if a run is killed, its last line may be truncated. The next run draws that picture
-// again.
+// Ignores lines that are not JSON: the last line of a killed run may be truncated. The next run redraws the picture of
+// this line.
 static bool read_lines(struct journal_sum *s, int number, lam_error *error)
 {
     const char *line = s->parts[number].text, *last = line + s->parts[number].size, *end, *folder = NULL;

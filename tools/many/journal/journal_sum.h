@@ -22,7 +22,7 @@ struct journal_entry {
     uint64_t output;  // the hash of the picture's path; 0 if free
     const char *line; // `length` bytes, without the line's end
     size_t length;
-    const char *folder; // the last line before `line` that names the pictures' folder, with its line end; or NULL
+    const char *folder; // the last line (with its line end) before `line` that names the pictures' folder; or NULL
     int part;
     float ms; // the duration of the work; 0 if the picture failed
 };

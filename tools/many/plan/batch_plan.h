@@ -1,4 +1,4 @@
-// batch_plan.h: the models to draw, their sides and sizes, and the names of their pictures.
+// batch_plan.h: the models to draw, and the views, sizes and names of their pictures.
 #ifndef BATCH_PLAN_H
 #define BATCH_PLAN_H
 

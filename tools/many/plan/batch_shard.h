@@ -9,13 +9,14 @@ struct batch_shard {
     int number, count;
 };
 
-// Parses the value of --shard: "K/N", or "auto" and "auto/N", which read K from the environment of Slurm, Kubernetes or
-// Open MPI. Fails with LAM_BAD_ARGUMENT if there is no such shard, or if the environment does not determine the shard.
+// Parses the value of --shard: "K/N", "auto/N" or "auto". With "auto/N", K is read from the environment of Slurm,
+// Kubernetes or Open MPI; with "auto", both numbers are. Fails with LAM_BAD_ARGUMENT if there is no such shard, or if
+// the environment does not determine the shard.
 bool batch_shard_of(const char *text, struct batch_shard *shard, lam_error *error);
 
 // Returns the name that determines a model's shard, allocated with malloc. The name is the path relative to `root`, or
-// the whole path if `root` is NULL. It contains no ".", "..", doubled slashes or leading slash. Returns NULL if memory
-// runs out.
+// the whole path if `root` is NULL. The name contains no components "." or "..", no doubled slashes and no leading
+// slash. Returns NULL if memory runs out.
 char *batch_shard_name(const char *path, const char *root);
 
 // Returns the shard of a name, counted from 1: XXH64 of the name's bytes, modulo `count`, plus 1.
@@ -25,11 +26,12 @@ int batch_shard_of_name(const char *name, int count);
 // Returns NULL if memory runs out.
 char *batch_shard_path(const char *path, const struct batch_shard *shard);
 
-// Returns the number of shards in a file name ("lambent-017-of-300.jsonl"), or 0 if there is none.
+// Returns the number of shards that a file name states (300 for "lambent-017-of-300.jsonl"), or 0 if the name states no
+// number.
 int batch_shard_count_of(const char *path);
 
 // Fails with LAM_BAD_ARGUMENT if the folder of `path` contains files for another number of shards. Otherwise, two
-// shards could draw the same models. `path` does not name a shard.
+// shards could draw the same models. `path` is the path without a shard, such as "lambent.jsonl".
 bool batch_shard_check_folder(const char *path, const struct batch_shard *shard, lam_error *error);
 
 #endif

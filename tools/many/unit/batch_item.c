@@ -184,7 +184,7 @@ static void add_hash(json_t *record, const struct batch_item *item, int view, co
     journal_set_text(record, "hash", text);
 }
 
-// Adds to a record the files that were read, and the key.
+// Adds the key and the files that were read to a record.
 static void add_key(json_t *record, const struct batch_item *item, int view, const struct job *job,
                     const struct files *files)
 {

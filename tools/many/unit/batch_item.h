@@ -34,7 +34,7 @@ struct batch_artist {
     struct environment_cache *environments; // NULL if each model reads its own environment
     FILE *out;                              // receives reports
     bool has_bar;                           // a progress bar on the terminal
-    bool is_talkative;                      // prints lines for each picture and warnings; errors are always printed
+    bool is_talkative;                      // prints warnings, and a line for each picture; errors are always printed
 };
 
 struct batch_outcome {
@@ -55,7 +55,7 @@ struct batch_result {
 void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result);
 void batch_result_free(struct batch_result *result);
 
-// Returns the record of a failed picture if the drawing process ended before it could report the failure.
+// Makes the record of a failed picture. Call this if the drawing process ended without a report.
 json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text);
 
 #endif

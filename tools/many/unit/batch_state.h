@@ -37,7 +37,7 @@ struct batch_task {
 };
 
 struct batch {
-    const struct batch_plan *plan; // contains no models with --jobs
+    const struct batch_plan *plan; // with --jobs, this plan contains no models
     const struct options *options;
     bool is_batch;
     char *options_text;          // NULL if there are no keys

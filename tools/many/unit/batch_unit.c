@@ -170,8 +170,7 @@ bool batch_unit_look(struct batch_unit *u, const struct batch *b)
 
 // --- drawing
 
-// Makes an item from the pictures of a unit that are not yet drawn or skipped. Stores the indices of these pictures in
-// `which`.
+// Makes an item from the open pictures of a unit. Stores the indices of these pictures in `which`.
 static struct batch_item item_of(const struct batch_unit *u, const struct batch *b, const struct options *o,
                                  struct job_view *views, char **outputs, int *attempts, int *which)
 {

@@ -4,7 +4,7 @@
 
 #include "fault_measure.h"
 
-// A scene, or the set of all scenes, is explained if at most this fraction of the difference without faults remains.
+// A scene, or the set of all scenes, is explained if the faults leave at most this fraction of the difference.
 static const double max_ratio_explained = 0.125;
 // No mean difference exceeds this limit.
 static const double no_limit = 1e9;
@@ -30,7 +30,7 @@ struct outcome {
     int order[MAX_SCENES];    // scene indices: first the differing scenes, in descending order of the fault's effect
     int changed_count;        // number of differing scenes that the fault changes
     uint32_t explained;       // the differing scenes that the fault explains
-    uint32_t exactly;         // number of scenes explained up to rounding
+    uint32_t exactly;         // number of scenes explained except for rounding
     double changes[MAX_SCENES];
     int measured; // number of measured differing scenes
     bool fits;    // all measured scenes are within the tolerance
@@ -42,8 +42,8 @@ struct state {
     struct fault_search *s;
     struct fault_measure m;
     struct outcome *outcomes; // one for each row of the table
-    // The difference of each scene without faults, in the measured pixels. Only a few pixels are measured. Even in a
-    // scene that passes, more of these pixels may therefore differ than the tolerance allows.
+    // The difference in each scene if no fault is switched on, in the measured pixels. Only a few pixels are measured.
+    // Even in a scene that passes, more of these pixels may therefore differ than the tolerance allows.
     struct difference without[MAX_SCENES];
 };
 

@@ -28,7 +28,7 @@ static bool explains(const struct scene_comparison *scene, const struct differen
     return d->fits && d->mean <= max_ratio_explained * scene->mean_difference;
 }
 
-// Measures the scenes without faults.
+// Measures every scene with no fault switched on.
 static bool measure_without(struct state *t, lam_error *error)
 {
     const fault_set none = {0};

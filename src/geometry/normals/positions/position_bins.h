@@ -18,8 +18,8 @@ bool position_bins_fill(struct position_bins *bins, struct position_search *sear
 // Returns the number of corners in a bin.
 size_t position_bin_corners(const struct position_bins *bins, size_t bin);
 
-// Sorts the corners of a bin by position; the corners of the bin's position i are sorted[starts[i]] to sorted[starts[i
-// + 1]].
+// Sorts the corners of a bin by position; the corners of the bin's position i begin at sorted[starts[i]] and end before
+// sorted[starts[i+1]].
 void position_bin_sort(const struct position_bins *bins, size_t bin, uint32_t *restrict sorted,
                        uint32_t *restrict starts);
 

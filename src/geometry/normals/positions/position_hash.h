@@ -1,7 +1,7 @@
 // position_hash.h: a hash table of positions, each represented by one vertex.
 //
 // The table and its filter are divided into sections by the hash. First, each thread distributes its vertices to the
-// sections (block_list.h). Then one thread fills each section, which fits into the processor's cache.
+// sections (block_list.h). Then each section is filled by a single thread. A section fits into the processor's cache.
 #ifndef POSITION_HASH_H
 #define POSITION_HASH_H
 

@@ -18,7 +18,8 @@ enum {
     CACHE_MAX = 1 << 13, // positions in a thread's cache, which then fits into the processor's second-level cache
 };
 
-// Allocates memory that is used only until the first fan is computed. It may therefore overlap the memory for normals.
+// Allocates memory that is used only until the first fan is computed. This memory may therefore overlap the memory for
+// normals.
 static void *alloc_until_fans(struct position_search *s, size_t count, size_t size)
 {
     for (int i = 0; i < 2; i++) {

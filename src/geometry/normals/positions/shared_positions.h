@@ -81,7 +81,7 @@ void position_search_free(struct position_search *s);
 bool find_positions_by_sorting(struct position_search *s, lam_error *error);
 
 // Returns how many of the mesh's triangles before `triangle` are in the set. If `triangle` is the mesh's number of
-// triangles, this counts all of them.
+// triangles, the result counts all triangles of the mesh that are in the set.
 static inline uint32_t triangles_before(const struct position_search *s, size_t triangle)
 {
     size_t number = s->first + triangle;
@@ -89,8 +89,7 @@ static inline uint32_t triangles_before(const struct position_search *s, size_t 
            s->triangles_of_others;
 }
 
-// Checks a number of probes; `searches` is the number of searches that needed these probes. Returns false if the probe
-// limit is reached.
+// Returns false if `searches` searches needed so many probes that the probe limit is reached.
 bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
 #endif

@@ -139,7 +139,7 @@ static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *threa
                             (char *)image_row(converted, tile->y * TILE + y) + left);
 }
 
-// Copies the sums of a tile without glass from the picture behind glass, in which this tile is identical.
+// For a tile without glass, copies the sums from the picture behind glass, because the tile is the same there.
 static void take_behind(const struct behind *behind, struct thread_state *thread, const struct tile *tile)
 {
     for (int y = 0; y < tile->height; y++) {

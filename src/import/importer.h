@@ -20,8 +20,8 @@ struct import_source {
     const char *path;     // the file's path; NULL if the file is in memory or is standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last byte
     size_t size;          // the size of the file in bytes
-    // Set for a large file that is read in parts (importer.in_parts); `bytes` then contains only its first FILE_HEAD
-    // bytes. NULL if `bytes` contains the whole file. The functions of parallel_rows.h support both cases.
+    // Set for a large file that is read in parts (importer.in_parts); `bytes` then contains only the file's first
+    // FILE_HEAD bytes. NULL if `bytes` contains the whole file. The functions of parallel_rows.h support both cases.
     const struct file_parts *parts;
     // The owner of `bytes`. An importer whose arrays point into `bytes` may move the owner to the scene's arena
     // (file_move_to_arena). NULL if the file is read in parts.
@@ -79,8 +79,8 @@ static inline double importer_crease(const struct importer *importer, lam_normal
                                                                                           : crease_angle_rad;
 }
 
-// These functions fail with LAM_CANNOT_READ and "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence". They return
-// false.
+// These functions fail with LAM_CANNOT_READ and the message "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence".
+// They return false.
 bool fail_line(lam_error *error, const struct import_source *source, size_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 bool fail_byte(lam_error *error, const struct import_source *source, size_t offset, const char *format, ...)

@@ -6,8 +6,9 @@
 
 enum { LENGTH_MAX = 63 };
 
-// Common synonyms, separated by spaces, in lower case with '-' between words. The program suggests them, but does not
-// accept them. If a name occurs in several rows, only the rows for the current context are used.
+// Common synonyms, separated by spaces, in lower case with '-' between words. If a user types a synonym, the error
+// message suggests the name, but the synonym is not accepted. If a name occurs in several rows, only the rows for the
+// current context are used.
 static const struct {
     const char *word, *others;
 } vocabulary[] = {

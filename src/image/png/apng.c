@@ -245,7 +245,8 @@ static void put_frame(struct writer *writer, const struct apng *apng, int index)
     }
 }
 
-// Encodes frames again until all have the same channels, and computes the size of the file.
+// Encodes the frames with fewer channels again, so that all frames have the same channels. Computes the size of the
+// file.
 static bool unify(struct apng *apng, const lam_save_params *params, struct call_control *call, size_t *bytes,
                   lam_error *error)
 {

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-// Sorts in ascending order. There are at most 286 keys, for which Shellsort is simple and takes only some microseconds.
+// Sorts in ascending order. There are at most 286 keys, for which Shellsort is simple and takes only a few
+// microseconds.
 static void sort(uint32_t *keys, int count)
 {
     static const int gaps[] = {132, 57, 23, 10, 4, 1};

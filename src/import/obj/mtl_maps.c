@@ -71,7 +71,8 @@ static int take_numbers(struct options *o, float *out, int most)
     return count;
 }
 
-// Reads numbers that affect the map. Warns and ignores all numbers of the option if one of them is out of range.
+// Reads numbers that affect the map. If one of the option's numbers is out of range, ignores all numbers of the option,
+// with a warning.
 static int take_checked(struct options *o, float *out, int most)
 {
     float numbers[3];

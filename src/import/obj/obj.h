@@ -45,8 +45,8 @@ struct obj_counts {
 
 struct obj_chunk {
     const uint8_t *begin, *end; // complete lines
-    // The number of elements of each kind in this chunk. While obj_stream.c parses the chunk, these are the capacities
-    // of its arrays instead.
+    // The number of elements of each kind in this chunk. While obj_stream.c parses the chunk, these numbers are the
+    // capacities of the chunk's arrays instead.
     struct obj_counts counts;
     struct obj_counts before; // elements in all previous chunks
     // Pass one: whether a vertex has a colour, and whether the text contains a '/'.
@@ -164,8 +164,8 @@ bool obj_complete_normals(struct obj *obj, lam_error *error);
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
 
-// obj_strokes.c. obj_strokes_corners returns the number of corners of a statement: l if `lines` is true, otherwise p.
-// obj_strokes_reserve allocates the arrays of corners and parts, obj_strokes_read reads one statement, and
+// obj_strokes.c. obj_strokes_corners returns the number of corners of an l statement if `lines` is true, otherwise of a
+// p statement. obj_strokes_reserve allocates the arrays of corners and parts, obj_strokes_read reads one statement, and
 // obj_strokes_add adds both meshes to the scene. `texcoords` are the texture coordinates of the file.
 size_t obj_strokes_corners(const struct obj *obj, const uint8_t *at, bool lines);
 bool obj_strokes_reserve(struct obj *obj, bool lines, size_t corners, size_t parts, lam_error *error);

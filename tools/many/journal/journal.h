@@ -61,8 +61,8 @@ void journal_each_running(const struct journal *journal,
 // failure; errno is 0 if the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
-// Closes the journal. `done` means that the run was completed. If `interrupted` is set, the file FILE.running remains;
-// otherwise, the function removes this file. NULL is allowed.
+// Closes the journal. `done` means that the run was completed. If FILE.running contains the slots of this run, the
+// function removes the file, unless `interrupted` is set. NULL is allowed.
 void journal_close(struct journal *journal, bool done, bool interrupted);
 
 // Converts text for JSON: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. The result is allocated

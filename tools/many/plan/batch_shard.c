@@ -58,7 +58,8 @@ static bool set_index(struct batch_shard *shard, const char *variable, long inde
 }
 
 // Accepts only a complete job array, whose indices begin at 0 or 1 and have no gaps. If only some tasks are submitted
-// again (--array=17,23), the array reports fewer tasks. With this number, all models would be assigned to other shards.
+// again (--array=17,23), the array reports fewer tasks. This smaller number would assign the models to different
+// shards.
 static bool slurm_array(struct batch_shard *shard, lam_error *error)
 {
     long id, first, last, count, step;

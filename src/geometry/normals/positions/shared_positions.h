@@ -89,7 +89,8 @@ static inline uint32_t triangles_before(const struct position_search *s, size_t 
            s->triangles_of_others;
 }
 
-// Returns false if `searches` searches needed so many probes that the probe limit is reached.
+// Checks whether `searches` searches may need this number of probes. Returns false if this check or an earlier check
+// failed.
 bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// Returns the size of the memory that every device keeps, in addition to the memory of its type.
+// Returns the size of the memory in struct lam_device, without the memory that the device's type adds.
 static uint64_t own_memory(const lam_device *device)
 {
     return device->frame.storage.capacity + hierarchy_bytes(&device->hierarchy) + edges_bytes(&device->edges);

@@ -1,5 +1,5 @@
-// device_type.h: the interface that every device implements. The entry points in device.c check arguments and build the
-// frame for all of them.
+// device_type.h: the interface that every device implements. The entry points in device.c check the arguments and build
+// the frame for all devices.
 #ifndef DEVICE_TYPE_H
 #define DEVICE_TYPE_H
 
@@ -10,7 +10,7 @@ struct pool;
 struct recorder;
 
 struct device_type {
-    // Draws the frame into the image. Every format and stride is supported (pixels.h). Fills the times and counters of
+    // Draws the frame into the image. Every format and stride is supported (pixels.h). Sets the times and counters in
     // device->report, except frame_ms and total_ms.
     bool (*draw)(struct lam_device *device, const struct frame *frame, lam_image *image, struct call_control *call,
                  lam_error *error);

@@ -297,7 +297,7 @@ static bool open_fit(struct fit *f, struct run *r, lam_error *error)
 }
 
 // Finds the pixels to compare. For each scene, computes the share of pixels that the shader does not draw. Sets
-// `missing` to the smallest share. A scene that faces away may be black and transparent.
+// `missing` to the smallest share. A scene whose surfaces face away may be black and transparent.
 static bool find_inside(struct run *r, double *missing, lam_error *error)
 {
     const struct interpretation plain = {.reflection = LAM_REFLECTION_PHONG};

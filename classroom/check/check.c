@@ -80,7 +80,7 @@ static bool choose_scenes(struct run *r, unsigned *scenes, lam_error *error)
 }
 
 // Gets the given contract or, if no contract is given, the contract that contains the shaders' names. `*out` is NULL if
-// there is no such contract. Returns false and fills `error` on failure.
+// there is no such contract. On failure, returns false and sets `error`.
 static bool choose_contract(struct run *r, const struct contract **out, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -311,7 +311,8 @@ static bool compile_alone(struct run *r, lam_error *error)
 }
 
 // Infers the roles of the inputs from their use, in each possible space. Accepts the first interpretation under which
-// the shaders are correct or, if there is none, one in which a single mistake explains the difference.
+// the shaders are correct. If there is none, accepts an interpretation in which a single mistake explains the
+// difference.
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -368,7 +369,7 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     return ok && (done || fail_unknown(r, reason, error));
 }
 
-// Compares with the requested contract, or with the contract whose names the shaders use.
+// Compares the shaders with the requested contract, or with the contract whose names the shaders use.
 static bool run_contract(struct run *r, const struct contract *contract, unsigned scenes, lam_error *error)
 {
     const lam_check_params *p = r->params;
@@ -395,7 +396,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (!check_reserved("lam_check_params", params, error) ||
         (params->painter && !check_reserved("lam_check_painter", params->painter, error)))
         return false;
-    // A copy. In its shaders, inputs replace the fixed-function state of GLSL 110 and 120.
+    // A copy of the parameters. In the copied shaders, inputs replace the fixed-function state of GLSL 110 and 120.
     lam_check_params own = *params;
     struct run r = {.params = &own, .report = report};
     r.arena = report->memory = calloc(1, sizeof *r.arena);

@@ -11,7 +11,7 @@
 #include "fault_search.h"
 #include "srgb.h"
 
-// Limits the time of a search to some seconds, with a software driver on one processor (docs/check.md).
+// With a software driver on one processor, a search of this size takes some seconds (docs/check.md).
 static const uint64_t default_max_pictures = 10000;
 static const double max_dark = 2.0 / 255; // the largest value in a picture that is treated as black
 // the report lists the found mistakes if at most this share of the difference remains unexplained
@@ -204,8 +204,8 @@ static bool is_searchable(struct run *r, bool writes)
     return writes && known && clear < 0.9 && usable > 0;
 }
 
-// Finds the styles that the shader uses. These styles are as correct as the reference. Then compares the shader with
-// pictures drawn in these styles.
+// Finds the styles that the shader uses, and compares the shader with pictures drawn in these styles. The styles are as
+// correct as the reference.
 static bool accept_styles(struct run *r, struct fault_search *s, bool writes, lam_error *error)
 {
     if (s->count == 0)

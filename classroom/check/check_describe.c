@@ -74,8 +74,8 @@ static bool has_two_sides(const struct run *r, int i) { return r->scenes[i].row-
 static bool is_translucent(const struct run *r, int i) { return r->scenes[i].alpha; }
 static bool is_glossy(const struct run *r, int i) { return scene_of(r, i)->shininess > 30; }
 
-// A property of scenes. If all differing scenes have the property, and the scenes without it match, the report mentions
-// the property as a hint. If several properties qualify, the rarest is used.
+// A property of scenes. If all differing scenes have the property, and all scenes without the property match, the
+// report mentions the property as a hint. If several properties qualify, the rarest is used.
 static const struct {
     const char *sentence;
     bool (*has)(const struct run *r, int scene);

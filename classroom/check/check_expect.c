@@ -1,4 +1,4 @@
-// check_expect.c: draws the reference pictures: the pictures that correct shaders would draw.
+// check_expect.c: draws the reference pictures, which show the output of correct shaders.
 #include "check_run.h"
 
 #include <string.h>
@@ -51,7 +51,7 @@ static bool draw_by_shader(struct run *r, struct scene_comparison *scene, lam_er
     return fault_shader_draw(r->shader, &scene->reference_scene, &model, &none, scene->reference, error);
 }
 
-// Makes a scene that contains only the surfaces, and lights one side or both sides of the surfaces.
+// Makes a scene that contains only the surfaces. If the shaders do not light both sides, the surfaces are one-sided.
 static lam_scene *surfaces_of(const struct run *r, const struct reference_scene *s, lam_camera *camera,
                               lam_error *error)
 {
@@ -161,7 +161,7 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
 }
 
 // The exercise may use a number instead of a name. If it is not clear which number in the source is meant, all numbers
-// are tried on the first scene, which shows every term. Stores in `best` the values for which the shader is correct. If
+// are tried on the first scene, which shows every term. `best` receives the values for which the shader is correct. If
 // no values are correct, the shader contains a mistake, and the closest values prove little. In that case the
 // contract's number is kept if the source contains this number or contains no other number. No number in the source is
 // used twice.
@@ -171,7 +171,7 @@ static const double same_pictures = 1e-5; // mean difference
 struct open_number {
     enum uniform_semantic semantic;
     double values[MAX_NUMBERS][3];
-    int count, own; // 1 + the index of the contract's own value; 0 means the source does not contain it
+    int count, own; // 1 + the index of the contract's own value; 0 means that the source does not contain this value
 };
 
 // Finds the numbers whose values are not known, and counts the combinations of possible values.

@@ -2,10 +2,10 @@
 // specular term.
 //
 // The fault shader draws each term of a scene in a separate channel (shader_interface_scene). An interpretation
-// consists of a highlight, an exponent, and either accepted forms or a fault. The factors of its terms are the same in
-// every scene and are found by least squares. The shader passes if an interpretation without a mistake explains every
-// scene. The shader differs if an interpretation with a single known mistake explains every scene. Otherwise there is
-// no verdict, because a shader that the check does not understand may be correct.
+// consists of a highlight, an exponent, and either accepted forms or a fault. The factors of the terms are the same in
+// every scene, and the check finds them by least squares. The shader passes if an interpretation without a mistake
+// explains every scene. The shader differs if an interpretation with a single known mistake explains every scene.
+// Otherwise there is no verdict, because a shader that the check does not understand may be correct.
 #include "interpretations.h"
 
 #include <stdio.h>
@@ -174,8 +174,8 @@ static bool add_faults(struct fit *f, const struct interpretation *interpretatio
     return true;
 }
 
-// Finds the first fault that explains every scene with one of the interpretations or, if there is none, two faults. If
-// the search is successful, `best` fits.
+// Finds the first fault that, with one of the interpretations, explains every scene. If there is none, searches for two
+// faults. If the search is successful, `best` fits.
 static bool find_faults(struct fit *f, const struct interpretation *interpretations, int count,
                         struct interpretation *best, lam_error *error)
 {
@@ -296,8 +296,8 @@ static bool open_fit(struct fit *f, struct run *r, lam_error *error)
     return ok;
 }
 
-// Finds the pixels to compare. Computes the share of pixels that the shader does not draw, for each scene, and sets
-// `missing` to the smallest share. A scene that faces away may be black and transparent.
+// Finds the pixels to compare. For each scene, computes the share of pixels that the shader does not draw. Sets
+// `missing` to the smallest share. A scene whose surfaces face away may be black and transparent.
 static bool find_inside(struct run *r, double *missing, lam_error *error)
 {
     const struct interpretation plain = {.reflection = LAM_REFLECTION_PHONG};

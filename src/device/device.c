@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// Returns the size of the memory that every device keeps, in addition to the memory of its type.
+// Returns the size of the memory in struct lam_device, without the memory that the device's type adds.
 static uint64_t own_memory(const lam_device *device)
 {
     return device->frame.storage.capacity + hierarchy_bytes(&device->hierarchy) + edges_bytes(&device->edges);
@@ -39,8 +39,8 @@ static bool find_edges(lam_device *device, struct call_control *call, lam_error 
     return true;
 }
 
-// Draws the frame, then the edges over it. Surfaces that are not drawn still hide edges, so the frame is built twice:
-// with these surfaces and without them.
+// Draws the frame, then the edges over it. If surfaces are off, they still hide edges, so the frame is built twice:
+// first with the surfaces, then without them.
 static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                        const lam_draw_params *params, lam_image *target, struct call_control *call, lam_error *error)
 {

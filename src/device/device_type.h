@@ -1,5 +1,5 @@
-// device_type.h: the interface that every device implements. The entry points in device.c check arguments and build the
-// frame for all of them.
+// device_type.h: the interface that every device implements. The entry points in device.c check the arguments and build
+// the frame for all devices.
 #ifndef DEVICE_TYPE_H
 #define DEVICE_TYPE_H
 

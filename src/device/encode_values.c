@@ -91,7 +91,8 @@ void encode_empty(const struct frame *frame, lam_pixel_format format, void *to)
         write_pixels(frame, (struct pixel_lanes){zero, zero, zero, zero}, format, to, 1);
 }
 
-// Writes by how much each channel of the pixel is outside 0…1. In an 8-bit format, writes a marker colour instead.
+// Writes the amount by which each channel of the pixel is outside 0…1. In an 8-bit format, writes a marker colour
+// instead.
 void encode_clipped(lam_pixel_format format, const float p[4], void *to)
 {
     float out[4] = {0}, straight[3];

@@ -58,7 +58,7 @@ void *recorder_alloc(struct recorder *recorder, size_t count, size_t size)
     return memory;
 }
 
-// Computes the angle from the cross and the dot product, which is accurate for small angles too.
+// Computes the angle from the cross and the dot product, because this method is also accurate for small angles.
 static double angle_between(lam_vec3 a, lam_vec3 b)
 {
     if (v3_dot(a, a) == 0 || v3_dot(b, b) == 0)

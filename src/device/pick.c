@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-// A ray in the space of a mesh's positions: the point `from` + s `along` has the distance s from the eye.
+// A ray in the space of a mesh's positions: the point `from` + s `along` has the depth s.
 struct pick_ray {
     lam_vec3 from, along;
 };
@@ -74,8 +74,8 @@ static lam_vec3 corner(const lam_mesh *mesh, size_t corner)
     return v3((double)p[0], (double)p[1], (double)p[2]);
 }
 
-// Intersects a ray with a triangle (Möller and Trumbore, 1997). Stores the distance and the weights of corners 1 and 2
-// in `at`. *facing is below 0 if the front of the triangle is visible. Returns false if there is no intersection.
+// Intersects a ray with a triangle (Möller and Trumbore, 1997). Stores the depth and the weights of corners 1 and 2 in
+// `at`. *facing is below 0 if the front of the triangle is visible. Returns false if there is no intersection.
 static bool meet(const struct pick_ray *ray, const lam_mesh *mesh, uint32_t triangle, double *facing, double at[3])
 {
     const size_t first = 3 * (size_t)triangle;
@@ -154,7 +154,7 @@ bool lam_pick(const lam_scene *scene, const lam_camera *camera, const lam_draw_p
         return fail(error, LAM_BAD_ARGUMENT, "lam_pick: the pixel (%d, %d) lies outside of the picture of %d×%d pixels",
                     pixel->x, pixel->y, pixel->width, pixel->height);
     lam_draw_params plain = params ? *params : (lam_draw_params){0};
-    plain.rig = LAM_RIG_NONE; // lights, ground and lines are not pickable
+    plain.rig = LAM_RIG_NONE; // lights, the ground and drawn edges cannot be picked
     plain.output = LAM_OUTPUT_COVERAGE;
     plain.ground = LAM_GROUND_NONE;
     plain.occlusion = LAM_OCCLUSION_OFF;

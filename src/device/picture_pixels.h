@@ -1,5 +1,5 @@
-// picture_pixels.h: converts linear light to the pixels of a picture, LANES at a time: composites them over the
-// background and encodes them. All devices use this code. Define LANES before including this file (lanes.h).
+// picture_pixels.h: converts linear light to the pixels of a picture, LANES pixels at a time. Composites the light over
+// the background and encodes it. All devices use this code. Define LANES before including this file (lanes.h).
 #ifndef PICTURE_PIXELS_H
 #define PICTURE_PIXELS_H
 
@@ -14,13 +14,13 @@ struct pixel_lanes {
     num r, g, b, a;
 };
 
-// Returns a sum of premultiplied colours after exposure.
+// Applies the exposure to a sum of premultiplied colours.
 LANE_FN struct pixel_lanes exposed(const struct frame *frame, struct pixel_lanes p)
 {
     return (struct pixel_lanes){p.r * frame->exposure, p.g * frame->exposure, p.b * frame->exposure, p.a};
 }
 
-// Returns a sum of premultiplied colours after exposure and the frame's tone curve; still premultiplied.
+// Applies the exposure and the frame's tone curve to a sum of premultiplied colours. The result is premultiplied, too.
 LANE_FN struct pixel_lanes toned(const struct frame *frame, struct pixel_lanes p)
 {
     num part = pick(p.a > 0.0f, frame->exposure / p.a, num_of(0.0f));

@@ -135,8 +135,8 @@ void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
 // Returns whether the reflection model uses the material parameter with this name in LOBE_PARAMETERS
 // (src/lighting/lobes.h).
 bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
-// Appends the lines that select these parameters from the front or the back material, for shaders with products and two
-// materials.
+// Appends the lines that select the parameters of the lobe from the front or the back material, for shaders with
+// products and two materials.
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
 // Finds the maps that a shader uses. The other facts must already be set.
 void glsl_find_maps(struct glsl_facts *facts);
@@ -159,8 +159,8 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
 // Appends the struct with the values from maps, and the functions that fill this struct.
 void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
 
-// Append the expression of a parameter of the material: the value from the material and its maps, or the value that
-// lighting uses.
+// Append an expression for a material parameter. An own parameter is the value from the material and its maps.
+// Otherwise, the expression is the value that lighting uses.
 void glsl_add_own_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
@@ -169,8 +169,8 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *facts);
 // Returns the name of a tone curve's function, or "".
 const char *glsl_tone_function(lam_tone tone);
 
-// Lists the uniforms of both shaders in the order of their declaration, which is also the layout of each block. Returns
-// their number.
+// Lists the uniforms of both shaders in the order of their declarations. The values in each block have the same order.
+// Returns their number.
 int glsl_rows(const struct glsl_facts *facts, struct glsl_row rows[GLSL_ROWS_MAX]);
 
 struct glsl_attribute {
@@ -188,7 +188,7 @@ int glsl_members(const struct glsl_facts *facts, const char *type, struct glsl_r
 struct glsl_uniform_source {
     const struct frame *frame;
     const struct frame_draw_range *range; // NULL for uniforms of the frame
-    const int *order; // for each light of the shader, its index in the frame; NULL if no row reads a light
+    const int *order; // the shader's light i is the frame's light order[i]; NULL if no row reads a light
 };
 int glsl_uniform_value(const struct glsl_choices *choices, const struct glsl_uniform_source *from,
                        const struct glsl_row *row, const struct glsl_row *member, int index, float out[16]);

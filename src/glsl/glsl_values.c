@@ -119,7 +119,7 @@ void glsl_material_values(const struct frame *frame, const lam_material *materia
     struct glsl_material_layout layout = glsl_material_layout(products, field_layers);
     lam_material in_use = *material;
     in_use.shininess = frame_shininess(frame, material);
-    if (frame_converts_at_points(frame, material)) { // each point computes its colours from the base colour
+    if (frame_converts_at_points(frame, material)) { // the shader converts the base colour of each point
         in_use.diffuse = (lam_rgba){material->ambient.r, material->ambient.g, material->ambient.b, material->diffuse.a};
         in_use.specular = (lam_rgb){1, 1, 1};
     }
@@ -148,7 +148,7 @@ size_t glsl_lights_bytes(const struct glsl_choices *c)
 
 // Adds a light's shadow data to its position, for shaders with shadows. w becomes the radius, or −1 if the light casts
 // no shadows. For a directional light, x, y and z become the unit vector along the axis in which the light's direction
-// is smallest.
+// has its smallest component.
 static void pack_shadow(float position[4], const struct frame_light *light)
 {
     position[3] = light->casts_shadows ? (float)light->radius : -1;

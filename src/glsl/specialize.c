@@ -1,4 +1,4 @@
-// specialize.c: replaces branches whose condition is known by the selected code, and removes the names that are then
+// specialize.c: if the condition of a branch is known, keeps only the selected code. Then removes the names that are
 // never read.
 #include "specialize.h"
 
@@ -275,8 +275,8 @@ static const char *add_branch(struct text *text, const char *head, struct span s
     }
 }
 
-// Returns the end of the statement that begins with a line. A statement continues while brackets are open, and includes
-// all lines of a choice (?:).
+// Returns the end of the statement that begins with the line `at`. A statement continues while brackets are open, and
+// includes all lines of a choice (?:).
 static const char *statement_end(const char *at, const char *end)
 {
     for (int open = 0; at < end;) {
@@ -418,7 +418,7 @@ static bool erase_members(const struct source_span *spans, int count, const stru
 {
     bool changed = false;
     struct span type = name_at(s->start + 7, s->end);
-    int left = 0; // lines of members; the last one is kept, because a GLSL struct cannot be empty
+    int left = 0; // lines with members; one line is always kept, because a GLSL struct cannot be empty
     for (const char *at = s->start; at < s->end; at = next_line(at, s->end))
         left += at[strspn(at, "\1")] == ' ';
     for (const char *at = s->start, *next; at < s->end; at = next) {

@@ -26,8 +26,8 @@ struct source_span {
 };
 
 // Overwrites unread text with SPECIALIZE_ERASED: members of structs (one member per line) that no span reads, and the
-// lines that only set these members. In reduced functions, it also overwrites unread variables and unread parameters.
-// For an unread parameter, it overwrites the arguments in all calls, and the lines of the comment that begin with the
+// lines that only set these members. In reduced functions, also overwrites unread variables and unread parameters. For
+// an unread parameter, overwrites the arguments in all calls, and the lines of the comment that begin with the
 // parameter's name ("// `NAME`"). Returns whether anything was erased; another call may then erase more.
 enum { SPECIALIZE_ERASED = 1 };
 bool specialize_unread(const struct source_span *spans, int count);

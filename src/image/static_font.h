@@ -1,4 +1,4 @@
-// static_font.h: the caption font embedded in a static program (static_font.py), compressed by zlib.
+// static_font.h: the caption font embedded in a static program (static_font.py), compressed with zlib.
 #ifndef STATIC_FONT_H
 #define STATIC_FONT_H
 

@@ -155,7 +155,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
         return fail(error, LAM_CANNOT_READ, "%s: leads out of the folder %s%s", out->shown, *root ? root : ".", advice);
     if (!real && errno == ENOMEM)
         return fail_memory(error, COMPANION_NAME_SIZE);
-    // Opens the path that was checked. If the path could not be resolved, file_read_named reports the reason.
+    // Opens the checked path. If the path could not be resolved, file_read_named reports the reason.
     out->real = real ? arena_string(arena, real) : out->path;
     length = real && confined ? length : 0;
     free(real);

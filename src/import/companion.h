@@ -1,11 +1,12 @@
-// companion.h: opens the files that a model or a scene file refers to, from the folder of that model or scene file or
-// through the caller's function.
+// companion.h: opens the files that a model or a scene file refers to. Opens them in the folder of the model or scene
+// file, or through the caller's function.
 #ifndef COMPANION_H
 #define COMPANION_H
 
 #include "importer.h"
 
-// The state of import_source.open and import_source.open_of_scene. It defines where these functions look for files.
+// The state of import_source.open and import_source.open_of_scene. The state defines where these functions look for
+// files.
 struct file_list;
 struct companions {
     // the folder of the model or scene file, with its '/' ("" is the current folder); NULL if that file is not on disk

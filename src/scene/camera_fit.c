@@ -36,7 +36,8 @@ struct fitting {
     bool orthographic;
 };
 
-// Returns empty extents with the slopes kx and ky of a perspective view, for this fraction of the picture.
+// Returns empty extents of a perspective view. The slopes kx and ky limit the view to the central `fraction` of the
+// picture.
 static struct view_extents extents_of(const struct fitting *fitting, double fraction)
 {
     double ky = math_tan(fitting->fovy / 2) * fraction;
@@ -69,14 +70,14 @@ static lam_camera fit_orthographic(const struct fitting *fitting, const struct v
                         .ortho_half_height = size / fill};
 }
 
-// Centres the horizontal (vertical) axis for an eye at ez. Finds the k at which the points touch x = ex ± k·(ez − z) on
-// both sides: the root of F(k) = R(k) + L(k) − 2k·ez. F is convex, and piecewise linear for vertices; the points with
-// the maxima R and L determine the slope of F. A step of Newton's method is:
+// Centres the eye horizontally or vertically, at the depth ez. Finds the k at which the points touch both sides of the
+// view, x = ex ± k·(ez − z). This k is the root of F(k) = R(k) + L(k) − 2k·ez. F is convex, and piecewise linear for
+// vertices; the points with the maxima R and L determine the slope of F. A step of Newton's method is:
 //
 //  k = (x_R − x_L) / (2ez − z_R − z_L)
 //
-// The first step therefore ends at the root or to its left, and further steps only increase k. When k no longer
-// increases, the root is found.
+// The first step therefore ends at the root or to the left of the root, and further steps only increase k. When k no
+// longer increases, the root is found.
 static void centre_axis(const struct view_points *points, bool horizontal, double ez, struct view_extents *extents)
 {
     double k = horizontal ? extents->kx : extents->ky;
@@ -103,7 +104,7 @@ static void centre_axis(const struct view_points *points, bool horizontal, doubl
 //  ex = (R − L)/2,   ez = (R + L)/(2k)
 //
 // The result is exact, and computing it needs one pass over the points. The axis with the larger ez determines the
-// distance. The other axis is centred for this ez, with the smaller k at which its points touch both sides.
+// distance. Along the other axis, the eye is centred at this ez, so that the points touch both sides for a smaller k.
 static lam_camera fit_perspective(const struct fitting *fitting, const struct view_points *points, double fill)
 {
     const struct view_axes *axes = points->axes;
@@ -129,7 +130,7 @@ static lam_camera fit(const struct fitting *fitting, const struct view_points *p
 }
 
 // Prepares the fit of a view. Returns false if a field of the view is unknown, or if the scene has no triangles. In
-// these cases, `camera` is already the result of the fit.
+// both cases, `camera` is already final.
 static bool start(struct fitting *fitting, const lam_scene *scene, int width, int height, const lam_view *view,
                   double fill, lam_camera *camera)
 {
@@ -194,7 +195,7 @@ static bool holds(const struct fitting *fitting, const lam_camera *camera, const
            extents.value[EXTENT_BOTTOM] <= -y + extents.ky * z + half_height;
 }
 
-// Replaces the camera if it does not show the whole scene at every angle.
+// If the camera does not show the whole scene at every angle, fits the camera to the scene at all angles.
 static void fit_turning(const struct fitting *fitting, const lam_scene *scene, lam_vec3 centre, lam_vec3 axis,
                         lam_camera *camera)
 {
@@ -211,8 +212,8 @@ static void fit_turning(const struct fitting *fitting, const lam_scene *scene, l
                                      .back = mat4_vector(&turn, fitting->axes.back),
                                      .centre = centre};
     }
-    // A quarter of the margin remains unused, because points move outwards between two tested angles, but by less than
-    // this quarter.
+    // Between two tested angles, points move outwards by less than a quarter of the margin, so this quarter must be
+    // empty.
     if (!holds(fitting, camera, &points, fitting->fill + 0.75 * (1 - fitting->fill)))
         *camera = fit(fitting, &points, fitting->fill);
 }

@@ -10,8 +10,8 @@
 // out or `text` is invalid. Sets *at to the position of the error in `text`, or to SIZE_MAX if there is none.
 uint8_t *base64_decode(const char *text, size_t length, size_t *size, size_t *at);
 
-// Encodes bytes as base64 into memory allocated with malloc, with a final zero, and sets *length to the number of
-// characters without the zero. Returns NULL if memory runs out.
+// Encodes bytes as base64. The text is allocated with malloc and ends in a zero byte, which *length does not count.
+// Returns NULL if memory runs out.
 char *base64_encode(const uint8_t *bytes, size_t size, size_t *length);
 
 #endif

@@ -16,7 +16,7 @@ static _Thread_local FILE *captured; // NULL means standard error
 void console_start(void)
 {
     const char *term = getenv("TERM");
-    const char *no_color = getenv("NO_COLOR"); // https://no-color.org: set and not empty
+    const char *no_color = getenv("NO_COLOR"); // https://no-color.org: no colours if set and not empty
     terminal = isatty(STDERR_FILENO) && term && strcmp(term, "dumb") != 0;
     colors = terminal && !(no_color && *no_color);
 }

@@ -33,7 +33,7 @@ void print_name(FILE *out, const char *name);
 // Stores a code and a message in an error. The message is formatted like printf. Returns false.
 bool complain(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-// Flushes standard output. Returns false with LAM_CANNOT_WRITE if some output was lost.
+// Flushes standard output. Fails with LAM_CANNOT_WRITE if some output was lost.
 bool finish_output(lam_error *error);
 
 #endif

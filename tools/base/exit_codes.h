@@ -17,7 +17,7 @@ extern const struct exit_code exit_codes[];
 
 const struct exit_code *exit_code_of(lam_code code);
 
-// Returns the table's own copy of `name`, or "failed" if the table does not contain this name.
+// Returns the table's string that equals `name`, or "failed" if the table does not contain this name.
 const char *exit_code_name(const char *name);
 
 #endif

@@ -20,7 +20,7 @@ int open_regular(const char *path, uint64_t *size);
 // Reads the rest of a file, but at most `size` bytes. Returns false and sets errno on failure.
 bool read_up_to(int file, char *bytes, size_t size, size_t *length);
 
-// Returns whether a path is the folder itself or lies below the folder. Both must be real paths.
+// Returns whether the path `real` is `folder` or lies below it. Both paths must be free of links.
 bool is_in_folder(const char *real, const char *folder);
 
 // Returns whether a path, after links are resolved, is the folder itself or lies below the folder. Returns `missing` if

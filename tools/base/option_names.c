@@ -33,7 +33,7 @@ static const struct {
 
 static bool begins(const char *text, const char *name) { return strncmp(text, name, strlen(name)) == 0; }
 
-// Writes the name of a setting's option: the setting's key with each _ replaced by -.
+// Writes a setting's key as an option: "--" and the key with each _ replaced by -.
 static size_t put_key(const char *key, char *out)
 {
     size_t used = 2;

@@ -14,8 +14,9 @@ struct xxh64 {
 
 void xxh64_start(struct xxh64 *hash);
 void xxh64_add(struct xxh64 *hash, const void *bytes, size_t size);
-void xxh64_add_text(struct xxh64 *hash, const char *text); // includes the terminating zero; for NULL, hashes one byte
-                                                           // with the value 1
+void xxh64_add_text(struct xxh64 *hash,
+                    const char *text); // also hashes the terminating zero; for NULL, hashes one byte
+                                       // with the value 1
 uint64_t xxh64_end(const struct xxh64 *hash);
 
 // Hashes a block of bytes.

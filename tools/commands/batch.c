@@ -53,7 +53,7 @@ static bool check(int operands, const struct options *o, lam_error *error)
     return job_check_options(o, error);
 }
 
-// Prints each model's path with the path of each of its pictures (--dry-run).
+// For each picture, prints the path of the model and the path of the picture (--dry-run).
 static bool print_mapping(const struct batch_plan *plan, lam_error *error)
 {
     for (size_t i = 0; i < plan->count; i++)

@@ -201,7 +201,7 @@ static bool mistake_applies(struct compare *c, const struct cell *cell, lam_erro
     return ok;
 }
 
-// Removes mistakes without a visible effect from a sheet of all mistakes and prints their names.
+// On a sheet of all mistakes, removes the mistakes without a visible effect, and prints the names of these mistakes.
 static bool choose_mistakes(struct compare *c, lam_error *error)
 {
     struct sheet *sheet = &c->sheet;
@@ -270,8 +270,8 @@ static bool draw_inset(struct compare *c, const struct cell *cell, struct highli
 
 // --- the page
 
-// Draws text. If the text is too wide, the size is reduced step by step until the text fits, because the widths of
-// hinted letters are not proportional to the size.
+// Draws text. If the text is too wide, reduces the size step by step until the text fits, because the widths of hinted
+// letters are not proportional to the size.
 static void draw_fitting(struct drawing *d, struct point baseline, double size, double width, uint32_t color,
                          const char *text)
 {
@@ -543,8 +543,8 @@ static bool check(const struct options *o, const struct sheet *sheet, const char
     return output_check(path, model, output_is_named(o->picture.output), error);
 }
 
-// Allows the pictures of a sheet to access the files named in their own options, such as --across look=my.look and
-// --across environment=a.png,b.png.
+// Adds to `paths` the files that the cells' own options name, as in --across look=my.look and --across
+// environment=a.png,b.png.
 static bool reach_cells(const struct compare *c, struct sandbox_paths *paths, lam_error *error)
 {
     struct options own;

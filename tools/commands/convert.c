@@ -90,8 +90,8 @@ static bool check(struct convert *c, lam_error *error)
     return !same || complain(error, LAM_BAD_ARGUMENT, "%.300s: the model and the output are the same file", c->output);
 }
 
-// Returns whether the library writes the letter `given` of a file name as `written`. It writes _ for each letter that a
-// name in an OBJ or MTL file cannot contain.
+// Returns whether the library writes the letter `given` of a file name as `written`. The library writes _ for each
+// letter that a name in an OBJ or MTL file cannot contain.
 static bool is_letter(char given, char written)
 {
     return written == given ||
@@ -132,7 +132,7 @@ static bool check_beside(const struct convert *c, const char *path, lam_error *e
                path, c->output);
 }
 
-// Writes the model last, because it refers to its companion files.
+// Writes the model last, because the model refers to its companion files.
 static bool write_files(struct convert *c, lam_error *error)
 {
     int count = 0, filled = 0;

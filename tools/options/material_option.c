@@ -74,8 +74,8 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
     return material;
 }
 
-// Returns whether a field is a colour whose channels are fractions of reflected light. Such a field has a symbol;
-// `emission` has none.
+// Returns whether a field is a colour whose channels are fractions of reflected light. Of the colours, only such fields
+// have a symbol.
 static bool is_fraction(const lam_field *field)
 {
     return (field->type == LAM_FIELD_RGB || field->type == LAM_FIELD_RGBA) && field->symbol;

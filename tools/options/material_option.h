@@ -8,15 +8,15 @@
 struct material_option {
     const char *target; // the name of an object, part or material; NULL means the whole model
     lam_color_mode mode;
-    bool named;      // starts with a material's name and replaces the whole material
+    bool named;      // `text` starts with a material's name, so the option replaces the whole material
     char text[1024]; // the text for lam_material_parse, followed by the target's name
 };
 
 // Parses a text for lam_material_parse, optionally followed by "@TARGET".
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
-// Returns the keys of the physical metal with this name, "diffuse=…,metallic=1,roughness=0.2", or NULL for other
-// materials.
+// Returns the keys of the physical metal `name`, such as "diffuse=…,metallic=1,roughness=0.2", or NULL if there is no
+// such metal.
 const char *material_option_metal(const char *name);
 
 // Replaces a classic metal with the physical metal of the same name, which reflects the studio. Does nothing unless the
@@ -29,8 +29,8 @@ lam_material material_option_apply(const struct material_option *option, lam_mat
 // Adds a warning to the scene for each coefficient above 1.
 void material_option_warn(const struct material_option *option, const char *name, lam_scene *scene);
 
-// Adds the same warnings for the scene's own materials: a warning for each of the first few coefficients, and a single
-// warning for all others.
+// Adds these warnings for the scene's own materials: one for each of the first few coefficients, and a single warning
+// for the other coefficients.
 void materials_warn(lam_scene *scene);
 
 // Writes "; for 0 to 255 write #ff0000" if the three channels of a colour look like bytes, otherwise "". Returns

@@ -122,7 +122,7 @@ struct shading_options {
 // Surfaces defined by formulas (shape).
 struct shape_options {
     // The formulas and the ranges of the command `shape`, as typed; NULL if not given. `parametric` uses the ranges of
-    // u and v, `implicit` uses the ranges of x, y and z. The model's name is the option's name.
+    // u and v, `implicit` uses the ranges of x, y and z. The model is called "parametric" or "implicit".
     const char *parametric, *u_range, *v_range, *implicit, *x_range, *y_range, *z_range;
 };
 
@@ -133,7 +133,7 @@ struct animation_options {
     struct texts sweeps; // as typed
     int frames;          // frames in a sweep; 0 means the default
     double fps;          // frames per second; 0 means the library's default
-    // Set by animations, not by an option: adds the rig's lights to the scene.
+    // Whether to add the rig's lights to the scene. Set by animations, not by an option.
     bool place_lights;
 };
 

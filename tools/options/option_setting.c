@@ -24,7 +24,7 @@ static void add_word(const char *name, int value, const char *summary)
     pool[pool_used++] = (struct choice){name, value, summary};
 }
 
-// Fills the words of an option. For a bit mask, the first word sets all bits.
+// Returns the words of an option, with the summary of each word. For a bit mask, the first word sets all bits.
 static const struct choice *words_of(const lam_setting *setting)
 {
     const struct choice *first = &pool[pool_used];
@@ -95,7 +95,7 @@ static const struct {
     [LAM_SETTING_RGBA] = {NULL, NULL},
 };
 
-// Collects the rows that lack a parser or a summary, which the table of settings supplies. Returns the number of these
+// Collects the rows without a parser or a summary; the table of settings supplies both. Returns the number of these
 // rows, and sets *rows to the number of all rows.
 static int open_rows(struct option *table, struct option *open[LAM_SETTINGS_MAX], int *rows)
 {
@@ -127,7 +127,7 @@ void option_settings_fill(struct option table[OPTIONS_MAX])
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
         struct option *o = row_of(setting, open, count);
         if (!o && !kinds[setting->type].store)
-            continue; // a colour setting; another option parses its value, depending on --color-mode
+            continue; // a colour setting: its value depends on --color-mode, so another option parses it
         if (!o) {
             snprintf(names[i], NAME_SIZE, "%s", setting->key);
             for (char *c = names[i]; *c; c++)

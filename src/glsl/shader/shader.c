@@ -1,4 +1,4 @@
-// shader.c: implements lam_shader_make: generates a scene's shaders and the value of every uniform.
+// shader.c: implements lam_shader_make, which generates a scene's shaders and the value of every uniform.
 #include <lambent/shader.h>
 
 #include "arena.h"
@@ -33,7 +33,7 @@ struct build {
     struct glsl_facts facts;
     struct glsl_row rows[GLSL_ROWS_MAX];
     int row_count;
-    int *order; // index in the frame of each of the shader's lights
+    int *order; // the shader's light i is the frame's light order[i]
     int width, height;
 };
 

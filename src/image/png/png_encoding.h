@@ -46,7 +46,7 @@ extern const struct png_method png_fast, png_best;
 // The channels that a picture has in addition to grey, as bits.
 enum png_channels { PNG_COLORED = 1, PNG_TRANSLUCENT = 2, PNG_ALL_CHANNELS = 3 };
 
-// Like png_write, but writes at least the channels in *channels. Sets *channels to the channels of the file.
+// Like png_write, but writes at least the channels that *channels contains. Sets *channels to the channels in the file.
 bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
                         lam_bytes *out, lam_error *error);
 

@@ -42,7 +42,7 @@ static enum png_filter choose_filter(const struct png_encoding *encoding, struct
     return best;
 }
 
-// Returns whether the sampled rows of a strip are grey. The picture contains colours.
+// Returns whether the sampled rows of a strip are grey, although other rows of the picture may have colours.
 static bool is_grey(const struct png_encoding *encoding, int top, int rows)
 {
     uint32_t differ = 0;

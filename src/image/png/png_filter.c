@@ -136,7 +136,7 @@ struct png_span png_span_of(const uint8_t *row, int width)
 
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width)
 {
-    // Each byte also affects the filtered pixel to its right, and the filter processes whole vectors.
+    // Each pixel also affects the next filtered pixel, and the filter processes whole vectors.
     enum { FURTHER = VECTOR / 4 };
     struct png_span both = row.first == row.end ? above : row;
     if (above.first < above.end) {

@@ -15,8 +15,8 @@ enum png_filter {
 };
 
 // Filters a row of `width` RGBA pixels; `above` is the previous row (zeros for the first). `out` receives one word for
-// each pixel. The lowest bytes_per_pixel bytes of a word go to the stream. With 1 byte, this is red; with 2, red and
-// alpha; with 3, red, green and blue; with 4, all channels. The other bytes are zero. `out` has capacity for a multiple
+// each pixel. The lowest bytes_per_pixel bytes of a word go to the stream. 1 byte is red; 2 bytes are red and alpha; 3
+// bytes are red, green and blue; 4 bytes are all channels. The other bytes are zero. `out` has capacity for a multiple
 // of 4 words; the words after the first `width` become zero.
 void png_filter_row(enum png_filter filter, const uint8_t *row, const uint8_t *above, int width, int bytes_per_pixel,
                     uint32_t *out);
@@ -32,7 +32,7 @@ struct png_span {
 struct png_span png_span_of(const uint8_t *row, int width);
 
 // Returns the span of a filtered row, computed from the spans of the unfiltered row and of the row above. The span can
-// be longer than both, because a pixel also affects the filtered pixel to its right.
+// be longer than both of these spans, because a pixel also affects the next filtered pixel.
 struct png_span png_span_filtered(struct png_span row, struct png_span above, int width);
 
 // Returns an estimate of the compressed size of a filtered row: Σ |byte|, with bytes as −128…127.

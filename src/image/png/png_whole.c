@@ -1,5 +1,5 @@
-// png_whole.c: decompresses all pixels of a PNG file in one step, and then unfilters the pixels. It opens libdeflate on
-// first use. This method needs a third of the time of libspng, which reads row by row with zlib.
+// png_whole.c: decompresses all pixels of a PNG file in one step, and then unfilters the pixels. This method needs a
+// third of the time of libspng, which reads row by row with zlib. The first call loads libdeflate.
 //
 // Only common pictures are supported: grey, RGB or RGBA with 8 bits per channel, without a transparent colour, not
 // interlaced, and without chunks between the pixels and the end. libspng reads all other pictures and damaged pictures,
@@ -31,8 +31,8 @@ struct inflater {
 
 // --- the chunks
 
-// Returns whether a complete chunk of this type (any type if NULL) begins at `at`. Sets *length to the length of its
-// data.
+// Returns whether a complete chunk of this type (any type if NULL) begins at `at`. Sets *length to the length of the
+// chunk's data.
 static bool chunk_at(const struct picture_file *file, size_t at, const char *type, uint32_t *length)
 {
     const uint8_t *chunk = (const uint8_t *)file->bytes + at;
@@ -58,8 +58,8 @@ static size_t find_pixels(const struct picture_file *file)
     return 0;
 }
 
-// Joins the compressed bytes of the pixel chunks and returns their number. Returns 0 if a chunk is damaged, or if the
-// end chunk does not follow the pixel chunks.
+// Joins the compressed bytes of the pixel chunks and returns the number of bytes. Returns 0 if a chunk is damaged, or
+// if the end chunk does not follow the pixel chunks.
 static size_t join_pixels(const struct inflater *d, const struct picture_file *file, size_t at, uint8_t *joined)
 {
     size_t used = 0;
@@ -104,9 +104,9 @@ static inline bytes16 max16(bytes16 x, bytes16 y)
 }
 
 // Returns, per channel, the left, upper or upper left pixel (a, b or c) that is nearest to a + b − c. If distances are
-// equal, the first of them is used. If c is between a and b, the distance is x = high − c for the lower of the two,
-// y = c − low for the higher, and |x − y| for c itself. The lower is nearest if 2x ≤ y, and the higher is nearest if
-// 2y ≤ x. If 0 replaces negative differences, these conditions are also correct for all other c. Both conditions are
+// equal, a is preferred to b, and b to c. If c is between a and b, the distance is x = high − c for the lower of the
+// two, y = c − low for the higher, and |x − y| for c itself. The lower is nearest if 2x ≤ y, and the higher is nearest
+// if 2y ≤ x. If 0 replaces negative differences, these conditions are also correct for all other c. Both conditions are
 // met only if a = b = c. Few steps depend on a, the most recent pixel.
 static inline bytes16 paeth(bytes16 a, bytes16 b, bytes16 c)
 {
@@ -228,9 +228,8 @@ static bool are_four(const uint8_t *from, size_t row_bytes, bytes16 *looks_up)
     return true;
 }
 
-// Unfilters the next row of the file, or the next four rows. A row consists of a filter byte and the pixels. Returns
-// the number of rows that it unfiltered (1 or 4), or 0 if the filter is unknown. `left` is the number of remaining
-// rows.
+// Unfilters the next row of the file, or the next four rows. A row consists of a filter byte and the pixels. Returns 1
+// or 4, the number of rows, or 0 if the filter is unknown. `left` is the number of remaining rows.
 static size_t unfilter_next(uint8_t *row, const uint8_t *above, const uint8_t *from, size_t left, size_t width,
                             size_t size, int channels)
 {

@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum {
-    BATCH_STRIPS = 256, // strips per batch, which limits the memory reserved for the worst case
+    BATCH_STRIPS = 256, // strips per batch; a batch reserves memory for the worst case
     CHUNK_BYTES = 12,   // a chunk's length, type and CRC
     ZLIB_HEADER = 2,    // bytes in the chunk of the first strip
     HEAD_BYTES = 128,   // the maximum size of the header

@@ -28,8 +28,8 @@ struct material_field {
     enum field_reader reader;
     bool optional; // a scene file omits the field if the value is 0, the default
     bool physical; // only physical materials have the field, so writing it makes a material physical
-    // for FIELD_LAYER, the layer (LAYER_…) that reads the field; a scene file omits the field if the field has the
-    // default value
+    // for FIELD_LAYER, the layer (LAYER_…) that reads the field; a scene file omits the field if its value is the
+    // default
     int layer;
 };
 const struct material_field *material_field(int index); // returns NULL past the end

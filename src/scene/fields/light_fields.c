@@ -1,5 +1,5 @@
-// light_fields.c: the table of a light's fields. Validation, scene files, options and their documentation use these
-// rows; to add a field, add a member to lam_light and a row here. Rows with the same key have no light type in common.
+// light_fields.c: the table of a light's fields. Validation, scene files, options and the documentation use these rows;
+// to add a field, add a member to lam_light and a row here. No light type has two rows with the same key.
 #include "fields.h"
 
 #include <lambent/light.h>

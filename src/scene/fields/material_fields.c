@@ -1,4 +1,4 @@
-// material_fields.c: the table of a material's fields. Validation, scene files, options, reports, shaders and their
+// material_fields.c: the table of a material's fields. Validation, scene files, options, reports, shaders and the
 // documentation use these rows. To add a field, add a member to lam_material and a row here, or in LOBE_PARAMETERS if
 // only lobes read it.
 #define LANES 1
@@ -16,11 +16,12 @@
 #define MEMBER(member) .name = #member, .key = #member, .offset = offsetof(lam_material, member)
 #define GREY(x)        {(double)(x), (double)(x), (double)(x), 1}
 
-// A field of a layer; the columns of its lam_field follow.
+// A field of a layer, with the columns of the field's lam_field.
 #define LAYER(member, kind, ...)                                                                                       \
     {.field = {MEMBER(member), __VA_ARGS__}, .reader = FIELD_LAYER, .layer = LAYER_##kind, .physical = true}
 
-// A field that only lobes read, with the columns of its lam_field from lobes.h. Parameters without columns are omitted.
+// A field that only lobes read, with the columns of the field's lam_field from lobes.h. Parameters without columns are
+// omitted.
 #define LOBE_FIELD(member, ...)                                                                                        \
     __VA_OPT__({.field = {.name = #member, .offset = offsetof(lam_material, member), __VA_ARGS__},                     \
                 .reader = FIELD_LOBE,                                                                                  \

@@ -9,7 +9,7 @@ static float mixed(double from, double to, double share) { return (float)(from +
 
 static double within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
-// Gets the reflectance of the dielectric along the normal. The reflectance is 0.04, except for specular–glossiness
+// Finds the reflectance of the dielectric at normal incidence. The reflectance is 0.04, except for specular–glossiness
 // materials.
 static void dielectric_f0_of(const lam_material *m, double f0[3])
 {

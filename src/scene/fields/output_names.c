@@ -1,4 +1,4 @@
-// output_names.c: names of the outputs of a frame, and the lights of a frame.
+// output_names.c: names outputs and grounds, and lists the lights of a frame.
 #include "scene_internal.h"
 
 #include <lambent/device.h>

@@ -13,8 +13,7 @@ static bool whole_check(const lam_setting *s, int value, lam_error *error)
     return fail(error, LAM_BAD_ARGUMENT, "%s is %d, expected %s", s->member, value, s->expected);
 }
 
-// Does not check the minimum for scene files, because programs that call the library may draw thinner lines than scene
-// files allow.
+// Ignores the minimum that applies to scene files, because programs that call the library may draw thinner lines.
 static bool number_check(const lam_setting *s, float value, lam_error *error)
 {
     double least = s->zero_is_negative ? -3e38 : 0;

@@ -19,7 +19,7 @@ static bool is_model(const char *path)
     return is_model_name(path) || (dot && strcmp(dot, ".json") == 0) || lam_shape_find(path) >= 0;
 }
 
-// Rejects options that have no effect on pictures.
+// Rejects options that have no effect on the comparison of two pictures.
 static bool check_pictures(const struct options *o, lam_error *error)
 {
     static const char *const names[] = {"output", "json", "quiet", NULL};

@@ -126,8 +126,9 @@ static bool fail_end(const struct tga *tga, const char *within, lam_error *error
 }
 
 // Decodes packets. A packet begins with one byte, which contains a count (1 to 128) and a flag (bit 7). If the flag is
-// set, one pixel follows, and is repeated `count` times. Otherwise, the count is the number of pixels that follow. In
-// version 2 of the format, packets end at the end of a row; in older files they may continue in the next row.
+// set, one pixel follows, and the count is the number of its copies. Otherwise, the count is the number of pixels that
+// follow. In version 2 of the format, packets end at the end of a row; in older files they may continue in the next
+// row.
 static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image *image, lam_error *error)
 {
     const uint8_t *end = tga->file->bytes + tga->file->size;

@@ -45,7 +45,7 @@ struct exporting {
 struct exporter {
     const char *ending;
     lam_up up; // the up axis of the format
-    bool flat; // the format has no objects, so exporting.flat is built for it
+    bool flat; // the format has no objects, so export.c builds exporting.flat
     // Writes the model to `text`, and adds any other files with export_add_file. Returns false and fills `error` on
     // failure.
     bool (*write)(struct exporting *e);
@@ -54,15 +54,15 @@ struct exporter {
 #define EXPORTER_DECLARED(name) extern const struct exporter exporter_##name;
 EXPORTERS(EXPORTER_DECLARED)
 
-// Records a loss: something in the scene that the file cannot store. Each message is recorded once.
+// Records a loss: something in the scene that the file cannot store. Each message is recorded only once.
 void export_lose(struct exporting *e, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // Records the losses that all flat formats share: lights, cameras, an environment, animations. `has_lights_and_cameras`
 // means that the format supports lights and cameras.
 void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 
-// Records a loss if the scene has several objects or several names of parts, because a flat format merges objects and
-// drops the names of parts. `reason` is appended to the message.
+// Records a loss if the scene contains several objects, or parts with different names, because a flat format merges
+// objects and drops the names of parts. `reason` is appended to the message.
 void export_lose_objects(struct exporting *e, const char *reason);
 
 // Adds a file beside the model, and takes ownership of the file's bytes, which malloc allocated. The file's name is the

@@ -37,8 +37,8 @@ lam_vec3 export_position(const struct exporting *e, const lam_mesh *mesh, uint32
     return export_turned(e, v3((double)p[0] + o[0], (double)p[1] + o[1], (double)p[2] + o[2]));
 }
 
-// A normal whose length is 1 up to rounding is not normalised, so that reading and writing a file preserves the
-// numbers.
+// Normalises the normal only if its length is not 1 within rounding errors, so that reading and writing a file
+// preserves the numbers.
 lam_vec3 export_normal(const struct exporting *e, const lam_mesh *mesh, uint32_t index)
 {
     const float *n = mesh->normals + 3 * (size_t)index;

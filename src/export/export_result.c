@@ -167,7 +167,7 @@ void lam_export_free(lam_export *result)
         return;
     for (int i = 0; i < result->files.count; i++)
         lam_bytes_free(&((struct export_file *)result->files.items)[i].bytes);
-    struct arena arena = result->arena; // a copy, because the memory of `result` is part of the arena
+    struct arena arena = result->arena; // a copy, because the arena contains `result` itself
     arena_free(&arena);
 }
 

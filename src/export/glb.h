@@ -51,8 +51,8 @@ int glb_add(struct glb *glb, json_t *list, json_t *value); // returns its index
 void glb_set_name(struct glb *glb, json_t *object, const char *name); // sets nothing if the name is NULL or not UTF-8
 json_t *glb_floats(struct glb *glb, const float *numbers, int count);
 
-// Lists an extension in extensionsUsed. Returns the extension's object within `object`, and creates that object if it
-// is missing.
+// Lists an extension in extensionsUsed. Returns the extension's JSON object, which is a member of `object`. If this
+// member is missing, creates it.
 json_t *glb_extension(struct glb *glb, json_t *object, const char *name);
 
 // Appends bytes to the buffer, aligned to four bytes, and adds a bufferView for them. Returns the index of the

@@ -81,7 +81,7 @@ static bool add_object(struct glb *glb, const lam_object *object)
 
 // --- lights
 
-// Returns a transform with three perpendicular axes of equal length, of which the third is −direction.
+// Returns a transform with three perpendicular axes of equal length. The third axis is −direction.
 static lam_mat4 looking(lam_vec3 position, lam_vec3 direction)
 {
     lam_mat4 m = lam_mat4_identity();

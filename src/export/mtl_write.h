@@ -9,7 +9,7 @@ struct mtl_names {
     // the names of the scene's materials, then of the default material; NULL for unused materials
     const char *const *names;
     int count;
-    // The texture coordinates follow glTF, in which t points down, so t is written as 1 − t.
+    // the scene's texture coordinates follow glTF, in which t points down, so t is written as 1 − t
     bool flips;
 };
 

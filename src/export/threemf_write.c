@@ -62,8 +62,8 @@ static const char *unit_of(const struct exporting *e)
     return "millimeter";
 }
 
-// Fills `color` with the diffuse colour times the mean colour of the diffuse texture, which the texture's last level
-// stores.
+// Sets `color` to the diffuse colour times the mean colour of the diffuse texture. The last level of the texture
+// stores the mean colour.
 static void mean_color(const lam_material *material, float color[4])
 {
     const lam_texture_map *map = material->maps[LAM_MAP_DIFFUSE];

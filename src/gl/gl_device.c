@@ -13,8 +13,8 @@
 
 // --- a frame
 
-// Resets the choices about lighting, because the program does not depend on lighting. Also resets the choices about
-// maps if `maps` is false.
+// Resets the choices about lighting, for a program that does not compute lighting. Also resets the choices about maps
+// if `maps` is false.
 static void forget_lighting(struct glsl_choices *c, bool maps)
 {
     const struct glsl_choices wanted = *c;
@@ -233,7 +233,7 @@ static bool check_errors(struct gl_frame *f, lam_error *error)
     return !f->device->context.debug || gl_messages_clean(&f->device->context, "drawing", error);
 }
 
-// Draws the picture in rectangular parts that are not larger than the driver's largest targets.
+// Draws the picture in rectangular parts, no larger than the largest target that the driver supports.
 static bool draw_parts(struct gl_frame *f, lam_error *error)
 {
     lam_frame_report *report = &f->device->base.report;

@@ -34,7 +34,7 @@ enum texture_unit {
     UNIT_NEARER_DEPTH_IDS, // depth and triangle number of the previous layer
     UNIT_OPAQUE_DEPTH_IDS, // depth and triangle number of the opaque surfaces
     UNIT_OCCLUSION =
-        // only translucent surfaces read depth ids; among these, occlusion dims only the ground
+        // shared, because only translucent surfaces read depth ids, and occlusion dims none of them except the ground
     UNIT_NEARER_DEPTH_IDS,
     UNIT_ENVIRONMENT_LIGHT = UNIT_OPAQUE_DEPTH_IDS + 1,
     UNIT_COPY,
@@ -72,8 +72,8 @@ struct gl_mesh {
     lam_mesh mesh;             // the arrays from which the buffers were made
     enum vertex_form form;
     bool passing; // the arrays belong to one frame only
-    // Runs of the draw calls, if the runs of one call are not consecutive: the element buffer then orders the triangles
-    // by call.
+    // The runs of the draw calls, if the element buffer orders the triangles by call. This order is necessary only if
+    // the runs of one call are not consecutive.
     struct mesh_run *runs;
     int run_count;
     GLuint vertices, elements, array; // buffers, vertex array
@@ -133,7 +133,7 @@ struct gl_program {
 
 // --- targets
 
-// A framebuffer and its textures, which are 0 if the target does not have them. depth_id: depth and triangle number of
+// A framebuffer and its textures. A texture that the target does not use is 0. depth_id: depth and triangle number of
 // each pixel.
 struct gl_target {
     GLuint framebuffer, color, depth_id, depth;
@@ -236,7 +236,7 @@ struct gl_device {
     struct buffer occlusion_rows;
     GLuint occlusion_texture; // the occlusion of the current part
     struct gl_light_buffer lights, products;
-    struct lam_environment *environment; // referenced; its faces are in environment_texture
+    struct lam_environment *environment; // a counted reference; environment_texture contains the faces
     GLuint environment_texture, environment_light_texture;
     const struct environment_light *environment_light; // contents of the texture; owned by `environment`
     struct hierarchy_memory hierarchy;
@@ -288,7 +288,8 @@ struct gl_frame {
     float sample_x, sample_y;
 };
 
-// Returns whether a range is composited over the surfaces behind it. Masked surfaces are opaque or omitted.
+// Returns whether a range is composited over the surfaces behind it. Masked surfaces are not composited, because each
+// of their points is either opaque or omitted.
 static inline bool range_blends(const struct frame *frame, const struct frame_draw_range *range)
 {
     if (frame->transmits && frame_is_physical(range->reflection) &&
@@ -376,7 +377,7 @@ static inline enum texture_unit gl_occlusion_unit(const struct gl_program *progr
 {
     return program->choices.layer == GLSL_PEELS ? UNIT_GROUND_OCCLUSION : UNIT_OCCLUSION;
 }
-// Computes the ambient occlusion of the frame's pixels from a float picture of the distances of the frame's opaque
+// Computes the ambient occlusion of the frame's pixels. `distances` is a float picture of the distances to the opaque
 // surfaces (LAM_OUTPUT_DEPTH). The device owns the rows.
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error);

@@ -9,8 +9,8 @@
 
 #define KNOWN "PNG, JPEG, WebP, BMP, TGA, PPM (P6), PFM, EXR or Radiance"
 
-// If memory runs out, picture libraries report a damaged file, and loading a library fails. Therefore this function
-// first tests whether memory can still be allocated. If not, it replaces the error.
+// If memory runs out, picture libraries report a damaged file, and loading a library fails. After such an
+// error, this function tests whether memory can still be allocated. If the test fails, the function replaces the error.
 static bool blame_memory(lam_error *error)
 {
     enum { SOME = 1 << 20 }; // more memory than these libraries request at once

@@ -63,7 +63,7 @@ void pixels_to_working(lam_pixel_format format, const void *from, int count, voi
     }
 }
 
-// Returns the BT.709 luminance. If r = g = b, the luminance is exactly this value.
+// Returns the BT.709 luminance. If r = g = b, the luminance is exactly r.
 static num luminance(num r, num g, num b) { return g + 0.2126f * (r - g) + 0.0722f * (b - g); }
 
 static void to_grey(bool raw, const uint8_t *from, int count, uint8_t *to)

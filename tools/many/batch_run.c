@@ -316,7 +316,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     return ok && (!o->batch.jobs || (b->jobs = batch_jobs_open(b, error)));
 }
 
-// Returns false if a picture has no outcome, because memory ran out.
+// Returns whether every picture has an outcome. If memory ran out, some pictures have none.
 static bool has_every_outcome(const struct batch *b)
 {
     size_t pictures = b->plan->count * (size_t)b->plan->view_count, i = 0;
@@ -423,8 +423,7 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
-    // Reports an interrupt of a run with a single model if it came before the drawing. Later interrupts are reported
-    // during the drawing.
+    // Reports an interrupt before the drawing of a single model. Later interrupts are reported during the drawing.
     if (interrupted() && ok && !is_batch && plan->count == 1 && !b.interrupted &&
         b.pictures[0].outcome == PICTURE_OPEN) {
         complain(&error, LAM_CANCELLED, "%.400s: interrupted", plan->models[0].path);

@@ -140,7 +140,7 @@ static const char *outcome_of(const struct batch_unit *u)
     return same ? "same" : "written";
 }
 
-// Returns the record of the first failed picture. The answer repeats the record's class and error message.
+// Returns the record of the first failed picture. The answer repeats the record's error class and message.
 static const json_t *failed_record(const struct batch_unit *u)
 {
     for (int i = 0; i < u->picture_count; i++)

@@ -162,7 +162,7 @@ static bool lacks_semicolons(const struct option *option, const char *values)
 // Rows of variants that need additional options to show a difference.
 static const struct row {
     const char *option;
-    const char *values; // the default values; NULL means the option's words
+    const char *values; // the default values; NULL means the values that the option accepts
     struct sheet_default defaults[SHEET_DEFAULTS_MAX + 1];
 } row_table[] = {
     {"shading", NULL, {COARSE, LIT, GLOSSY}},

@@ -3,8 +3,9 @@
 
 #include <string.h>
 
-// For some shapes, a number of segments that makes the facets clearly visible. All other shapes use 24x12. A teapot's
-// stacks are counted per patch, a knot is long, and implicit surfaces are divided into cells instead of segments.
+// For some shapes, a number of segments that makes the facets clearly visible. All other shapes use 24x12. The teapot's
+// stacks are counted per patch, the knot needs more segments because it is long, and implicit surfaces have cells
+// instead of segments.
 static const struct {
     const char *shape, *segments;
 } coarse_shapes[] = {{"teapot", "24x4"}, {"torus-knot", "72x10"}, {"gyroid", "32"}, {"metaballs", "24"}};

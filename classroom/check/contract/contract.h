@@ -64,8 +64,8 @@ struct contract_constant {
     enum uniform_semantic semantic;
 };
 
-// The lighting of a contract's shaders with metalness and roughness. The defaults follow glTF 2.0, appendix B. Other
-// forms are recognised, and equally correct forms are accepted (fault_table.c).
+// The lighting of a contract's shaders with metalness and roughness. The defaults follow glTF 2.0, appendix B. The
+// check accepts equally correct forms, and diagnoses other known forms as mistakes (fault_table.c).
 enum masking {
     MASKING_SMITH,  // Smith's masking for GGX, height-correlated
     MASKING_SCHLICK // Schlick's approximation, k = (roughness + 1)²/8
@@ -94,8 +94,8 @@ struct map_convention {
     bool v_down;
 };
 
-// Forms that a contract may require. If the contract does not require a form, its counterpart is accepted too
-// (fault.h).
+// Forms that a contract may require. If the contract does not require a form, the check also accepts the
+// form's counterpart (fault.h).
 enum contract_demand {
     DEMAND_GATE = 1,         // there is no highlight if n.l <= 0
     DEMAND_UNIT_NORMALS = 2, // normals are also normalized in the vertex shader

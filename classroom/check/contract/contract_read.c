@@ -44,7 +44,7 @@ static bool read_demands(struct contract_reader *r, const json_t *root)
     return true;
 }
 
-// Reads the points for each scene.
+// Reads the weight of each scene in the grade.
 static bool read_weights(struct contract_reader *r, const json_t *root)
 {
     const json_t *object = json_object_get(root, "weights");

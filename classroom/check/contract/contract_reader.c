@@ -11,8 +11,8 @@ bool contract_no_memory(const struct contract_reader *r) { return fail_memory(r-
 const struct json_choice contract_spaces[] = {
     {"eye", LAM_FRAME_CAMERA}, {"world", LAM_FRAME_WORLD}, {"object", LAM_FRAME_OBJECT}, {NULL, 0}};
 
-// Returns whether a text is a name in GLSL: identifiers joined by dots. "[]" may follow the first identifier, which
-// then is an array.
+// Returns whether a text is a name in GLSL: identifiers joined by dots. "[]" after the first identifier
+// means that it is an array.
 static bool is_name(const char *text, bool plain)
 {
     for (bool first = true;; first = false) {

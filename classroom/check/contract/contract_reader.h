@@ -15,8 +15,8 @@ struct contract_reader {
 
 extern const struct json_choice contract_spaces[]; // eye, world, object
 
-// Returns whether the comment of an object, if there is one, is a string or an array of strings. The content of the
-// comment is ignored.
+// Returns true if the object contains no comment, or if the comment is a string or an array of strings. The content of
+// the comment is ignored.
 bool contract_check_comment(struct contract_reader *r, const struct place *place, const json_t *object);
 
 // Reports LAM_LIMIT. Returns false.

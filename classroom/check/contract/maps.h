@@ -19,8 +19,8 @@ static inline unsigned map_bit(enum uniform_semantic map) { return 1u << (map - 
 // The values of a material that a map can multiply.
 enum map_number { NUMBER_BASE_COLOR, NUMBER_METALLIC, NUMBER_ROUGHNESS, NUMBER_OCCLUSION, NUMBER_EMISSION };
 
-// Returns the factor that multiplies the texel: 1 if the map replaces the number, the number itself if there is no map.
-// `whole` is the product of factor and texel.
+// Returns the factor of a number; `whole` is the product of the factor and the texel. If the map replaces the number,
+// the factor is 1. If there is no map, the factor is `whole`.
 float map_factor(const struct reference_scene *scene, enum map_number number, float whole);
 
 // Returns the texel of a map, as the sampler reads it.

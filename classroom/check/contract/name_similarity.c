@@ -1,5 +1,5 @@
-// name_similarity.c: compares names of shaders word by word. For example, "eye_position" and "eyePoint" both mean "eye"
-// and a position.
+// name_similarity.c: compares names of shaders word by word. For example, "eye_position" and "eyePoint" both mean the
+// position of the eye.
 #include "name_similarity.h"
 
 #include <ctype.h>

@@ -1,4 +1,4 @@
-// role.c: the table of roles. docs/check.md and the schema of contract files are generated from it.
+// role.c: the table of roles. docs/check.md and the schema of contract files are generated from this table.
 #include "role.h"
 
 #define UNIFORM  ROLE_UNIFORM

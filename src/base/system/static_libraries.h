@@ -4,7 +4,7 @@
 
 // Returns a library by its file name, or NULL if the program does not contain it.
 const void *static_library(const char *name);
-// Returns the address of a function, or NULL if the library does not contain it.
+// Returns the address of a function, or NULL if the library does not contain the function.
 void *static_function(const void *library, const char *name);
 
 #endif

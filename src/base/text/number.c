@@ -283,8 +283,8 @@ static int64_t big_digits(const struct decimal *d, struct big *a)
     return power;
 }
 
-// Returns the quotient over / under, by long division. `bits`, at least 0, is the difference of their lengths in bits.
-// Multiplies `under` by 2^bits; `over` receives the remainder times 2^bits.
+// Returns the quotient over / under, by long division. `bits` is the number of bits by which `over` is longer than
+// `under`, at least 0. Multiplies `under` by 2^bits; `over` receives the remainder times 2^bits.
 static uint64_t divide(struct big *over, struct big *under, int bits)
 {
     uint64_t quotient = 0;
@@ -419,8 +419,9 @@ static float float_of(uint64_t bits, bool negative)
     return x;
 }
 
-// Completes a number to which the fast paths of number_double and number_float do not apply. *bits receives the bits of
-// the number without the sign. `after` is the result of scan for `d`; if it is NULL, only "inf" and "nan" are possible.
+// Finishes the parsing of a number if the fast paths of number_double and number_float do not apply. *bits receives the
+// bits of the number without the sign. `after` is the result of scan for `d`; if it is NULL, only "inf" and "nan" are
+// possible.
 static const uint8_t *finish(const uint8_t *at, const uint8_t *end, const uint8_t *after, const struct format *format,
                              struct decimal *d, uint64_t *bits)
 {

@@ -13,8 +13,8 @@ const uint8_t *number_double(const uint8_t *at, const uint8_t *end, double *out)
 // Parses a decimal number and rounds it once, to the nearest float (not via double).
 const uint8_t *number_float(const uint8_t *at, const uint8_t *end, float *out);
 
-// Parses a decimal integer with an optional sign. Returns NULL if there is no number, or if it does not fit into 64
-// bits.
+// Parses a decimal integer with an optional sign. Returns NULL if there is no number, or if the number does not fit
+// into 64 bits.
 const uint8_t *number_int(const uint8_t *at, const uint8_t *end, int64_t *out);
 
 // Returns the value of a hexadecimal digit, or −1 for another character.

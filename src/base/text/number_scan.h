@@ -26,7 +26,7 @@ static inline unsigned number_digit_count(uint64_t eight)
     return other ? (unsigned)__builtin_ctzll(other) / 8 : 8;
 }
 
-// Returns the value of the first `count` of eight bytes, all of which must be digits.
+// Returns the value of the first `count` of eight bytes. These `count` bytes must be digits.
 static inline uint64_t number_digits_value(uint64_t eight, unsigned count)
 {
     // The digits are shifted to the end, with zeros before them. The shift is done in two steps, because a shift by 64
@@ -78,7 +78,7 @@ static const double number_tenths[16] = {1e0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5, 
                                          1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
 
 // Works like number_float, but is fast for [-]ddd.ddd with up to 7 + 15 digits. At least 24 bytes must be readable at
-// `at`, and a byte that is not part of a number must follow the number before `end`.
+// `at`. Another byte, such as a space, must follow the number before `end`.
 static inline const uint8_t *number_float_quick(const uint8_t *at, const uint8_t *end, float *out)
 {
     bool negative = *at == '-';

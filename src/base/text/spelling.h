@@ -13,7 +13,7 @@ struct spelling {
 struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
 
-// Returns the word of `words` with the smallest edit distance to `word`. Returns NULL if this distance exceeds 1 plus a
+// Returns the word in `words` with the smallest edit distance to `word`. Returns NULL if this distance exceeds 1 plus a
 // third of the length of `word`.
 const char *nearest_word(const char *word, const char *const *words, int count);
 

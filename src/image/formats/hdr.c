@@ -32,7 +32,7 @@ static const uint8_t *line_end(const uint8_t *at, const uint8_t *end)
     return found;
 }
 
-// Parses a number such as " 512" and moves *at to its end. Returns −1 if the number is not 1 … 65535.
+// Parses a number such as " 512" and moves *at to the end of the number. Returns −1 if the number is not 1 … 65535.
 static int side_at(const uint8_t **at, const uint8_t *end)
 {
     int value = 0;

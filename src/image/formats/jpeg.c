@@ -99,7 +99,8 @@ static void mix_inks(uint8_t *row, size_t width, bool inverted)
     }
 }
 
-// libjpeg may leave this function with longjmp, so the function changes only memory that its pointers point to.
+// libjpeg may leave this function with longjmp, so the function stores its results only in memory that its parameters
+// point to.
 static bool decode(struct jpeg_decoder *reader, lam_image *image, lam_error *error)
 {
     struct jpeg_decompress_struct *jpeg = &reader->jpeg;

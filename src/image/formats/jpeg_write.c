@@ -36,7 +36,8 @@ static void ignore_message(j_common_ptr jpeg, int level) { (void)jpeg, (void)lev
 
 static void print_nothing(j_common_ptr jpeg) { (void)jpeg; }
 
-// libjpeg may leave this function with longjmp, so the function changes only memory that its pointer points to.
+// libjpeg may leave this function with longjmp, so the function stores its results only in memory that its parameters
+// point to.
 static bool encode(struct writer *writer, lam_error *error)
 {
     struct jpeg_compress_struct *jpeg = &writer->jpeg;

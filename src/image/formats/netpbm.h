@@ -6,7 +6,7 @@
 
 struct netpbm_header {
     int width, height; // 1 … 65535
-    double last;       // PPM: the largest value; PFM: the scale, whose sign is the byte order
+    double last;       // PPM: the largest value; PFM: the scale, whose sign states the byte order
     size_t pixels;     // the offset of the pixels
 };
 

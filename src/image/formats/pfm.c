@@ -1,10 +1,10 @@
 // pfm.c: reads and writes PFM files (Debevec's portable float map). A PFM file consists of a header of three lines, and
 // of floats, with the bottom row first.
 //
-// The header contains "PF", the width and the height, and a number. The sign of this number is the byte order: negative
-// means little-endian. The absolute value of the number is the scale. Programs do not agree about the scale, so Lambent
-// writes 1 and ignores the scale when it reads a file. PFM has neither alpha nor comments, so the file cannot name the
-// program that wrote it.
+// The header contains "PF", the width and the height, and a number. The sign of this number states the byte order:
+// negative means little-endian. The absolute value of the number is the scale. Programs do not agree about the scale,
+// so Lambent writes 1 and ignores the scale when it reads a file. PFM has neither alpha nor comments, so the file
+// cannot name the program that wrote it.
 #include "codec.h"
 #include "fail.h"
 #include "netpbm.h"

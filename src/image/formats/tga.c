@@ -1,9 +1,9 @@
 // tga.c: reads Truevision TGA files: palettes, true colour and grey, with 8, 15, 16, 24 and 32 bits, uncompressed or
 // run-length encoded, with the first pixel in any corner. Truevision TGA File Format Specification, version 2.0 (1991).
 //
-// A TGA file has no magic number, so the whole header is checked, after all other formats. In pixels of 32 bits, the
-// fourth byte is used as alpha, even if the header declares 0 alpha bits, because many programs write such files. If
-// the header declares 0 alpha bits and the fourth byte is 0 in all pixels, the byte is ignored.
+// A TGA file has no magic number. Lambent therefore tries all other formats first, and then checks the whole header. In
+// pixels of 32 bits, the fourth byte is used as alpha, even if the header declares 0 alpha bits, because many programs
+// write such files. If the header declares 0 alpha bits and the fourth byte is 0 in all pixels, the byte is ignored.
 #include "codec.h"
 #include "fail.h"
 #include "little_endian.h"
@@ -126,8 +126,9 @@ static bool fail_end(const struct tga *tga, const char *within, lam_error *error
 }
 
 // Decodes packets. A packet begins with one byte, which contains a count (1 to 128) and a flag (bit 7). If the flag is
-// set, one pixel follows, which is repeated. Otherwise, the count is the number of pixels that follow. In version 2 of
-// the format, packets end at the end of a row; in older files they may continue in the next row.
+// set, one pixel follows, and the count is the number of its copies. Otherwise, the count is the number of pixels that
+// follow. In version 2 of the format, packets end at the end of a row; in older files they may continue in the next
+// row.
 static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image *image, lam_error *error)
 {
     const uint8_t *end = tga->file->bytes + tga->file->size;
@@ -158,7 +159,7 @@ static bool put_pixels(const struct tga *tga, const uint8_t *at, const lam_image
     return true;
 }
 
-// Sets the alpha of all pixels if the header declares no alpha.
+// If the alpha of every pixel is 0, sets the alpha of every pixel to 255.
 static void fill_alpha(const lam_image *image)
 {
     uint8_t *pixels = image->pixels;

@@ -1,6 +1,6 @@
 // webp.c: reads and writes WebP files, lossy and lossless, with alpha. This file uses the library libwebp, which is
-// loaded on demand (dlopen). Files are read chunk by chunk, so that a long decoding can be stopped. Animations are not
-// supported. The written bytes depend on the version of libwebp.
+// loaded on demand (dlopen). Files are read chunk by chunk, so that a call can stop during a long decoding.
+// Animations are not supported. The written bytes depend on the version of libwebp.
 // https://developers.google.com/speed/webp/docs/riff_container
 #include "codec.h"
 #include "dynamic_library.h"

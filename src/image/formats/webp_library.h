@@ -32,7 +32,7 @@ struct webp_library {
 // Opens libwebp. Error messages begin with `file`, unless `file` is NULL. Fails with LAM_UNSUPPORTED.
 bool webp_open(struct webp_library *webp, const char *file, lam_error *error);
 
-// Sets up the encoding of an image, and starts `call`, to which the encoder reports its progress. Fails with
+// Sets up the encoding of an image, and initializes `call`, which then receives the encoder's progress. Fails with
 // LAM_UNSUPPORTED.
 bool webp_configure(const struct webp_library *webp, const lam_image *image, const lam_save_params *params,
                     struct call_control *call, WebPConfig *config, WebPPicture *picture, lam_error *error);

@@ -90,7 +90,7 @@ static bool read_timeout(struct batch_job *job, const json_t *root, const struct
 {
     const json_t *value = json_object_get(root, "timeout_s");
     double most = limits_time(base), seconds = json_number_value(value);
-    // the limit of the whole job, including animations
+    // the time limit is for the whole job, even if the job draws an animation
     job->options.limits.time_limit_s = most > 0 ? most : (double)INFINITY;
     if (!value || json_is_null(value))
         return true;

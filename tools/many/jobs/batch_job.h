@@ -34,8 +34,8 @@ struct batch_job_rules {
 enum batch_line { LINE_JOB, LINE_CANCEL, LINE_REFUSED };
 
 // Parses a line of JSON. Sets *id to the id in the line, even if the line is refused, and to NULL if the line contains
-// no valid id. The id belongs to a new job or to the job to cancel. The caller calls json_decref for the id, and frees
-// the job.
+// no valid id. The line either describes a new job with this id, or cancels the job with this id. The caller calls
+// json_decref for the id, and frees the job.
 enum batch_line batch_job_read(const char *line, size_t size, const struct batch_job_rules *rules,
                                struct batch_job **job, json_t **id, lam_error *error);
 

@@ -1,8 +1,8 @@
 // job_roots.c: restricts the files of jobs to the folders of --allow-path.
 //
 // With Landlock, the kernel also restricts a worker to these folders (sandbox_start.c). The check in this file produces
-// the error message. Without Landlock, the check also protects files, as long as nobody changes links in these folders
-// during the check.
+// the error message. Without Landlock, only this check protects files. It is then reliable only if nobody changes links
+// in these folders during the check.
 #include "job_roots.h"
 
 #include <errno.h>

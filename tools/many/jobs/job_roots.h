@@ -13,9 +13,9 @@ struct job_roots {
 bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error);
 void job_roots_free(struct job_roots *roots);
 
-// Returns whether a file is below one of the folders after resolving links and "..". The file need not exist. With
-// `writes`, the file will be written, so it must not be a pipe, a device or a broken link. Fails with LAM_CANNOT_WRITE
-// if `writes` is set, otherwise with LAM_CANNOT_READ.
+// Resolves links and ".." in a path, and returns whether the file is below one of the folders. The file need not exist.
+// With `writes`, the caller will write the file, so the file must not be a pipe, a device or a broken link. Fails with
+// LAM_CANNOT_WRITE if `writes` is set, otherwise with LAM_CANNOT_READ.
 bool job_roots_have(const struct job_roots *roots, const char *path, bool writes, lam_error *error);
 
 #endif

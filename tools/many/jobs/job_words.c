@@ -13,8 +13,8 @@ enum { WORDS_MAX = 1000 };
 
 // --- from JSON to words
 
-// Appends a word that was allocated with malloc, and takes ownership of the word. Fails if the word is NULL, because
-// memory ran out.
+// Appends a word, and takes ownership of the word, which was allocated with malloc. A NULL word means that its
+// allocation failed.
 static bool append(char ***words, int *count, char *argument, lam_error *error)
 {
     char **more = argument && *count < WORDS_MAX ? realloc(*words, ((size_t)*count + 2) * sizeof *more) : NULL;
@@ -29,7 +29,7 @@ static bool append(char ***words, int *count, char *argument, lam_error *error)
     return true;
 }
 
-// Formats a string or a number as typed on a command line. Returns false for other values.
+// Formats a string or a number as a user would type it on a command line. Returns false for other values.
 static bool typed(const json_t *value, char number[32], const char **text)
 {
     *text = json_is_string(value) ? json_string_value(value) : number;

@@ -318,7 +318,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
         j->file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
         ok = j->file >= 0 || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
     }
-    // Adds a line end to a truncated line, so that the next line does not continue it.
+    // Adds a line end to a truncated line, so that the next record begins on a new line.
     ok = ok && (!j->torn || write_all(j->file, "\n", 1) ||
                 complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno)));
     ok = ok && begin_run(j, run, error) && take_over_running(j, slots, error);

@@ -1,5 +1,5 @@
 // view_draw.h: runs the drawing process, which reads requests, draws the pictures, and sends answers. The process keeps
-// the model loaded. It runs in the sandbox for untrusted files, without access to sockets and other processes.
+// the model loaded. It runs in the sandbox for untrusted files, without access to sockets or other processes.
 #ifndef VIEW_DRAW_H
 #define VIEW_DRAW_H
 

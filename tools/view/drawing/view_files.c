@@ -64,8 +64,8 @@ static bool has_ending(const char *endings, const char *ending)
     return false;
 }
 
-// Returns whether a name has the extension of a model, or of files that models name: material libraries, buffers,
-// pictures.
+// Returns whether the name has the extension of a model or of a file that a model can refer to: a material library, a
+// buffer or a picture.
 static bool is_served(const char *path)
 {
     const char *name = strrchr(path, '/'), *dot = name ? strrchr(name, '.') : NULL;

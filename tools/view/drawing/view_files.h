@@ -20,11 +20,12 @@ bool view_files_start(struct view_files *files, const char *operand, bool is_fol
 void view_files_free(struct view_files *files);
 
 // Opens a regular file and returns its handle. Returns −1 if the file does not exist or must not be served. The viewer
-// serves only files with the extension of a model, or of files that models name. It serves no hidden files, no files in
-// hidden folders, and no files outside the folder (after links and ".." are resolved).
+// serves only models and files that models can refer to, recognised by their extensions. It serves no hidden files, no
+// files in hidden folders, and no files outside the folder (after links and ".." are resolved).
 int view_files_open(const struct view_files *files, const char *path);
 
-// Opens a folder in the same way; "/" is the top folder. The handle allows access only to the attributes (O_PATH).
+// Opens a folder, with the same checks of its path; "/" is the top folder. The handle allows access only to the
+// attributes (O_PATH).
 int view_files_open_folder(const struct view_files *files, const char *path);
 
 // Returns the path on this machine, allocated with malloc. Returns NULL if memory runs out.

@@ -15,7 +15,7 @@ struct view_process {
     struct child_bytes received; // the received part of the answer
 };
 
-// Starts a process. This process must have no other threads. Returns false and sets errno on failure.
+// Starts a process. The calling process must have no other threads. Returns false and sets errno on failure.
 bool view_process_start(struct view_process *process, const struct view_files *files, const struct options *options);
 
 // Sends a request and its words. Returns false and sets errno on failure.
@@ -24,12 +24,12 @@ bool view_process_ask(struct view_process *process, const struct view_request *r
 // Requests the cancellation of the current request. A process that does not react is killed after two seconds.
 void view_process_cancel(struct view_process *process);
 
-// Reads the available bytes. Returns 1 if the answer is complete: *reply is set and `received` contains the rest.
-// Returns 0 if the answer is incomplete, and −1 if the process has ended or sent an invalid answer.
+// Reads the available bytes. If the answer is complete, sets *reply and returns 1. Returns 0 if the answer is
+// incomplete, and −1 if the process has ended or sent an invalid answer.
 int view_process_receive(struct view_process *process, struct view_reply *reply);
 
-// Returns the notes and the data of a complete answer. The caller owns the memory, which is allocated with malloc. The
-// process can then handle the next request.
+// Returns a complete answer: the header, the notes and the data. The caller owns the memory, which is allocated with
+// malloc. The process can then handle the next request.
 char *view_process_take(struct view_process *process);
 
 // Kills the process and waits for its end.

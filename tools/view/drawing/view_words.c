@@ -13,8 +13,8 @@
 #include "look_option.h"
 #include "page_model.h"
 
-// Converts a path in the page to a path on this machine, allocated with malloc, if the file is served. Fails with
-// LAM_CANNOT_READ or LAM_LIMIT.
+// Converts the path of a served file from a path in the page to a path on this machine, allocated with malloc. Fails
+// with LAM_CANNOT_READ (the file is not served) or LAM_LIMIT.
 static char *machine_path(const struct view_files *files, const char *path, lam_error *error)
 {
     int file = view_files_open(files, path);

@@ -1,5 +1,5 @@
-// file_write.c: writes whole files on Windows, so that a reader sees either the old file or the new one. The bytes are
-// written to a temporary file in the same folder, which is then renamed.
+// file_write.c: writes whole files on Windows, so that a reader sees either the old file or the new one. The
+// function writes the bytes to a temporary file in the same folder, and then renames the temporary file.
 #include "file.h"
 
 #include "fail.h"

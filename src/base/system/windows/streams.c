@@ -85,8 +85,8 @@ static bool give_text(const struct memory_stream *stream)
     return *stream->size == (size_t)end && _fseeki64(stream->file, end, SEEK_SET) == 0;
 }
 
-// Returns the address of the pointer to a stream in the list. If the list does not contain the stream, this is the
-// address of the last pointer, which is NULL. The caller must hold the list's lock.
+// Returns the address of the list's pointer to a stream. If the list does not contain the stream, returns the address
+// of the last pointer, which is NULL. The caller must hold the list's lock.
 static struct memory_stream **find(FILE *file)
 {
     struct memory_stream **at = &streams;

@@ -1,4 +1,4 @@
-// string.h: extends mingw-w64's header with functions of POSIX and GNU that it lacks.
+// string.h: adds functions of POSIX and GNU to mingw-w64's header.
 #ifndef WINDOWS_STRING_H
 #define WINDOWS_STRING_H
 

@@ -1,4 +1,4 @@
-// unistd.h: extends mingw-w64's header with file names in UTF-8 and POSIX functions that it lacks.
+// unistd.h: adds file names in UTF-8 and missing POSIX functions to mingw-w64's header.
 #ifndef WINDOWS_UNISTD_H
 #define WINDOWS_UNISTD_H
 

@@ -38,14 +38,14 @@ static struct end end_of(const lam_mesh *mesh, const struct mesh_edge *edge, uin
     return (struct end){{p[0], p[1], p[2]}, end};
 }
 
-// Returns the cosine of the angle between a line that arrives at one end and a line that leaves from another.
+// Returns the cosine of the angle between a line that arrives at one end and a line that leaves from the other end.
 static double straightness(const struct edge_measure *measures, uint32_t a, uint32_t b)
 {
     const struct edge_measure *m = &measures[a >> 1], *n = &measures[b >> 1];
     double ax = m->x[a & 1] - m->x[~a & 1], ay = m->y[a & 1] - m->y[~a & 1];
     double bx = n->x[~b & 1] - n->x[b & 1], by = n->y[~b & 1] - n->y[b & 1];
     double size = m->length * n->length;
-    // A line seen end-on has no direction in the picture, so it continues any other line.
+    // A line seen end-on has no direction in the picture, so it may continue any other line.
     return size > 1e-6 ? (ax * bx + ay * by) / size : 1;
 }
 

@@ -4,8 +4,8 @@
 // inside the strip. Projected across the strip, the square has a trapezoidal profile: the convolution of two boxes
 // whose widths are |cos| and |sin| of the strip's angle. Therefore, in any row or column that crosses a line, the
 // line's coverage adds up to the width of the line in that direction. The sum does not depend on the line's position.
-// If several strokes cover a pixel, the largest coverage is used, so that corners and edges shared by two triangles are
-// not darker than other edges.
+// If several strokes cover a pixel, the largest coverage is used. Corners, and edges that two triangles share, are
+// therefore as dark as other edges.
 #define LANES 1
 #include "edge_lines.h"
 

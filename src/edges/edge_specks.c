@@ -1,5 +1,5 @@
-// edge_specks.c: removes feature edges that form only specks in the picture. Scans and slivers of CAD programs contain
-// many short creases, which look like dirt instead of lines.
+// edge_specks.c: removes feature edges that form only specks in the picture. Scans, and meshes of CAD programs with
+// slivers, contain many short creases, which look like dirt instead of lines.
 //
 // Edges with common ends form a group. The group's size is the sum of the integer weights of its edges, so the size
 // does not depend on the order of the edges.

@@ -19,8 +19,8 @@ static uint32_t apex_of(const struct corner_weld *weld, uint32_t corner)
 }
 
 // Returns the edge that begins at each of these `count` corners. Triangles with the same three vertices are one face,
-// because files may contain each face twice, once for each side. If a face occurs twice, the copy that traverses the
-// edge in the direction opposite to the first face is used.
+// because files may contain each face twice, once for each side. If the second face of an edge occurs twice, the
+// function uses the copy that traverses the edge in the opposite direction to the first face.
 static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *weld, const uint64_t *keys,
                                 uint32_t count)
 {

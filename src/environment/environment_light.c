@@ -37,8 +37,8 @@ static const struct {
     {0},          {96, 1.0, 2.6}, {112, 0.8, 1.8}, {80, 0.8, 1.8}, {56, 0.35, 1.6}, {40, 0.35, 1.4},
     {.size = 32}, {.size = 24},   {.size = 16},    {.size = 16},   {.size = 16},    {.size = 16}};
 
-// The sum over the far cells of a lobe varies slowly, so it is computed for a cube of a quarter of the size. A cell is
-// far if its distance from the axis exceeds FAR_TEXELS texels of the smaller cube.
+// The sum over the far cells of a lobe varies slowly with the lobe's direction, so a cube of a quarter of the size
+// stores the sum. A cell is far if its distance from the axis exceeds FAR_TEXELS texels of the smaller cube.
 enum { FAR_SHRINK = 4 };
 #define FAR_TEXELS 1.5
 static int far_size(int level) { return levels[level].growth > 0 ? levels[level].size / FAR_SHRINK : 0; }

@@ -65,8 +65,8 @@ static void sky_row(int face, int t, float *texels)
     }
 }
 
-// The studio for physical materials is a cubic room around the origin. The lamps are small and bright, so that a clear
-// coat shows a few clear highlights, and the colour below the coat stays saturated between the highlights. The
+// The studio for physical materials is a cubic room around the origin. The lamps are small and bright. A clear coat
+// therefore shows a few sharp highlights, and the colour below the coat stays saturated between the highlights. The
 // brightest lamp, on the ceiling, lights the tops of objects. The objects' shadows on a ground are therefore short and
 // soft. A tall lamp in front lights the sides that face the viewer. A tall lamp at the right is weaker. The three
 // visible faces of a cube therefore differ in brightness. The lamp behind the object is high, and lights the rims of

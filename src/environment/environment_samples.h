@@ -4,7 +4,8 @@
 // all three methods (multiple importance sampling), so no single method has to match the whole lobe. The weights are
 // the balance heuristic (Veach and Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
 //
-// Each set is a Hammersley point set. The directions are the same for all points of a picture, and on every machine.
+// Each method uses the points of a Hammersley set. The directions are the same for all points of a picture, and on
+// every machine.
 #ifndef ENVIRONMENT_SAMPLES_H
 #define ENVIRONMENT_SAMPLES_H
 

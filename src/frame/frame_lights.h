@@ -4,7 +4,7 @@
 
 #include "frame.h"
 
-// Adds all lights or, if `only` >= 0, only the light with that index, without the scene's ambient light. Fails with
+// Adds all lights and the scene's ambient light or, if `only` >= 0, only the light with that index. Fails with
 // LAM_BAD_ARGUMENT.
 bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig, int only, const lam_mat4 *view,
                         lam_error *error);

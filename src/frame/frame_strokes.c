@@ -304,7 +304,8 @@ static void build_line(const struct builder *b, size_t item)
 
 // --- whole meshes
 
-// Computes a square whose side is the point size, or a regular polygon with the area of a disc of that diameter.
+// Computes a square or a regular polygon. The side of the square is the point size; the polygon has the area of a disc
+// whose diameter is the point size.
 static void set_corners(struct builder *b)
 {
     double step = 2 * PI / (double)b->corners;

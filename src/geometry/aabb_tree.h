@@ -9,8 +9,8 @@
 #include <lambent/scene.h>
 
 enum {
-    BOX_CHILDREN = 16, // boxes per box of the next level
-    BOX_LEVELS = 8,    // one more level than 2³² vertices in blocks of 64 need
+    BOX_CHILDREN = 16, // boxes that one box of the next level contains
+    BOX_LEVELS = 8,    // one more than the levels of 2³² vertices in blocks of 64
 };
 
 // Minimum and maximum, relative to the mesh's origin.

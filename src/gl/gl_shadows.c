@@ -50,7 +50,7 @@ static int depth_of(const struct hierarchy *h)
 
 static void pack_node(float *out, const struct ray_node *node)
 {
-    // If nothing casts shadows, the node contains one box, which no ray meets.
+    // If nothing casts shadows, the only node contains one box, which no ray meets.
     int count = children_of(node) ? children_of(node) : 1;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {

@@ -108,8 +108,8 @@ static size_t add_map(struct packer *p, const lam_mesh *mesh, const lam_texture_
     return at;
 }
 
-// Packs the material values and maps that ray_opacity and ray_transmittance (opacity.c) use for one side of a range's
-// triangles.
+// Packs the numbers and maps of one side's material for a range of triangles. ray_opacity and ray_transmittance
+// (opacity.c) use the same values.
 static size_t add_side(struct packer *p, const struct frame *frame, const struct frame_draw_range *range, bool back)
 {
     const struct frame_draw *draw = &frame->draws[range->draw];

@@ -10,7 +10,7 @@
 
 // --- the key
 
-// The padding between members is not added, because the bytes of the padding are indeterminate.
+// The key does not include the padding between members, because the bytes of the padding are indeterminate.
 static void key_add_light(uint64_t *key, const struct frame_light *light)
 {
     const int kind[] = {light->kind, light->falloff};

@@ -27,8 +27,8 @@ struct animation_codec {
     // Makes the bytes of the file. This function is called once, after at least one frame.
     bool (*finish)(void *state, const lam_save_params *params, lam_bytes *out, lam_error *error);
 
-    // Returns the size in bytes of the encoded frames in the writer, as far as the size is known: libwebpmux does not
-    // report its memory.
+    // Returns the size in bytes of the encoded frames that the writer keeps. For WebP, returns the size of the
+    // encoder's canvases, because libwebpmux does not report the size of its frames.
     uint64_t (*held)(const void *state);
 
     void (*free)(void *state);

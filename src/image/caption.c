@@ -206,8 +206,8 @@ static void stamp(lam_image *image, const FT_Bitmap *bitmap, int left, int top, 
         }
 }
 
-// Lays out a line of text and returns its width in pixels. Draws the text unless `image` is NULL. Letters that the font
-// cannot load are skipped.
+// Lays out a line of text and returns its width in pixels. Draws the text unless `image` is NULL. Skips letters whose
+// glyphs FreeType cannot load.
 static double walk(lam_image *image, lam_font *font, double x, double y, double size_px, lam_rgba color,
                    const char *text)
 {

@@ -86,7 +86,7 @@ static bool lacks_ambient(const struct lam_scene *scene)
 // A curved model is lit from near the eye, so that outlines are dark and small slopes are visible. At most, a point
 // reflects 0.9·1.33 (key) + 0.07 (sky) = 1.27 times ka or kd. A terrain is lit from below the view's axis, because
 // light from above brightens all slopes alike: level ground is dark, and slopes that face the viewer are bright.
-// Returns the number of lights, which is `count` for flat faces.
+// Returns the number of lights: `count` if the faces are flat.
 static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const struct lam_scene *scene)
 {
     enum scene_form form = scene_form(scene);

@@ -15,8 +15,8 @@ struct view_axes {
 // The points whose extents are computed.
 struct view_points {
     const lam_scene *scene;
-    // The extents cover the vertices in all of these axes. For a rotating scene, each pose gives one element, because
-    // rotating the axes is the same as rotating the scene.
+    // The extents are the maxima over the scene's vertices and over all of these sets of axes. For a rotating scene,
+    // each pose gives one element, because rotating the axes is the same as rotating the scene.
     const struct view_axes *axes;
     int axes_count;
     double ball_radius; // if above 0, a ball of this radius around the centre of the axes is measured instead

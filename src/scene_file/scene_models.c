@@ -27,7 +27,7 @@ struct variant {
 struct model {
     struct lam_scene inner;            // the model as it was read; its lists and arrays are in the outer scene's arena
     lam_material inner_material;       // the default material of `inner`, which importers may set
-    struct scene_origin origin;        // the origin of the model; its counts and copies are not set
+    struct scene_origin origin;        // the model's origin, without its counts and copies
     double crease_angle_rad;           // the angle for its normals; 0 means the default
     struct variant variants[VARIANTS]; // the most recent variants
     int variant_count;                 // number of variants created so far
@@ -142,7 +142,7 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
     model->inner.default_material = &model->inner_material;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
     r->scene->arena = model->inner.arena;
-    // The outer scene adopts the textures even after an error, so that it frees them.
+    // Even after an error, the outer scene adopts the textures and thereby becomes responsible for freeing them.
     for (int i = 0; i < model->inner.textures.count; i++) {
         lam_texture *texture = ((lam_texture **)model->inner.textures.items)[i];
         ok = scene_adopt_texture(r->scene, texture, ok ? r->error : NULL) && ok;

@@ -20,8 +20,8 @@ struct model_wanted {
 };
 
 // Adds the objects of a model to the scene. Equal requests share meshes and materials. Sets *origin to the index of the
-// model's record in scene->origins. Sets *own to true if the meshes and materials are new, so that the caller must
-// apply the object's changes.
+// model's record in scene->origins. Sets *own to true if the meshes and materials are new; the caller must then apply
+// the object's changes.
 bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *origin, bool *own);
 
 #endif

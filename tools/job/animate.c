@@ -322,8 +322,8 @@ static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
     high->z = b.z > high->z ? b.z : high->z;
 }
 
-// For a model whose pose changes, computes one centre of rotation and one camera. Both fit the bounding box around the
-// model's poses in all frames.
+// For a model whose pose changes, computes one centre of rotation and one camera. The function computes both from the
+// bounding box around the model's poses in all frames.
 static bool fit_poses(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;

@@ -8,7 +8,7 @@
 // Checks combinations of animation options. Fails with LAM_BAD_ARGUMENT.
 bool animation_check(const struct options *o, lam_error *error);
 
-// Replaces job_run for an animation: loads the model, draws the frames and writes the frames.
+// Replaces job_run for an animation: loads the model, and draws and writes the frames.
 bool animation_run(struct job *job, struct progress *progress, lam_error *error);
 
 // Returns whether `path` names the file of a frame. `pattern` is the file name, with {frame} instead of the frame

@@ -499,7 +499,7 @@ bool job_run(struct job *job, struct progress *progress, lam_error *error)
     }
     bool ok = job_draw(job, job->pixels, progress, error);
     if (ok && progress)
-        progress_end(progress); // because the picture is possibly written to the terminal
+        progress_end(progress); // because the next step may write the picture to the terminal
     return ok && job_write(job, error) && (!job->options->picture.save_scene || scene_settings_save(job, error));
 }
 

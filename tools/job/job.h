@@ -62,7 +62,7 @@ struct job {
     const char *output;           // path of the picture; "-" means standard output
     lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written
     bool one_of_many;  // several models share the options, so a name given to --hide may be missing from this model
-    bool makes_folder; // also create the folder of an explicitly named picture
+    bool makes_folder; // also creates the folder of an explicitly named picture
     const lam_cancel *cancel; // stops the job; if NULL, only Ctrl-C does
     const char *format;       // the format of the picture: "png"
     lam_pixel_format pixels;  // the pixel format for drawing
@@ -93,7 +93,7 @@ struct job {
     int light_count;
     uint64_t bytes; // size of the written file
     bool written;
-    bool planned;                  // --dry-run: everything is ready for drawing
+    bool planned;                  // --dry-run: loading and arranging have succeeded
     struct options own;            // the options, completed by the settings of a scene file
     lam_picture_settings settings; // the scene file's settings; empty if the model is not a scene file
     lam_draw_params draw;          // parameters of the drawn picture

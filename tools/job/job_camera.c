@@ -88,7 +88,7 @@ lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *erro
     return scene;
 }
 
-// Copies the scene's lights before the options add lights that must be added again for each view's camera.
+// Stores the scene's own lights. After these, the options' lights are added, again for each view's camera.
 static bool keep_lights(struct job *job, lam_error *error)
 {
     if (job->view_count <= 1 || !job->options->lighting.lights.count)

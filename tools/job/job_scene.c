@@ -65,8 +65,8 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
     return ok;
 }
 
-// Colour, shininess and opacity are set before the back materials, so that back materials derived from front materials
-// include them.
+// Sets colour, shininess and opacity before the back materials, because some back materials are copies of front
+// materials.
 static bool apply_materials(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;

@@ -30,13 +30,13 @@ bool job_make_image(struct job *job, lam_pixel_format format, lam_error *error);
 bool job_draw_frames(struct job *job, double from, double span, int count, lam_frame_report *reports,
                      struct progress *progress, lam_error *error);
 
-// Sets the job's times from the reports of `count` frames, including the report of the median frame. Sorts the reports.
+// Sets the job's times and the report of the median frame from the reports of `count` frames. Sorts the reports.
 void job_time_frames(struct job *job, lam_frame_report *reports, int count);
 
 // Returns the parameters for encoding; `control` must stay valid.
 lam_save_params job_save_params(const struct job *job, const lam_control *control);
 
-// Writes job->image to job->output, and adds to job->bytes and times.encode.
+// Writes job->image to job->output, and adds the file's size to job->bytes and the time to times.encode.
 bool job_write(struct job *job, lam_error *error);
 
 // --- the scene (job_scene.c)
@@ -44,8 +44,8 @@ bool job_write(struct job *job, lam_error *error);
 // Applies materials, sides and the rig, before the camera is placed and the model is rotated. Fills `sphere`.
 bool job_apply_options(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error);
 
-// Gets the rotation axis of this picture and of the other pictures on its sheet. If there are several axes, `axis` is
-// 0, 0, 0. Returns false if there is no rotation.
+// Gets the axis that the rotations of this picture and of the other pictures on its sheet share. If there are several
+// axes, `axis` is 0, 0, 0. Returns false if there is no rotation.
 bool job_turn_axis(const struct options *o, lam_vec3 *axis);
 
 // Rotates the model about the sphere's centre.

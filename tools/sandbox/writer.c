@@ -394,8 +394,8 @@ static bool ask(enum action action, const char *path, const lam_bytes *bytes, la
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error)
 {
     struct stat there;
-    // This process itself opens pipes and devices that the user names. The writer cannot be interrupted while it waits
-    // for the other end of a pipe.
+    // The process in the sandbox itself opens the pipes and devices that the user names. The writer cannot be
+    // interrupted while it waits for the other end of a pipe.
     if (!writer_is_there() || (stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
         return writer_files_save(path, bytes, durable, error);
     return ask(durable ? SAVE_DURABLY : SAVE, path, bytes, error);

@@ -5,7 +5,7 @@
 
 #include "writer.h"
 
-// Checks a path against its right, except WRITER_NEW_OR_OURS, which the caller checks. Fails with LAM_CANNOT_WRITE.
+// Checks whether the access right allows this path. The caller checks WRITER_NEW_OR_OURS. Fails with LAM_CANNOT_WRITE.
 bool writer_files_check(const char *path, enum writer_right right, lam_error *error);
 
 // Writes a file completely or not at all. Creates the folder if it is missing.

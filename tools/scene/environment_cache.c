@@ -101,8 +101,8 @@ static bool is_same(const struct identity *a, const struct identity *b)
     return same;
 }
 
-// Returns the entry of an environment, after any thread that reads it has finished. Returns a free or evicted entry if
-// the environment has no entry, or NULL if every entry is being read.
+// Returns the entry of an environment. If another thread is reading the environment, waits for that thread. Returns a
+// free or evicted entry if the environment has no entry, or NULL if threads are reading environments for all entries.
 static struct entry *find(struct environment_cache *cache, const char *text, lam_color_mode color,
                           const struct identity *identity)
 {

@@ -114,7 +114,7 @@ static int set_objects(const struct material_option *option, bool back, const ch
     return found;
 }
 
-// Applies the option to the parts with this name, in meshes whose objects use the parts' materials.
+// Applies the option to the parts with this name, in all meshes.
 static int set_parts(const struct material_option *option, lam_scene *scene, lam_error *error)
 {
     int found = 0;

@@ -44,7 +44,7 @@ bool draw_line(struct drawing *drawing, const struct point *points, int count, d
 bool draw_dot(struct drawing *drawing, struct point middle, double radius, uint32_t color, lam_error *error);
 void draw_text(struct drawing *drawing, struct point baseline, double size, enum align align, uint32_t color,
                const char *text);
-// Draws centred text, rotated by 90 degrees, that runs upwards. The baseline is vertical.
+// Draws centred text that runs upwards: the baseline is vertical.
 bool draw_text_upwards(struct drawing *drawing, struct point baseline, double size, uint32_t color, const char *text,
                        lam_error *error);
 
@@ -59,9 +59,9 @@ bool draw_image(struct drawing *drawing, const lam_image *image, int left, int t
 // Returns true if the path names an SVG.
 bool drawing_is_svg(const char *path);
 
-// Returns whether a PNG can show a user's text: its script needs no shaping, and the font contains all characters
-// (`has_font` means that the user selected the font). Fails with LAM_UNSUPPORTED; the error names the character and
-// recommends an SVG.
+// Checks that a PNG can show a user's text: that the script needs no shaping, and that the font contains all
+// characters. `has_font` means that the user selected the font. Fails with LAM_UNSUPPORTED; the error names the
+// character and recommends an SVG.
 bool drawing_check_text(const char *option, const char *text, bool has_font, lam_error *error);
 
 // Writes the page. A file is written completely or not at all; "-" and pipes are written directly.

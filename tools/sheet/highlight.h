@@ -10,8 +10,8 @@ struct highlight {
 };
 
 // Slides a window over the difference between `whole` and `matt` (both LAM_RGBA8 of the same size). This difference is
-// the light that highlights add to the picture. Returns the rectangle around the brightest highlight, with 1 /
-// `enlarged` of the picture's width and 1 / (2 `enlarged`) of its height.
+// the light that highlights add to the picture. Returns the rectangle around the brightest highlight. The width is 1 /
+// `enlarged` of the picture's width, and the height is 1 / (2 `enlarged`) of the picture's height.
 struct highlight highlight_find(const lam_image *whole, const lam_image *matt, int enlarged);
 
 #endif

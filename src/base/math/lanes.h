@@ -168,7 +168,8 @@ LANE_FN int all_lanes(mask m) { return wasm_i32x4_all_true((v128_t)m); }
 LANE_FN int any_lane(mask m) { return mask_bits(m) != 0; }
 LANE_FN int all_lanes(mask m) { return mask_bits(m) == (1u << LANES) - 1; }
 #endif
-// Returns √x, correctly rounded. Clang turns the plain loop into scalar code for AVX-512, so intrinsics are used there.
+// Returns √x, correctly rounded. Clang turns the plain loop into scalar code for AVX-512, so this function uses
+// intrinsics.
 LANE_FN num square_root(num x)
 {
 #if LANES == 16 && defined(__AVX512F__)

@@ -3,8 +3,9 @@
 //
 // Control groups limit memory in a container or under a batch system. The limit is in the file memory.max (cgroup v2)
 // or memory.limit_in_bytes (v1), and applies to a group and its descendants. In a container, /proc/self/cgroup may
-// contain a path on the host that does not exist in the container. The files of the parent groups in this path, up to
-// the root of the mount, are still read. https://docs.kernel.org/admin-guide/cgroup-v2.html, .../cgroup-v1/memory.html
+// contain a path on the host that does not exist in the container. The code then reads only the files of the parent
+// groups in this path, up to the root of the mount. https://docs.kernel.org/admin-guide/cgroup-v2.html,
+// .../cgroup-v1/memory.html
 #include "available_memory.h"
 
 #include "pages.h"

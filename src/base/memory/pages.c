@@ -61,8 +61,9 @@ void *pages_get_sparse(size_t bytes, size_t *held)
 }
 
 // A block of at least one huge page is aligned to the size of huge pages. The kernel then uses huge pages from the
-// first access. The accesses take a third of the time that small pages need. The size is rounded up to whole huge pages
-// if this wastes at most a sixteenth of the memory, because one huge page is faster than hundreds of small pages.
+// first access. The first accesses therefore take a third of the time that they take with small pages. The size is
+// rounded up to whole huge pages if this wastes at most a sixteenth of the memory, because a program accesses one huge
+// page faster than hundreds of small pages.
 void *pages_get(size_t bytes, size_t *held)
 {
     if (bytes > SIZE_MAX / 2)

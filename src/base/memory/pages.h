@@ -17,8 +17,8 @@ void *pages_get(size_t bytes, size_t *held);
 // Allocates small pages, for sparsely used blocks.
 void *pages_get_sparse(size_t bytes, size_t *held);
 void pages_free(void *pages, size_t held);
-// Allocates memory that free() releases. Large blocks use huge pages. A program may keep freed memory for later
-// allocations, so that the system need not clear new memory.
+// Allocates memory that free() releases. Large blocks use huge pages. After free(), the C library may keep the memory
+// for later allocations. The system then need not clear new memory.
 void *pages_malloc(size_t bytes);
 // With one system call, prepares the pages that contain `bytes` bytes at `at` for writing. Preparing each page at its
 // first access would take three times as long. Some systems ignore the call.

@@ -1,7 +1,7 @@
 // corner_fan_batch.h: collects positions by their number of corners. As soon as enough positions have the same number,
 // the normals at these positions are computed in parallel lanes (corner_fan_simd.h). Positions with more than
-// FAN_CORNERS_MAX corners, or with a degenerate triangle, are processed one by one by corner_fan.h. The results are
-// bit-identical.
+// FAN_CORNERS_MAX corners, or with a degenerate triangle, are processed one by one by corner_fan.h. The two methods
+// produce identical bits.
 #ifndef CORNER_FAN_BATCH_H
 #define CORNER_FAN_BATCH_H
 

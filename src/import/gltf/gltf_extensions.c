@@ -37,7 +37,7 @@ static const struct {
     {"KHR_node_visibility", READ},
     {"KHR_materials_diffuse_transmission", IGNORED},
     {"KHR_materials_dispersion", IGNORED},
-    {"KHR_texture_basisu", SILENT}, // textures with this extension have a fallback picture, or the load fails
+    {"KHR_texture_basisu", SILENT}, // a texture with this extension needs a fallback picture; otherwise the load fails
     {"KHR_texture_transform", READ},
     {"KHR_xmp", SILENT},
     {"KHR_xmp_json_ld", SILENT},

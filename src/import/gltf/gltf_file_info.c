@@ -29,8 +29,8 @@ static bool take_names(struct gltf *gltf, const json_t *list, const char *const 
     return names;
 }
 
-// Returns the time of the last keyframe of a channel's sampler. glTF requires that the input accessor declares this
-// time as its maximum.
+// Returns the time of the last keyframe of a channel's sampler. glTF requires that the maximum of the input accessor
+// states this time.
 static double last_key(const struct gltf *gltf, const json_t *sampler)
 {
     const json_t *accessors = json_object_get(gltf->root, "accessors"), *input = json_object_get(sampler, "input");

@@ -75,8 +75,8 @@ struct ply_table {
     const enum ply_type *types; // the type of each property in `rows`
     enum ply_positions_as positions;
     // The requested list, with checked indices. The items of row r begin at items[starts[r]], or at items[3 r] if
-    // `starts` is NULL. Each row reserves space for its triangles: 3 (n − 2) items for n corners, of which the first n
-    // are set. Rows of fewer than three corners reserve no items.
+    // `starts` is NULL. Each row of n corners reserves 3 (n − 2) items for its triangles. The first n of these items
+    // contain the corners. Rows of fewer than three corners reserve no items.
     uint32_t *items;
     const uint32_t *starts; // one more element than the table has rows
     bool all_used;          // true if every number below the request's item_limit certainly occurs as an item

@@ -215,7 +215,7 @@ static bool read_rows(struct ply_reader *reader, struct arena *keep, struct aren
 bool ply_read_ascii(const struct import_source *source, const struct ply_element *element,
                     const struct ply_request *request, size_t *at, struct ply_table *table, lam_error *error)
 {
-    // Check the file's size before any allocation: each number needs at least two bytes, a digit and white space. Only
+    // Check the file's size before any allocation: each number needs at least two bytes (a digit and white space). Only
     // the last number may lack the white space.
     uint64_t left = (uint64_t)(source->size - *at) + 1, row_bytes = 2 * (uint64_t)element->property_count;
     if (row_bytes > 0 && element->count > left / row_bytes)

@@ -38,8 +38,8 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
            (size < SAMPLE || text_count_word(at, end, "facet") || text_count_word(at, end, "endsolid"));
 }
 
-// Tests the size first. A text file cannot be 84 + 50 · count bytes long by chance, because its characters, read as a
-// binary count, give more than 10⁸.
+// Tests the size first. A text file cannot have the size 84 + 50 · count by chance, because four characters, read as a
+// binary count, give a count above 10⁸.
 static enum kind detect_kind(const uint8_t *bytes, size_t size)
 {
     bool has_header = size >= STL_FACETS;

@@ -39,7 +39,7 @@ struct model_diff {
 // diff_draw.c: draws a pair with one camera and determines how the model has changed (batch_use.draw).
 bool diff_draw(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
 
-// Returns the change that a model's record states.
+// Returns the kind of change in a model's record.
 enum change diff_change_of(const json_t *record);
 
 // diff_page.c: builds the page as one file, allocated with malloc. Returns NULL if memory runs out.

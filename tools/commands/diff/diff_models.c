@@ -47,7 +47,7 @@ static bool add_pair(struct model_diff *diff, const struct batch_model *old, con
     return true;
 }
 
-// Both lists are sorted, so if the next names differ, the smaller name exists on only one side.
+// Both lists are sorted. If the next names differ, the name that sorts first exists on only one side.
 static bool make_pairs(struct model_diff *diff, lam_error *error)
 {
     struct batch_plan *olds = &diff->olds, *news = &diff->news;

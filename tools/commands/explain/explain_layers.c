@@ -45,8 +45,8 @@ void explain_layers(const lam_explained_layers *layers)
         row_number(4, "share", (double)layers->coat, "of the coat: clearcoat (0.04 + 0.96 (1 − |n_c·v|)⁵)");
 }
 
-// Prints the environment light that each layer reflects. The diffuse part belongs to the diffuse term, the other parts
-// belong to the specular term.
+// Prints the environment light that each layer reflects. The diffuse part belongs to the diffuse term, and the other
+// parts belong to the specular term.
 void explain_environment_parts(const lam_explained_point *p)
 {
     const lam_explained_layers *layers = p->layers;

@@ -18,9 +18,9 @@ void row_angle(const char *name, double radians, const char *remark); // prints 
 // (explain_places.c). Prints nothing for lines and points.
 void explain_places(const lam_explanation *explanation, const lam_explained_fragment *fragment);
 
-// Print the layers of a physical material (explain_layers.c): the properties that are the same for all lights, and the
-// fractions of one light and of the environment light that each layer reflects. explain_layers_over writes the factors
-// by which the sheen and the coat, if present, dim the base: "(1 − share) · left · ".
+// Print the layers of a physical material (explain_layers.c): the properties that are the same for all lights, the
+// fraction of one light that each layer reflects, and the environment light that each layer reflects.
+// explain_layers_over writes the factors by which the sheen and the coat dim the base: "(1 − share) · left · ".
 void explain_layers(const lam_explained_layers *layers);
 void explain_layers_over(char text[60], const lam_explained_layers *layers, float sheen_left);
 void explain_light_layers(const lam_explained_light_layers *layers, const lam_explained_layers *all);

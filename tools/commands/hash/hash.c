@@ -112,8 +112,7 @@ static bool name_models(struct hash_run *run, lam_error *error)
     return ok;
 }
 
-// Finds the models that the hash file lists and that exist, but that are not on the command line. --update keeps their
-// hashes.
+// Finds the existing models that the hash file lists but the command line does not name. --update keeps their hashes.
 static bool find_kept(struct hash_run *run, lam_error *error)
 {
     run->kept = calloc(run->then.count + 1, sizeof *run->kept);

@@ -44,8 +44,8 @@ char *hash_sheet_path(const char *file);
 // NULL if memory runs out.
 char *hash_picture_path(const char *folder, const char *name);
 
-// If the sheet still has a free row, stores a model's new picture and its old picture (from --pictures) in `found`, for
-// the sheet.
+// If the sheet still has a free row, stores a model's new and old pictures in `found`. The old picture is from
+// --pictures.
 void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t recorded, const lam_image *picture,
                      json_t *found);
 

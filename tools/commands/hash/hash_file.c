@@ -66,7 +66,7 @@ static bool unescape(char *name)
     return true;
 }
 
-// Reads "pixels:0123456789abcdef", the XXH64 of pixels. The prefix "xxh64:" is for hashes of a file's bytes.
+// Reads "pixels:0123456789abcdef", the XXH64 of pixels. (Hashes of a file's bytes begin with "xxh64:" instead.)
 static bool pixels_parse(const char *text, uint64_t *hash)
 {
     char of_file[XXH64_TEXT];

@@ -29,10 +29,11 @@ struct fault_search {
     unsigned expectation; // identifies the expected appearance of the scenes in the cache (render_key)
     double tolerance;
     unsigned needs; // the union of the scenes' needs
-    // If some names have no value, only a single fault that explains everything is accepted.
+    // Whether some names in the shader have no value. The search then accepts only a single fault that explains
+    // everything.
     bool has_unset_names;
     uint64_t max_pictures; // after this many pictures, no further sets are tried
-    double before;         // mean difference without faults, over the scenes that are not spoilt
+    double before;         // mean difference without faults, over the scenes without NaN
     // Results: the found faults (the fault that explains most is first), and whether they explain everything.
     struct found_fault found[MAX_FOUND_FAULTS];
     int count;

@@ -233,7 +233,7 @@ void fault_shader_close(struct fault_shader *m)
     free(m);
 }
 
-// Sets the elements of a uniform, as far as the program reads them. Each element consists of `each` floats.
+// Sets the elements of a uniform, but only the elements that the program reads. Each element consists of `each` floats.
 static void set(struct fault_shader *m, const char *name, int count, int each, const float *numbers)
 {
     int input = place_input(m->program, name, false);

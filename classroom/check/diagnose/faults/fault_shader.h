@@ -7,7 +7,7 @@
 struct fault_shader;
 
 // Opens a fault shader for pictures of size² pixels. The fault shader draws only every `stride`-th pixel of every
-// `stride`-th row, from the lower left pixel on: fault_shader_size(size, stride)² pixels.
+// `stride`-th row, beginning with the lower left pixel. These are fault_shader_size(size, stride)² pixels.
 struct fault_shader *fault_shader_open(const lam_check_painter *painter, int size, int stride, lam_error *error);
 void fault_shader_close(struct fault_shader *shader); // `shader` may be NULL or released (fault_shader_rest)
 

@@ -203,7 +203,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
     if (a->floats[1])
         return a->floats[1];
     if (!a->floats[0] || (keep && !own_bytes)) {
-        // This load owns the file's bytes and may change them in place.
+        // The load owns the file's bytes and may therefore change the numbers in place.
         float *floats =
             own_bytes ? (float *)(uintptr_t)a->data : convert_all(gltf, a, keep ? &gltf->scene->arena : gltf->scratch);
         if (!floats || !check_finite(gltf, place, a, floats, flags & GLTF_REQUIRED))

@@ -191,7 +191,7 @@ const struct option *option_find(const char *name);
 // there is no operand, or if "--" or an unknown option precedes it.
 int options_first_operand(int count, char **words);
 
-// Writes an option's words as "flat, gouraud or phong". Returns `text`.
+// Lists an option's words in the form "flat, gouraud or phong". Returns `text`.
 enum { OPTION_WORDS_SIZE = 256 };
 const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE]);
 
@@ -206,7 +206,7 @@ bool option_is_taken(const struct option *option, uint64_t groups);
 // Returns whether a use includes an option.
 bool option_is_in(const struct option *option, enum option_use use);
 
-// Parses a command line without the names of the program and the command. `groups` has the same meaning as in
+// Parses the arguments that follow the names of the program and the command. `groups` has the same meaning as in
 // option_is_taken. Moves the operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error);
 

@@ -44,7 +44,7 @@ struct options {
     const char *values[OPTIONS_MAX]; // the value on the command line or in the settings file, or NULL
 };
 
-// Bits above the group bits: single options that a command accepts, although it does not accept their whole group.
+// Bits above the group bits: single options from groups that a command does not accept as a whole.
 #define TAKES_OUTPUT         (1ull << 40)
 #define TAKES_JSON           (1ull << 41)
 #define TAKES_QUIET          (1ull << 42)
@@ -58,8 +58,8 @@ struct options {
 #define TAKES_TITLE          (1ull << 50)
 #define TAKES_MANY           (1ull << 51)
 #define TAKES_UP             (1ull << 52)
-// Set for a command that writes no file of its own. Such a command accepts no options about the output file, even if
-// they belong to its groups.
+// Set for a command that writes no file of its own. Such a command rejects the options about the output file in all of
+// its groups.
 #define WRITES_NO_FILE (1ull << 63)
 
 // The default background of the sheets of `compare` and `materials`.
@@ -104,7 +104,7 @@ enum option_use {
     IN_KEY = 4,       // part of the key by which a journal recognises unchanged pictures
     IN_PAGE = 8,      // the web page shows a control for the option
     IN_SHEET = 16,    // `compare --across` can vary the option
-    KEEPS_MODEL = 32, // changes only the drawing, so that a loaded model can be used again
+    KEEPS_MODEL = 32, // changes only the drawing, so a loaded model can be used again
 };
 
 // A named value that an option accepts. A list ends with a NULL name.

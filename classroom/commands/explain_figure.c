@@ -86,7 +86,7 @@ struct diagram {
 
 static struct point difference(struct point a, struct point b) { return (struct point){a.x - b.x, a.y - b.y}; }
 
-// Returns whether an arrow is drawn very short. Its vector then points almost towards the viewer.
+// Returns whether an arrow is drawn very short, because its vector points almost towards the viewer.
 static bool is_short(const struct diagram *g, int arrow)
 {
     return length_of(difference(g->tips[arrow], g->from)) < 9 * g->unit;
@@ -101,9 +101,9 @@ static double distance_of(struct point p, const struct diagram *g, int arrow)
     return length_of((struct point){to.x - along * way.x, to.y - along * way.y});
 }
 
-// Finds a position for an arrow's letter around the arrow's tip, so that the letter does not overlap the arrows and
-// earlier letters. If every tried position overlaps, the result is the last tried position, at the largest distance
-// from the tip.
+// Finds a position for an arrow's letter around the arrow's tip, so that the letter does not overlap an arrow or an
+// earlier letter. If every tried position overlaps, the result is the last tried position, at the largest distance from
+// the tip.
 static struct point find_place(const struct diagram *g, int arrow, const struct point *letters, int count)
 {
     struct point way = difference(g->tips[arrow], g->from), at = g->tips[arrow];

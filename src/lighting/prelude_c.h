@@ -40,7 +40,7 @@ FN num sheen_texel(num index) { return num_of_bits(igather((const int32_t *)shee
 // Rounds down a number between 0 and 2^31.
 FN num whole(num x) { return num_of_int(int_of(x)); }
 
-// Normalises vectors of lengths from 1e-15 to 1e15; the zero vector stays zero.
+// Normalises vectors whose lengths are from 1e-15 to 1e15; the zero vector stays zero.
 FN vec3 unit3(vec3 a) { return scale3(a, rsqrt(dot3(a, a))); }
 
 #endif

@@ -54,7 +54,7 @@ static bool has_ending(const struct importer *importer, const char *ending)
 }
 
 // The content of the file selects the importer. If the content is ambiguous, the extension of the file's name selects
-// it.
+// the importer.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
                                     lam_error *error)
 {

@@ -121,7 +121,7 @@ static bool is_3ds(const uint8_t *bytes, size_t size)
            ((size_t)bytes[2] | (size_t)bytes[3] << 8 | (size_t)bytes[4] << 16 | (size_t)bytes[5] << 24) == size;
 }
 
-// IGES files consist of 80-column cards, the first of which is numbered S 1.
+// IGES files consist of 80-column cards. The first card is numbered S 1.
 static bool is_iges(const uint8_t *bytes, size_t size) { return size > 80 && memcmp(bytes + 72, "S      1", 8) == 0; }
 
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size)

@@ -8,7 +8,7 @@
 #define THIN     0.3
 #define NOT_FLAT 0.01 // thinner models are flat pictures, which usually stand upright
 #define FACING   0.6
-#define EVEN     0.999 // if the projected area is larger, the model has no slopes, like stacked cards
+#define EVEN     0.999 // if the projected part of the area is larger, the model has no slopes (stacked cards)
 
 // A model with fewer triangles may be an upright sheet.
 enum { TRIANGLES_MIN = 1000 };

@@ -16,8 +16,8 @@
 struct pool;
 
 // The grid of cells for which occlusion is computed. Usually, each pixel is a cell. In pictures of more than
-// SCREEN_FINE pixels, a cell is two by two pixels, which takes a quarter of the time. The value of a pixel is then the
-// mean of the surrounding cells that show the pixel's surface.
+// SCREEN_FINE pixels, a cell is two by two pixels, so occlusion is computed in a quarter of the time. The value of a
+// pixel is then the mean of the surrounding cells that show the pixel's surface.
 struct screen_occlusion {
     int width, height;           // the size of the picture
     int step;                    // pixels along the side of a cell: 1 or 2
@@ -35,7 +35,8 @@ struct screen_occlusion {
     // picture.
     float *depth;
     float *cell_depth; // for each cell, the depth of the first pixel that shows a surface
-    // The slope of each cell's surface, computed together with the occlusion: the change of distance to the next cell.
+    // The slope of each cell's surface, computed together with the occlusion: the change of the distance from one cell
+    // to the next.
     float *slope_x, *slope_y;
     float *noisy, *smoothed; // before the filter, and after its first pass
     // The result, in the order of `depth` (with step 2, in the memory of `depth`): 1 if all surrounding light arrives,

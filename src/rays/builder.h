@@ -5,7 +5,7 @@
 #include "hierarchy.h"
 #include "loop_status.h"
 
-// Triangles per task, for preparing triangles and dividing the largest ranges.
+// The number of triangles per task in ray_triangles.c; cells.c uses at least eight times this number.
 enum { RAY_CHUNK = 4096 };
 
 // The box of a triangle. low[3] contains the bits of the triangle's number, and high[3] the bits of 1. For a cell's
@@ -47,7 +47,7 @@ struct builder {
     struct loop_status loop;
 };
 
-// Fills primitives, and the hierarchy's centre and scale.
+// Sets the primitives, and the hierarchy's centre and scale.
 bool ray_triangles_prepare(struct builder *builder, lam_error *error);
 
 // Returns the largest number of nodes for a range of this many triangles. A node with fewer than NODE_CHILDREN children

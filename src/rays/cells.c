@@ -1,10 +1,10 @@
 // cells.c: divides large ranges of a hierarchy's triangles, and distributes small ranges to threads.
 //
 // The centres of a large range's triangles are sorted into the cells of a grid, and the boxes of the cells determine
-// how the range is divided. There are far fewer cells than triangles. One thread divides a range of few triangles, or a
-// range within one cell, without cells (splits.c). A large range within one cell gets its own grid instead. The tasks
-// depend only on the number of triangles. The positions of nodes in the array depend only on the triangles of the
-// range. The result is therefore the same for any number of threads.
+// how the range is divided. There are far fewer cells than triangles. A small range is divided by one thread, without
+// cells (splits.c). A large range within one cell gets its own grid. The tasks depend only on the number of triangles.
+// The positions of nodes in the array depend only on the triangles of the range. The result is therefore the same for
+// any number of threads.
 #include "ranges.h"
 
 #include "fail.h"
@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum {
-    PART = 32, // a range of at most this many triangles is not divided by cells into further ranges
+    PART = 32, // only ranges of more than this many triangles are divided by cells
     // one thread divides a range of up to this size; nodes of larger ranges have the maximum number of children
     SMALL = NODE_CHILDREN * PART,
     CELL_BITS_MAX = 16,
@@ -50,8 +50,7 @@ struct large {
 
 // --- the grid
 
-// Makes the grid. For each bit of a cell's number, the axis along which the cells are then the longest is divided in
-// half.
+// Makes the grid. Each bit of a cell's number halves the cells along the axis on which they are longest at that time.
 static struct grid grid_over(const struct box *middles, uint32_t count)
 {
     int bits = 31 - __builtin_clz(count) - 2, of_axis[3] = {0, 0, 0};

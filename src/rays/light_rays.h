@@ -24,8 +24,8 @@ struct light_rays {
 };
 
 // A ray through an edge intersects both triangles that share this edge. This does not matter for opaque surfaces. If
-// both triangles are translucent, only one of them may dim the light. As in rasterization, this is the triangle on a
-// fixed side of the edge, seen along the ray.
+// both triangles are translucent, only one of them may dim the light. As in rasterization, the triangle on a fixed side
+// of the edge, seen along the ray, dims the light.
 static bool owns_edges(const struct ray_triangle *triangle, const double origin[3], const double d[3],
                        const double weights[3])
 {
@@ -53,7 +53,7 @@ struct side_share {
 };
 
 // Gets the light that passes through a point of a triangle, with passed_channels() channels. If all points of the side
-// pass the same light, stores the light in `share`.
+// transmit the same light, stores the light in `share`.
 static void share_at(const struct frame *frame, uint32_t number, bool back, float b1, float b2,
                      struct side_share *share)
 {

@@ -9,9 +9,9 @@
 // back side.
 float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b1, float b2);
 
-// Gets the light (red, green, blue) that passes through such a point: 1 − opacity, plus opacity · transmission · (1 −
-// metallic) · base. The second term is the light that a transmitting surface lets through. The boundary of a volume
-// colours light only where the light enters the volume.
+// Gets the light (red, green, blue) that passes through a point of a triangle: 1 − opacity, plus opacity · transmission
+// · (1 − metallic) · base. The second term is the light that a transmitting surface lets through. The boundary of a
+// volume colours light only where the light enters the volume.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
 // Returns whether opacity and transmitted light are the same at all points of a triangle.

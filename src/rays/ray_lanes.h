@@ -87,7 +87,7 @@ LANE_FN dnum along(const double row[3][LANES], int at, const dnum p[3])
 }
 
 // Returns the lanes of `active` whose rays are blocked by a triangle. `weights` (may be NULL) receives the weights of
-// the triangle's corners, each multiplied by the sum of the weights. `t` receives the ray parameter t of each hit.
+// the triangle's corners, not yet divided by their sum. `t` receives the ray parameter t of each hit.
 LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_lanes *ray, const struct ray_view *view,
                          unsigned active, double weights[3][LANES], double t[LANES])
 {

@@ -115,9 +115,9 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
     if (!device || !scene || !camera || !params || !light_scale)
         return fail(error, LAM_BAD_ARGUMENT, "lam_studio_fill: an argument is NULL");
     *light_scale = 0;
+    // Only physical reflection models use the light of an environment.
     bool classic = params->reflection != LAM_REFLECTION_AUTO && params->reflection < LAM_REFLECTION_COUNT &&
-                   !lam_reflection_describe(params->reflection)->microfacet; // an environment does not light such
-                                                                             // models
+                   !lam_reflection_describe(params->reflection)->microfacet;
     if (classic || params->output != LAM_OUTPUT_PICTURE || lam_scene_environment(scene))
         return true;
     struct lighting measured = measure(device, scene, camera, params, width, height, control, error);
@@ -125,7 +125,8 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
         return false;
     if (measured.black_share <= 0.1)
         return true;
-    // The exposure suits a picture that is mostly black. With the studio, a few lit surfaces would be much too bright.
+    // With this scale, the lit surfaces remain as bright as before the change of the exposure, or become darker if they
+    // were too bright.
     double scale =
         math_exp2(params->exposure - LAM_STUDIO_FILL_EXPOSURE) / (measured.lit_ratio > 1 ? measured.lit_ratio : 1);
     lam_environment *studio = lam_environment_built_in("studio", error);

@@ -33,7 +33,7 @@ static bool check_ending(const char *output, lam_error *error)
     return false;
 }
 
-// A model file stores no lights, camera or pixels, so options that change only these are rejected.
+// A model file stores no lights, camera or pixels, so options for them are rejected.
 static bool check_options(const struct options *o, lam_error *error)
 {
     static const char *const others[] = {"output", "segments", "up", "normals", "crease-angle", "durable"};

@@ -25,13 +25,13 @@ void complete_offer(const struct typed_word *typed, const char *candidate, const
 
 void complete_files(void) { printf(":files\n"); }
 
-// Returns the word, with the first `complete` bytes of `prefix` moved to the complete text.
+// Moves the first `complete` bytes of `prefix` to the end of `before`, and returns the result.
 static struct typed_word after(const struct typed_word *typed, size_t complete)
 {
     return (struct typed_word){typed->before, typed->prefix + complete, typed->before_length + (int)complete};
 }
 
-// Returns the word, with the prefix's text up to the last comma moved to the complete text.
+// Moves the text of `prefix` up to the last comma to the end of `before`, and returns the result.
 static struct typed_word after_comma(const struct typed_word *typed)
 {
     const char *comma = strrchr(typed->prefix, ',');
@@ -41,7 +41,7 @@ static struct typed_word after_comma(const struct typed_word *typed)
 static void complete_words(const struct choice *words, const struct typed_word *typed)
 {
     for (const struct choice *w = words; w->name; w++) {
-        // A name in capitals, as in "light:NAME", represents the user's own text, so the candidate omits the name.
+        // In "light:NAME", the user chooses NAME, so the candidate ends after the colon.
         char fixed[64];
         snprintf(fixed, sizeof fixed, "%s", w->name);
         char *colon = strchr(fixed, ':');

@@ -32,7 +32,8 @@ void print_help(const struct command *command)
     printf("\nMore: lambent help TOPIC (lambent help lists the topics), man lambent\n");
 }
 
-// Prints an option on one line. Shortens a long placeholder for the value, and omits a default that does not fit.
+// Prints an option on one line. Shortens a long placeholder for the value, and omits the default if the line has no
+// space for it.
 static void brief_option(const struct option *o, const struct command *command)
 {
     char left[64], text[512], letter[8] = "    ";

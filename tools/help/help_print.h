@@ -6,8 +6,8 @@
 
 enum { HELP_WIDTH = 100, HELP_COLUMN = 29, HELP_EXAMPLE_COLUMN = 41 };
 
-// Prints paragraphs, separated by empty lines, from column `indent` on, wrapped at `width` columns. Back quotes are
-// omitted.
+// Prints paragraphs, separated by empty lines. Indents them by `indent` columns, wraps them at `width` columns, and
+// omits back quotes.
 void help_text(const char *text, int indent, int width);
 
 // Prints a row: `left`, then the text from `column` on, wrapped at `width` columns. The text begins on the next line if

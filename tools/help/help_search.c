@@ -23,7 +23,7 @@ struct search {
     char **words;
     int count;
     const char *heading;
-    bool whole; // whether to search names, summaries, details and prose, or only names and summaries
+    bool whole; // whether to search details and prose in addition to names and summaries
     int found;
 };
 

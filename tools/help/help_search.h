@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-// Prints the heading, and a row for each entry whose name or summary contains all of the words. Searches the details of
-// the entries if no entry matches. Prints nothing and returns false if this search also finds nothing.
+// Prints the heading, and a row for each entry whose name or summary contains all of the words. If there is no such
+// entry, also searches details and prose. Returns false and prints nothing if this search finds nothing either.
 bool help_search(int count, char **words, const char *heading);
 
 #endif

@@ -108,7 +108,7 @@ static void print_list(void)
     printf("\nOptions: lambent help light, lambent help --light or lambent help -o. All options: lambent --help\n");
 }
 
-// Returns the most similar name, or NULL if no name is similar enough.
+// Returns the name that is most similar to the query, or NULL if no name is similar enough.
 static const char *nearest_name(const char *query)
 {
     struct suggestion nearest = suggest_start(query);
@@ -149,7 +149,7 @@ static int search(int count, char **words)
 int run_help(int operand_count, char **operands, const struct options *options)
 {
     (void)options;
-    const char *query = operand_count == 1 ? operands[0] : NULL; // several words start a search
+    const char *query = operand_count == 1 ? operands[0] : NULL; // with several words, `help` searches for all of them
     const struct topic *topic = query ? find_topic(query) : NULL;
     const struct command *command = query ? find_command(query) : NULL;
     const struct option *option = query ? find_option(query) : NULL;

@@ -1,4 +1,5 @@
-// topics.c: defines the subjects of `lambent help TOPIC`. The man page and the docs use the same texts.
+// topics.c: defines the subjects of `lambent help TOPIC`. The man page and docs/command-line.md also contain these
+// texts.
 #include "topics.h"
 
 #include "options.h"

@@ -1,4 +1,5 @@
-// topics.h: defines the subjects of `lambent help TOPIC`. The man page and the docs use the same texts.
+// topics.h: defines the subjects of `lambent help TOPIC`. The man page and docs/command-line.md also contain these
+// texts.
 #ifndef TOPICS_H
 #define TOPICS_H
 

@@ -122,8 +122,8 @@ bool option_given(const struct options *options, const char *name)
     return option && (options->given[option - option_table] || options->by_key[option - option_table]);
 }
 
-// Returns the option that is set by a key in the value of another option, such as "width" in the value of `edges`.
-// Returns NULL if there is no such option.
+// Finds the option that a key in the value of `option` sets: for example, "width" in the value of `edges` sets
+// --edge-width. Returns NULL if there is no such option.
 static const struct option *find_key(const struct option *option, const char *key, size_t length)
 {
     for (const struct option *o = option_table; option->keyed && o->name; o++)
@@ -149,7 +149,7 @@ static bool unknown_key(const struct option *option, const char *text, lam_error
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s", text, known);
 }
 
-// Parses the first `length` bytes of a text, a key and its value such as "width=2", and stores the value.
+// Parses a key with its value, such as "width=2", in the first `length` bytes of a text, and stores the value.
 static bool store_key(const struct option *option, const char *text, size_t length, struct options *options,
                       lam_error *error)
 {

@@ -44,7 +44,7 @@ struct options {
     const char *values[OPTIONS_MAX]; // the value on the command line or in the settings file, or NULL
 };
 
-// Bits above the group bits: single options that a command accepts, although it does not accept their whole group.
+// Bits above the group bits: single options from groups that a command does not accept as a whole.
 #define TAKES_OUTPUT         (1ull << 40)
 #define TAKES_JSON           (1ull << 41)
 #define TAKES_QUIET          (1ull << 42)
@@ -58,8 +58,8 @@ struct options {
 #define TAKES_TITLE          (1ull << 50)
 #define TAKES_MANY           (1ull << 51)
 #define TAKES_UP             (1ull << 52)
-// Set for a command that writes no file of its own. Such a command accepts no options about the output file, even if
-// they belong to its groups.
+// Set for a command that writes no file of its own. Such a command rejects the options about the output file in all of
+// its groups.
 #define WRITES_NO_FILE (1ull << 63)
 
 // The default background of the sheets of `compare` and `materials`.
@@ -104,7 +104,7 @@ enum option_use {
     IN_KEY = 4,       // part of the key by which a journal recognises unchanged pictures
     IN_PAGE = 8,      // the web page shows a control for the option
     IN_SHEET = 16,    // `compare --across` can vary the option
-    KEEPS_MODEL = 32, // changes only the drawing, so that a loaded model can be used again
+    KEEPS_MODEL = 32, // changes only the drawing, so a loaded model can be used again
 };
 
 // A named value that an option accepts. A list ends with a NULL name.
@@ -191,7 +191,7 @@ const struct option *option_find(const char *name);
 // there is no operand, or if "--" or an unknown option precedes it.
 int options_first_operand(int count, char **words);
 
-// Writes an option's words as "flat, gouraud or phong". Returns `text`.
+// Lists an option's words in the form "flat, gouraud or phong". Returns `text`.
 enum { OPTION_WORDS_SIZE = 256 };
 const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE]);
 
@@ -206,7 +206,7 @@ bool option_is_taken(const struct option *option, uint64_t groups);
 // Returns whether a use includes an option.
 bool option_is_in(const struct option *option, enum option_use use);
 
-// Parses a command line without the names of the program and the command. `groups` has the same meaning as in
+// Parses the arguments that follow the names of the program and the command. `groups` has the same meaning as in
 // option_is_taken. Moves the operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error);
 

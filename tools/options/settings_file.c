@@ -1,5 +1,5 @@
 // settings_file.c: reads lambent.json, which contains the user's own defaults. Its keys are the keys of scene files.
-// Each key sets the option that has the same row in the table of settings.
+// The table of settings lists each key and its option in the same row.
 #include "settings_file.h"
 
 #include <errno.h>
@@ -44,7 +44,7 @@ struct settings_parser {
 // --- the position of a key
 
 // Returns the line of a key in valid JSON text; `group` is the object that contains the key, or NULL for the top level.
-// Returns line 1 if the text writes the key with escapes.
+// Returns line 1 if the key contains escapes in the text.
 static int line_of(const char *text, const char *group, const char *key)
 {
     int line = 1, depth = 0;

@@ -31,7 +31,7 @@ struct sweep {
     bool whole;     // rounds the values to integers
 };
 
-// Returns whether an option takes numbers and affects the picture.
+// Returns whether an option accepts numbers and affects the picture.
 bool sweep_takes_option(const struct option *option);
 
 // Parses "KEY=FROM..TO", optionally with stops in between. Fails with LAM_BAD_ARGUMENT; error->text lacks the option's

@@ -1,6 +1,6 @@
 // without_check.c: defines functions of the shader check for programs that are built without the check
-// (-Dclassroom=false, and the web page's module). The option tables and the help contain calls of these functions. They
-// return no contracts and no mistakes.
+// (-Dclassroom=false, and the web page's module). The option tables and the help call these functions. Here, the
+// functions return no contracts and no mistakes.
 #include <lambent/check.h>
 
 #include <stddef.h>

@@ -75,7 +75,7 @@ bool output_check(const char *path, const char *model, enum output_given given, 
     bool named = given != OUTPUT_BY_MODEL;
     if (stat(path, &there) != 0)
         return check_folder(path, given != OUTPUT_NAMED, error);
-    // If `path` is the model's own path, the model has no model format, and loading it reports this error.
+    // If `path` is the model itself (such as koala.png), loading it will report that it is not a model file.
     if (given != OUTPUT_NAMED && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev &&
         there.st_ino == of_model.st_ino)
         return true;

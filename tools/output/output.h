@@ -21,7 +21,7 @@ char *output_path(const char *output, const char *model, const char *ending);
 char *output_path_of(const char *output, const struct output_words *words);
 
 // The source of a picture's name: the model's name (in the current or a given folder), the user's name, or the user's
-// pattern. output_is_named returns the first two constants, as false and true.
+// pattern. The result of output_is_named can be used as one of the first two constants.
 enum output_given { OUTPUT_BY_MODEL, OUTPUT_NAMED, OUTPUT_PATTERN };
 enum output_given output_given(const char *output);
 

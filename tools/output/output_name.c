@@ -102,7 +102,7 @@ const char *output_stem(const char *model, int *length)
     return "model";
 }
 
-// Prints the model's folder below the root without ".", ".." and a leading "/".
+// Prints the path of the model's folder, relative to the root and without ".", ".." and a leading "/".
 static void print_folder(FILE *out, const struct output_words *w)
 {
     size_t root = w->root ? strlen(w->root) : 0;

@@ -5,7 +5,7 @@
 #include <lambent/image.h>
 
 // Makes a reduced picture (LAM_RGBA8) whose longer side has at most `most` pixels. `from` is linear and premultiplied
-// (LAM_RGBA32F, lam_image_load_linear). The result is never larger than `from`. The caller frees it. Fails with
+// (LAM_RGBA32F, lam_image_load_linear). The result is never larger than `from`. The caller frees the result. Fails with
 // LAM_LIMIT.
 bool shrink_linear(const lam_image *from, int most, lam_image *to, lam_error *error);
 

@@ -13,7 +13,7 @@
 
 enum {
     CHUNK = 4096,
-    SIXEL = 6 // pixels, the height of a sixel row
+    SIXEL = 6 // the height of a sixel row, in pixels
 };
 
 static struct terminal terminal = {.kind = TERM_OFF};

@@ -12,9 +12,9 @@ bool page_is_named(const char *output);
 // to a build folder. Fails with LAM_UNSUPPORTED if there is no page, or with LAM_LIMIT if memory runs out.
 char *page_file_find(lam_error *error);
 
-// Returns the contents of a file, `*size` bytes followed by a zero, allocated with malloc. Fails with LAM_CANNOT_READ,
-// or with LAM_LIMIT if the file has more than `most` bytes (then *size is the file's size, otherwise 0) or if memory
-// runs out.
+// Reads `*size` bytes, the whole file, into memory allocated with malloc, and appends a zero. Fails with
+// LAM_CANNOT_READ, or with LAM_LIMIT if the file has more than `most` bytes (then *size is the file's size, otherwise
+// 0) or if memory runs out.
 char *page_file_read(const char *path, size_t most, size_t *size, lam_error *error);
 
 #endif

@@ -115,7 +115,7 @@ static bool write_page(struct job *job, const struct options *given, const char 
 bool page_run(struct job *job, struct progress *progress, lam_error *error)
 {
     const struct options *given =
-        job->options; // without the settings of the scene file, which loading adds to job->options
+        job->options; // loading adds the settings of a scene file to job->options, but not to `given`
     char *page = NULL;
     bool ok = check(job, &page, error);
     job->format = "html";

@@ -15,7 +15,7 @@ bool page_wanted(const struct job *job);
 // and with LAM_LIMIT for more than PAGE_FILES_MAX bytes.
 bool page_run(struct job *job, struct progress *progress, lam_error *error);
 
-// Fails with LAM_BAD_ARGUMENT, because a page shows only one picture. Returns false.
+// Reports that a page shows only one picture (LAM_BAD_ARGUMENT), and returns false.
 bool page_refuse_several(lam_error *error);
 
 #endif

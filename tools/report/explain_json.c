@@ -282,8 +282,8 @@ static void write_rows(struct json *json, const char *key, const double *numbers
     json_close(json, ']');
 }
 
-// Writes the matrices, and the positions of the point and of the triangle's corners in each space. Writes null if they
-// are unknown.
+// Writes the matrices, and the positions of the point and of the triangle's corners in each space. Writes null for both
+// if one of them is missing.
 static void write_places(struct json *json, const lam_explained_fragment *f)
 {
     if (!f->places || !f->matrices) {

@@ -17,8 +17,8 @@ void report_table(const struct job *job);
 // Returns NULL if there is no report.
 FILE *report_stream(const struct options *options);
 
-// Reports a failure that does not belong to a job, such as a wrong command line or a missing device. If requested, also
-// reports it as JSON. Returns the exit code.
+// Reports a failure that does not belong to a job, such as a wrong command line or a missing device. With --json, also
+// reports the failure as JSON. Returns the exit code.
 int report_failure(const lam_error *error, const struct options *options);
 
 // Writes the key "error": the class, the exit code and the text, or null if there is no error.

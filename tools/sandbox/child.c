@@ -1,4 +1,4 @@
-// child.c: starts child processes, receives what they send, and waits until they end.
+// child.c: starts child processes, receives their output, and waits until they end.
 #include "child.h"
 
 #include <errno.h>

@@ -1,5 +1,5 @@
 // interrupt.h: sets a flag on signals such as Ctrl-C, so that a run stops cleanly and leaves no partial files. Also
-// ends child processes with their parent.
+// ends child processes when their parent ends.
 #ifndef INTERRUPT_H
 #define INTERRUPT_H
 

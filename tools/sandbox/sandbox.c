@@ -1,6 +1,6 @@
 // sandbox.c: restricts file access to given paths with Landlock. https://docs.kernel.org/userspace-api/landlock.html
 //
-// The constants of the interface are defined here because the headers of distributions are older than their kernels.
+// The constants of the interface are defined here because the headers of a distribution may be older than the kernel.
 #include "sandbox.h"
 
 #include <errno.h>

@@ -151,7 +151,7 @@ struct condition {
 #define LOW(argument)  (2 * (argument))
 #define HIGH(argument) (2 * (argument) + 1)
 #define ALL            0xFFFFFFFFU
-#define SELF           0xFFFFFFFEU // means this process's ID in the list of values
+#define SELF           0xFFFFFFFEU // in the list of values, SELF means this process's ID
 
 // The C library uses PR_SET_VMA to name its memory.
 #ifndef PR_SET_VMA
@@ -247,8 +247,8 @@ static void put(struct program *p, unsigned short code, unsigned k, unsigned cha
 static void load(struct program *p, size_t offset) { put(p, BPF_LD | BPF_W | BPF_ABS, (unsigned)offset, 0, 0); }
 static void end(struct program *p, unsigned result) { put(p, BPF_RET | BPF_K, result, 0, 0); }
 
-// Executes the next `length` instructions only for this call. The last of these instructions must return the result of
-// the filter. The number of the call must already be loaded.
+// Adds a jump: the next `length` instructions run only for this call. The last of these instructions must return the
+// result of the filter. The number of the call must already be loaded.
 static void if_call(struct program *p, unsigned call, size_t length)
 {
     put(p, BPF_JMP | BPF_JEQ | BPF_K, call, 0, (unsigned char)length);

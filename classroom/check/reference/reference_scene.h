@@ -57,9 +57,9 @@ enum reference_rule {
 struct reference_light {
     lam_light_type type; // point, directional, spot
     lam_vec3 position;
-    // For a directional light, the direction to the light. For a spot, the direction opposite to the spot's axis. Some
-    // shaders also read an axis for point lights: the direction opposite to this axis; zero means the direction from
-    // the camera's target.
+    // For a directional light, the direction to the light. For a spot, the direction opposite to the spot's axis. For a
+    // point light, the direction opposite to the axis that some shaders read; zero means the direction from the
+    // camera's target to the light.
     lam_vec3 to_light;
     lam_rgb color;        // Ld
     lam_rgb specular;     // Ls

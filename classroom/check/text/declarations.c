@@ -42,7 +42,7 @@ static bool take(struct declaration_parser *r, const char *text)
     return there;
 }
 
-// Skips to the word after the bracket that closes an opening bracket that was already read.
+// Skips the words up to and including the closing bracket of an opening bracket that was already read.
 static void skip_to(struct declaration_parser *r, const char *open, const char *close)
 {
     for (int depth = 1; r->at < r->d->word_count && depth > 0; r->at++)

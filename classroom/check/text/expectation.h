@@ -30,8 +30,8 @@ enum { MAX_EXPECTATIONS = 16 };
 // suggest. Returns the number of expectations, at least 1.
 int expectations_of(const struct shader_interface *interface, unsigned terms, unsigned out[MAX_EXPECTATIONS]);
 
-// Returns true if a fault of the table is an allowed choice instead of a mistake, because only some of the possible
-// expectations include the fault's change.
+// Returns true if some of the possible expectations include the change that this fault makes, and others do not. The
+// change is then an allowed choice and not a mistake.
 bool expectation_permits(const struct shader_interface *interface, unsigned terms, const char *fault);
 
 // Changes a scene from shader_interface_scene to the expected scene.

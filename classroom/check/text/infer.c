@@ -186,7 +186,7 @@ static bool find_matrix(struct inference *f, const struct declaration *item)
     return true;
 }
 
-// How a shader uses a vector. A shader subtracts a point, but only normalizes a direction.
+// How a shader uses a vector. A shader uses a point in a difference, and a direction alone.
 enum { USED_IN_DIFFERENCE = 1, USED_ALONE = 2 };
 static unsigned uses_of(const struct declarations *d, const char *name)
 {
@@ -410,8 +410,8 @@ static void find_attributes(struct inference *f)
 
 // --- numbers in the source
 
-// Finds the `number`-th variable for a light's position or direction that the source sets to three numbers. Returns
-// false if there is none.
+// Finds the `number`-th variable that is a light's position or direction and is set to three numbers in the source.
+// Returns false if there is none.
 static bool find_vector_of_light(const struct declarations *d, int number, const char **name, double v[3])
 {
     for (int i = 0; i + 2 < d->word_count; i++) {

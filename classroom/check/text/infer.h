@@ -10,8 +10,8 @@
 
 // Returns the text of contract number `guess` (0, 1, …) for the shaders, allocated with malloc. The guesses differ in
 // the spaces that the source does not determine. Returns NULL if there is no such guess; for the first guess, `reason`
-// then names the input for which no value is known. Otherwise `reason` is "". If `engine` is not NULL, the sources lack
-// this contract's prefix. With `all`, inputs with unknown roles have the role `zero`, and `reason` names the first of
+// then names the input for which no value is known. Otherwise `reason` is "". `engine` is the contract whose prefix the
+// sources lack, or NULL. With `all`, inputs with unknown roles have the role `zero`, and `reason` names the first of
 // them.
 char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
                      const struct contract *engine, int guess, bool all, char *reason, size_t capacity);

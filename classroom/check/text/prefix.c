@@ -60,7 +60,7 @@ static char *join(const char *prefix, const char *text)
     char *out = malloc(size);
     if (strncmp(text, "\xef\xbb\xbf", 3) == 0) // a byte order mark is allowed only at the beginning
         text += 3;
-    // The number in #line is the number of the next line, except in older versions of GLSL: there it is one less.
+    // The number in #line is the number of the next line. In older versions of GLSL, the number is one less.
     bool modern = strncmp(prefix, "#version 3", 10) == 0;
     if (out)
         snprintf(out, size, "%s\n#line %d\n%s", prefix, modern ? 1 : 0, text);

@@ -9,8 +9,8 @@
 bool contract_recognise(lam_check_contract *const *contracts, int count, const char *vertex, const char *fragment,
                         const struct contract **out, lam_error *error);
 
-// If the contract of a program is unknown, describes in a sentence which of the program's names are missing in
-// `contract`. `unknown` contains the names that the driver reports.
+// If no contract fits a program, lists the program's names that are missing in `contract`, the nearest contract.
+// `unknown` contains the names that the driver reports.
 void contract_describe_unknown(const struct contract *contract, const struct declarations *vertex,
                                const struct declarations *fragment, const char *const *unknown, int count, char *out,
                                size_t capacity);

@@ -180,7 +180,7 @@ static bool is_flat(const struct declarations *fragment)
     return false;
 }
 
-// Finds out how a shader printed by `lambent shader` computes lighting, from the names of its functions. The Lambert
+// Determines, from the names of the functions, how a shader printed by `lambent shader` computes lighting. The Lambert
 // lobe is ignored, because the other lobes call it. If the Lambert lobe is the only lobe, the contract's own model
 // applies, without a highlight. If several rows match, the last row is used, because a coat adds the GGX lobe to
 // another base.

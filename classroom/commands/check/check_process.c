@@ -40,8 +40,8 @@ enum { EXIT_MEMORY = 200, EXIT_DRIVER = 201 };
 
 // --- the drawing process
 
-// Called if the driver aborts. Returns true if the process cannot allocate half of the memory limit, so that it has
-// probably run out of memory.
+// Called if the driver aborts. Returns true if the process cannot allocate half of the memory limit. The process has
+// then probably run out of memory.
 static rlim_t memory_limit;
 static bool is_out_of_memory(void)
 {

@@ -178,7 +178,7 @@ static void warn_unclosed(const struct stl_ascii_parser *reader)
 
 static bool read_all(struct stl_ascii_parser *reader, lam_error *error)
 {
-    enum { CHECK_INTERVAL = 1024 }; // facets between two checks of the call
+    enum { CHECK_INTERVAL = 1024 }; // the number of facets between two checks whether the call must stop
     reader->at = reader->start;
     reader->facets = reader->part_count = reader->unclosed = 0;
     reader->solid = NULL;

@@ -54,7 +54,7 @@ struct threemf_layers {
     int texture_count;
     int base;                    // the base material whose surface the mixed layers use, or −1
     uint32_t colors[LAYERS_MAX]; // colours of the first element: indices into the part's colours
-    // whether some element has other colours than the first, or some texture has other coordinates than the first
+    // whether any colours differ from the first element's colours, or any coordinates from the first texture's
     bool varies;
 };
 

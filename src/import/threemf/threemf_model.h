@@ -83,8 +83,8 @@ struct display_wish {
     uint32_t id, index;
 };
 
-// Records that a base material uses display properties. The element of the material, or the element of the material's
-// group, refers to these properties.
+// If the attributes of a base material or of its group refer to display properties, records that the material uses
+// these properties.
 bool model_want_display(struct threemf_xml *xml, const char *const *attributes, int material, uint32_t index);
 
 // threemf_extensions.c: records a namespace, and checks the extensions that the model element requires.

@@ -25,7 +25,7 @@ struct zip_library {
     void *handle;
     FUNCTIONS(LIBRARY_MEMBER)
     zip_t *archive;
-    size_t charged; // bytes that count towards the memory limit for libzip's list of entries
+    size_t charged; // the bytes of libzip's list of entries, which count towards the memory limit
 };
 
 // --- checking the declared size before libzip allocates memory

@@ -1,8 +1,8 @@
 // threemf_xml.c: parses XML parts with expat, which is loaded on demand.
 //
-// Limits: an element may be at most TOKEN_BYTES long and DEPTH_MAX deep. Document types are rejected, because 3MF
-// forbids them and their entities can expand to any size. Memory that expat allocates counts towards the call's memory
-// limit.
+// Limits: an element may be at most TOKEN_BYTES long, and elements may be nested at most DEPTH_MAX deep. Document types
+// are rejected, because 3MF forbids them and their entities can expand to any size. Memory that expat allocates counts
+// towards the call's memory limit.
 #include "threemf_xml.h"
 
 #include "fail.h"

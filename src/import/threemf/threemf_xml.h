@@ -57,11 +57,11 @@ const char *threemf_attribute(const char *const *attributes, const char *name);
 // Returns the value of an attribute in a namespace. Call this only at the start of the attribute's element.
 const char *threemf_attribute_of(const struct threemf_xml *xml, const char *const *attributes,
                                  enum threemf_namespace space, const char *name);
-// Gets a whole number from 0 to INT32_MAX from an attribute. Sets *found to true if the attribute exists, otherwise to
-// false. If `found` is NULL, the attribute is required.
+// Parses an attribute that is a whole number of at most INT32_MAX. Sets *found to true if the attribute exists,
+// otherwise to false. If `found` is NULL, the attribute is required.
 bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes, const char *name, uint32_t *out,
                          bool *found);
-// Gets a finite number from a required attribute.
+// Parses a required attribute that is a finite number.
 bool threemf_take_float(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out);
 
 #endif

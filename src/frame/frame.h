@@ -100,7 +100,7 @@ struct frame_ground {
     // World space: the point under the scene's centre, and unit vectors.
     lam_vec3 middle, right, up, front;
     double whole, end;                          // distances from `middle` at which fading begins and ends
-    double square;                              // the side length of the checker's squares
+    double square;                              // the side length of the squares of `mesh`
     float eye_middle[3], eye_up[3], eye_height; // eye space: p·eye_up = eye_height for each point p of the plane
     lam_mesh mesh;
     lam_material material;

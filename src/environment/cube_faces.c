@@ -25,7 +25,7 @@ void cube_direction(int face, double major, double across, double down, double o
     }
 }
 
-// Returns the texel of the neighbouring face that is beside texel (s, t) of the border. A face extends from −size to
+// Returns the texel that is beside texel (s, t) of the border, on the neighbouring face. A face extends from −size to
 // size, so texel i is at the odd number 2i + 1 − size. Beyond an edge, the texel is as far inside the neighbouring face
 // as (s, t) is outside its own face. All numbers are integers.
 static const float *neighbour(const struct lam_environment *cube, int face, int s, int t)

@@ -47,7 +47,7 @@ static const struct command *take_command(int *count, char **words)
 static bool check_operands(const struct command *command, int count, char **operands, const struct options *options,
                            lam_error *error)
 {
-    if (options->batch.lists.count) // the listed names are models
+    if (options->batch.lists.count) // the lists contain the models
         return true;
     if (count < command->min_operands && command == command_table)
         return complain(error, LAM_BAD_ARGUMENT, "no model given, expected a file, a shape's name or -");
@@ -98,8 +98,8 @@ static int execute(const struct command *command, int operands, char **words, st
     return code;
 }
 
-// Parses the options, unless the command receives its words verbatim. Returns the number of operands, or −1 and an
-// error.
+// Parses the options, unless the command receives its words verbatim. On failure, sets the error and returns −1.
+// Otherwise, returns the number of operands.
 static int parse(const struct command *command, int count, char **words, struct options *options, lam_error *error)
 {
     bool help = count && (strcmp(words[0], "-h") == 0 || strcmp(words[0], "--help") == 0);

@@ -26,7 +26,7 @@ struct vertex_colors {
     struct shade_frame shade;
     struct shading shading; // includes the counters, and the results in `vertices`
     struct light_pattern pattern;
-    struct work work; // only the limits of the call can stop it
+    struct work work; // only the limits of the call can stop the work
     enum failure failure;
     struct buffer storage, products;
     float decode_srgb[256], decode_linear[256];
@@ -35,7 +35,7 @@ struct vertex_colors {
 // `light` is the environment's light on physical materials (may be NULL). `hierarchy` is NULL if nothing casts shadows.
 bool vertex_colors_start(struct vertex_colors *colors, const struct frame *frame, const struct environment_light *light,
                          const struct hierarchy *hierarchy, struct call_control *call, lam_error *error);
-// Fills shading.vertices.color and .rest, with one row for each vertex of the run. A run has at most VERTEX_RUN_MAX
+// Writes one row of shading.vertices.color and .rest for each vertex of the run. A run has at most VERTEX_RUN_MAX
 // vertices. If memory runs out, shading.ray_layers.failed is set.
 void vertex_colors_light(struct vertex_colors *colors, const struct vertex_run *run);
 uint64_t vertex_colors_bytes(const struct vertex_colors *colors);

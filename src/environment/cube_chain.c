@@ -117,7 +117,8 @@ void cube_chain_free(struct cube_chain *chain)
 const struct lam_environment *cube_chain_near(const struct cube_chain *chain, double size)
 {
     int i = 0;
-    // The choice between two neighbouring sizes changes at their geometric mean, where both ratios are equal.
+    // Chooses the size with the ratio to `size` that is nearest to 1. The geometric mean of two neighbouring sizes is
+    // the limit between them.
     while (i + 1 < chain->count && size * size < (double)chain->cube[i].size * (double)chain->cube[i + 1].size)
         i++;
     return &chain->cube[i];

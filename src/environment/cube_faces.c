@@ -25,9 +25,9 @@ void cube_direction(int face, double major, double across, double down, double o
     }
 }
 
-// For texel (s, t) of the border, returns the adjacent texel of the neighbouring face. A face extends from −size to
-// size, so texel i is at the odd number 2i + 1 − size. The returned texel is as far inside the neighbouring face as
-// (s, t) is outside its own face. All numbers are integers.
+// Returns the texel that is beside texel (s, t) of the border, on the neighbouring face. A face extends from −size to
+// size, so texel i is at the odd number 2i + 1 − size. Beyond an edge, the texel is as far inside the neighbouring face
+// as (s, t) is outside its own face. All numbers are integers.
 static const float *neighbour(const struct lam_environment *cube, int face, int s, int t)
 {
     int n = cube->size;

@@ -16,7 +16,7 @@ struct cube_position {
     num s, t;
 };
 
-// A direction in the coordinates of the face that it intersects, at (across ÷ major, down ÷ major).
+// A direction in the coordinates of the face that it intersects. The intersection is at (across ÷ major, down ÷ major).
 struct cube_side {
     inum face;
     num across, down, major;
@@ -35,7 +35,8 @@ LANE_FN struct cube_side cube_side(num x, num y, num z)
     return side;
 }
 
-// Returns the point on a face; its coordinates are −1 to 1. For the zero vector, the coordinates are NaN.
+// Returns the face that a direction intersects, and the coordinates of the intersection, from −1 to 1. For the zero
+// vector, the coordinates are NaN.
 LANE_FN struct cube_position cube_point(num x, num y, num z)
 {
     struct cube_side side = cube_side(x, y, z);

@@ -2,8 +2,8 @@
 // neighbours.
 //
 // Because of the border, bilinear filtering needs no special cases at edges and corners, and is continuous there: both
-// faces mix the same four texels. A corner texel of the border, at which three faces meet, is the average of their
-// corner texels.
+// faces mix the same four texels. Three faces meet at each corner; there, the texel of the border is the average of the
+// faces' corner texels.
 #ifndef CUBE_MAP_H
 #define CUBE_MAP_H
 
@@ -54,13 +54,13 @@ struct picture_source {
 struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
                                          struct call_control *call, lam_error *error);
 
-// Fills the borders from the faces.
+// Computes the texels of the borders from the texels of the faces.
 void cube_close(struct lam_environment *cube);
 
 // Computes the direction of a point on a face: major · axis + across · s + down · t (the inverse of OpenGL's table).
 void cube_direction(int face, double major, double across, double down, double out[3]);
 
-// The built-in studio environment. The first call of lazy_environment_studio builds the environment. Returns NULL if
+// The built-in studio environment. The first call of lazy_environment_studio makes the environment, or returns NULL if
 // memory runs out.
 struct lazy_environment;
 struct lazy_environment *lazy_environment_make(void);

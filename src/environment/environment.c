@@ -96,8 +96,8 @@ static struct lam_environment *cube_of_faces(const lam_image *faces, const char 
 typedef float pixel __attribute__((vector_size(16)));
 typedef float pixel_memory __attribute__((vector_size(16), aligned(4), may_alias));
 
-// Return the position of a longitude or of a latitude in the picture, in pixels from the centre of the first pixel.
-// Longitude 0 is the direction −z, and latitude 0 is +y.
+// These functions return the position of a longitude or of a latitude in the picture, in pixels from the centre of the
+// first pixel. Longitude 0 is the direction −z, and latitude 0 is +y.
 static double column_of(const lam_image *image, double longitude)
 {
     return (0.5 + longitude / (2 * PI)) * image->width - 0.5;

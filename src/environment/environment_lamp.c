@@ -17,7 +17,7 @@
 #define LAMP_COSINE  0.87 // cosine of 29.5 degrees
 #define LEAST_SHARE  0.05 // a lamp with less than this fraction of the mean light is ignored
 #define SOLID_ANGLE  12.566370614359172
-#define RADIUS_LEAST 0.0047 // the radius of the sun
+#define RADIUS_LEAST 0.0047 // the angular radius of the sun, in radians
 enum { LAMP_SIZE = 64, CANDIDATE_SIZE = 8 };
 
 struct bright_texel {

@@ -62,7 +62,7 @@ static void fit_planes(const lam_scene *scene, const lam_mat4 *view, bool orthog
     }
 }
 
-// Returns the rows X·w, Y·w, z, w: the projection, followed by the transform to pixels (y down).
+// Returns the projection followed by the transform to pixels (y down), as the rows X·w, Y·w, z, w.
 static lam_mat4 to_pixels(const lam_mat4 *projection, int width, int height)
 {
     lam_mat4 m = *projection;
@@ -73,7 +73,7 @@ static lam_mat4 to_pixels(const lam_mat4 *projection, int width, int height)
     return m;
 }
 
-// Sets up the draw of a mesh with the transform of an object.
+// Sets up `draw` for an object and its mesh.
 static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_object *object, uint32_t first_id,
                        const lam_mat4 *view, const lam_mat4 *pixel)
 {
@@ -99,7 +99,8 @@ static void build_draw(struct frame_draw *draw, const lam_mesh *mesh, const lam_
             largest = c > largest ? c : largest;
             largest_eye = e > largest_eye ? e : largest_eye;
         }
-    // The cofactor matrix is the inverse transpose times the determinant. Only the determinant's sign must be removed.
+    // The cofactor matrix is the inverse transpose times the determinant. Normals may have any length, so `scale`
+    // removes only the determinant's sign.
     double scale = (draw->mirrored ? -1 : 1) / (largest > 0 ? largest : 1);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -178,7 +179,7 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
-    // In descending order of alignment: ranges are last, because all other elements contain a pointer or a double.
+    // Ranges are last, because they need the smallest alignment: all other elements contain a pointer or a double.
     frame->materials = (void *)at;
     at += materials * sizeof *frame->materials;
     frame->converted = (void *)at;
@@ -241,8 +242,8 @@ static bool build_environment(struct frame *frame, const lam_scene *scene, const
     return true;
 }
 
-// Decides which draws compute facet normals at each point instead of before lighting. This is possible if each normal
-// is used only for points of its own triangle.
+// Decides for which draws the device computes facet normals at each point instead of before lighting. This is possible
+// if each normal is used only for points of its own triangle.
 static void leave_facets(struct frame *frame)
 {
     if (!frame->makes_normals || frame->settings.shading != LAM_SHADING_PHONG || frame_has_rays(frame))
@@ -258,7 +259,7 @@ static void leave_facets(struct frame *frame)
 
 // The radius of cavity shading, relative to half the diagonal of the scene's box.
 #define CAVITY_RADIUS 0.05
-// The radius with the tone curve LAM_TONE_CONTRAST, which shows narrow valleys if the frame has at least FINE
+// The smaller radius for LAM_TONE_CONTRAST, which shows narrow valleys. It is used if the frame has at least FINE
 // triangles. With fewer triangles, dark lines would appear between the triangles.
 #define CONTRAST_CAVITY_RADIUS 0.02
 enum { FINE = 16384 };
@@ -339,7 +340,7 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
         settings->reflection = LAM_REFLECTION_AUTO;
 }
 
-// Sets the planes of the projection, and the distances for which --show depth draws black and white.
+// Sets the planes of the projection, and the distances that LAM_OUTPUT_DEPTH draws black and white.
 static void set_planes(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, double near_plane,
                        double far_plane)
 {
@@ -480,7 +481,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         return false;
     frame->environment_lights = physical && frame->environment && shows_environment(frame->settings.output);
     leave_normals(frame);
-    // If the materials that the environment would light are lit by a classic model, the studio rig lights them.
+    // If the reflection model is classic, the studio rig lights the materials that the environment would otherwise
+    // light.
     bool by_rig = settings->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
     set_tone(frame, scene, physical);
     if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : settings->rig,

@@ -22,8 +22,7 @@ struct frame_draw {
     float eye[3][4];     // mesh positions to eye space
     float normal[3][3];  // mesh normals to eye space, up to a positive factor
     float tangent[3][3]; // mesh directions to eye space, up to a positive factor
-    // Set only if rays are traced: transforms of mesh positions and normals to world space; the normals up to a
-    // positive factor.
+    // Set only if rays are traced: mesh positions to world space; mesh normals to world space, up to a positive factor.
     double world[3][4], world_normal[3][3];
     // Set only if rays are traced: the largest error of a vertex along each world axis. The numbers in the file are
     // assumed to be exact to one unit in the last place of a float: 2⁻²³ Σ_j |world_ij| max |x_j|.
@@ -33,7 +32,7 @@ struct frame_draw {
     // The mesh consists of rectangles for lines or points (frame_strokes.h), built for this frame in eye space. These
     // rectangles are not surfaces: flat shading uses their vertex normals, and they cast no shadows.
     bool strokes;
-    // The mesh is the ground, built for this frame in world space (frame_ground.h); its object is −1. The ground casts
+    // The mesh is the ground, built for this frame in world space (frame_ground.h); `object` is −1. The ground casts
     // no shadows.
     bool ground;
     bool clear; // all triangles let light through unchanged (colourless glass, for example), so rays ignore them
@@ -62,9 +61,9 @@ struct frame_draw_range {
 struct frame_light {
     int kind, falloff; // LIGHT_…, FALLOFF_…
     float position[3];
-    float axis[3]; // unit, direction of travel of the light
+    float axis[3]; // unit vector along which the light travels
     float attenuation[3];
-    float inverse_range; // 0 if there is none
+    float inverse_range; // 0 if the range is unlimited
     float cos_cutoff, exponent;
     float cos_outer, inverse_width;
     float ambient[3]; // only with gl1; otherwise, frame->ambient contains this light's ambient term
@@ -75,7 +74,7 @@ struct frame_light {
     // These members are set only with shadows.
     bool casts_shadows;
     double world_position[3]; // point, spot
-    double world_axis[3];     // unit, direction of travel of the light
+    double world_axis[3];     // unit vector along which the light travels
     // the radius of a sphere (point, spot) or of a disc at distance 1 (directional); 0 is a point
     double radius;
 };
@@ -97,11 +96,11 @@ struct frame_hemisphere {
 
 // The ground under the scene (frame_ground.h).
 struct frame_ground {
-    lam_ground kind; // NONE if there is no ground, or only its underside is visible
+    lam_ground kind; // NONE if there is no ground, or if only the ground's underside is visible
     // World space: the point under the scene's centre, and unit vectors.
     lam_vec3 middle, right, up, front;
     double whole, end;                          // distances from `middle` at which fading begins and ends
-    double square;                              // the side of a square
+    double square;                              // the side length of the squares of `mesh`
     float eye_middle[3], eye_up[3], eye_height; // eye space: p·eye_up = eye_height for each point p of the plane
     lam_mesh mesh;
     lam_material material;
@@ -112,7 +111,7 @@ struct frame_ground {
 // The edges of surfaces that the frame draws as lines (src/edges).
 enum { EDGE_STYLE_WIREFRAME = 0, EDGE_STYLE_FEATURE, EDGE_STYLES };
 struct frame_edges {
-    double min_cosine; // smallest cosine between the normals of two faces without a crease
+    double min_cosine; // an edge is a crease if the cosine between the normals of its faces is smaller
     double width[EDGE_STYLES];
     lam_rgba color[EDGE_STYLES]; // linear, not premultiplied
     double pixel[4][4];          // world space to pixels, as frame_draw.pixel
@@ -122,8 +121,8 @@ struct frame {
     struct scene_token *token; // the scene's token; the frame does not own a reference to it
     int width, height;
     // The draw parameters with defaults resolved. samples, tone, stage and occlusion are never AUTO. `shadows` is set
-    // if a light casts shadows and the output shows these shadows. `reflection` may be AUTO, the material's own model
-    // (frame_draw_range.reflection). If light_cutoff is 0, every light is evaluated. edge_angle_rad and
+    // if a light casts shadows and the output shows these shadows. `reflection` may be AUTO: each material then has its
+    // own model (frame_draw_range.reflection). If light_cutoff is 0, every light is evaluated. edge_angle_rad and
     // occlusion_radius are unchanged.
     lam_draw_params settings;
     float exposure;            // 2^stops, from the parameters and `brightened`
@@ -159,7 +158,7 @@ struct frame {
     // The depth key of a point: 1/w in perspective; (1 − z/w)/2 if orthographic. Larger keys are nearer. The key is an
     // affine function of the window coordinates.
     float near_plane, far_plane;
-    // LAM_OUTPUT_DEPTH: the range of distances that 8 bits encode, from the scene's nearest vertex to its farthest,
+    // LAM_OUTPUT_DEPTH: the range of distances that 8 bits encode, from the scene's nearest vertex to the farthest,
     // clipped to the near and far planes.
     float depth_near, depth_far;
 
@@ -168,10 +167,10 @@ struct frame {
     struct frame_draw_range *ranges; // sorted by first_id, without gaps
     int range_count;
     uint32_t triangle_count;
-    // The default material, then material i of the scene at 1 + i. A model lights either classic or physical materials.
-    // If a surface's front and back need different kinds, the list repeats all materials. If unlit lines or points have
-    // emission, the list repeats all materials again. Each copy is converted to the kind of material that its model
-    // lights.
+    // The default material, then material i of the scene at 1 + i. A reflection model lights either classic or physical
+    // materials. If a surface's front and back need different kinds of material, the list repeats all materials. If
+    // unlit lines or points have emission, the list repeats all materials again. Each copy is converted to the kind
+    // that its reflection model lights.
     const lam_material **materials;
     int material_count, scene_material_count; // number of all materials, and number without the copies
     lam_material *converted;                  // materials converted to the other kind
@@ -215,11 +214,11 @@ static inline bool frame_has_rays(const struct frame *frame)
     return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
-// Fills the data that rays need, and determines whether any light casts shadows. The draws and lights must have been
+// Sets the members that rays need, and determines whether any light casts shadows. The draws and lights must have been
 // built.
 void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
 
-// Determines the edges to draw, and fills their data. `pixel` is the matrix from eye space to pixels.
+// Sets draws_edges and `edges`. `pixel` is the matrix from eye space to pixels.
 void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
 
 // Returns whether a draw's triangles cast shadows.
@@ -236,7 +235,7 @@ static inline void frame_to_world(const struct frame_draw *draw, const float fro
         to[i] = ((draw->world[i][0] * x + draw->world[i][1] * y) + draw->world[i][2] * z) + draw->world[i][3];
 }
 
-// Returns whether a model lights physical materials.
+// Returns whether a reflection model lights physical materials.
 bool frame_is_physical(lam_reflection model);
 
 // Returns the maximum number of materials that frame_materials_build and frame_back_material convert to the other kind.
@@ -252,9 +251,9 @@ void frame_ranges_build(struct frame *frame, const lam_scene *scene, int draw_in
 // converted copy of `back`.
 int frame_back_material(struct frame *frame, int front, int back);
 
-// Returns the index of the material for unlit lines and points, whose emission is added to the diffuse colour. If the
-// file sets no colour for the material or the vertices (`colored`), and the background is not dark, the material is a
-// visible grey.
+// Returns the index of the material for unlit lines and points. The material's diffuse colour includes its emission. If
+// the file sets no colour for the material or the vertices (`colored`), and the background is not dark, the material is
+// a visible grey.
 int frame_stroke_material(struct frame *frame, int front, bool colored);
 
 // Returns the maps that shading uses: a bit 1 << LAM_MAP_… for each. If colours of vertices or triangles are
@@ -282,7 +281,7 @@ static inline bool frame_has_texcoords(const lam_mesh *mesh, const lam_texture_m
 // Returns the largest strength S of a material's highlight, including the Fresnel factor.
 float frame_lobe_max(const lam_material *material);
 
-// Returns the highlight exponent of a material, after match_highlights and gl1.
+// Returns the highlight exponent of a material, as changed by match_highlights and gl1.
 float frame_shininess(const struct frame *frame, const lam_material *material);
 
 // Returns whether the output shows a single light; the frame then contains only that light.

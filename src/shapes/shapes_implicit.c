@@ -53,7 +53,7 @@ static int face_corner(int face, int k)
     return side << axis | steps[turn][0] << u | steps[turn][1] << v;
 }
 
-// Fills next[e]: the edge at which the surface's line from edge e ends, or −1 if the edge is not crossed.
+// Sets next[e] to the edge at which the surface's line from edge e ends, or to −1 if the surface does not cross edge e.
 static void link_edges(int inside, int next[EDGES])
 {
     for (int e = 0; e < EDGES; e++)
@@ -327,7 +327,8 @@ static uint32_t edge_vertex(const struct march *m, int edge, size_t at, int belo
     }
 }
 
-// Returns 1 − the smallest cosine between a triangle's normal and the normals at its corners: 0 equal, 2 opposite.
+// Returns 1 − the smallest cosine between a triangle's normal and the normals at its corners: 0 if all normals are
+// equal, 2 if one is opposite.
 static double normal_deviation(const struct march *m, uint32_t a, uint32_t b, uint32_t c)
 {
     const float *p[3] = {m->positions + 3 * (size_t)a, m->positions + 3 * (size_t)b, m->positions + 3 * (size_t)c};

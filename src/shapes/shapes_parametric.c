@@ -63,7 +63,7 @@ struct tessellation {
     lam_surface_point *points; // rows of `widest` points, one for each thread
     size_t widest;
     struct loop_status loop;
-    int failed; // the first row with a bad point, or a number above all rows
+    int failed; // the first row that could not be computed, or a number above all rows
 };
 
 // Returns the parameter at step i of n from a to b. The ends are exact. Mirrored steps of a symmetric domain give
@@ -400,7 +400,7 @@ static bool tessellate_one(struct tessellation *t, struct pool *pool, lam_error 
     if (!should_continue(&t->loop))
         return loop_error(&t->loop, 0, error);
     if (t->failed <= s->v_segments)
-        return compute_row(t, t->failed, t->points, error); // computes the failed row again, to fill `error`
+        return compute_row(t, t->failed, t->points, error); // computes the failed row again, to set `error`
     for (int i = 0; s->v_closed && i <= s->u_segments; i++)
         copy_attributes(t, attribute_at(t, i, s->v_segments), attribute_at(t, i, 0));
     if (s->v_closed && t->rows[s->v_segments].pole)
@@ -464,7 +464,7 @@ static struct pool *make_pool(int threads, uint64_t vertices)
     return threads > 1 ? pool_make(threads) : NULL;
 }
 
-// The total sizes of a mesh's surfaces.
+// The sums over a mesh's surfaces, and the largest numbers of segments.
 struct sizes {
     uint64_t attributes, triangles;
     int widest, longest; // the largest numbers of segments in u and in v

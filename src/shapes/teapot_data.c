@@ -4,7 +4,7 @@
 // The published list contains 306 points, most of which are rotated or mirrored copies. The body, the rim, the lid and
 // the bottom consist of four quarters around the vertical axis. The handle and the spout consist of two mirrored
 // halves. This file lists each point once, with the published numbers: z is up, the spout points along +x, the pot
-// touches z = 0. The bottom's four patches were added to Newell's 28 later.
+// touches z = 0. The bottom's four patches were added later to Newell's 28 patches.
 #include "teapot_data.h"
 
 // A quarter around the axis from direction a to direction b has the control points ra, ra + kb, ka + rb, rb. The factor

@@ -2,8 +2,8 @@
 #ifndef TEAPOT_DATA_H
 #define TEAPOT_DATA_H
 
-// A ring of control points around the vertical axis: their radius, the tangential offset of the inner points, and their
-// height.
+// A ring of control points around the vertical axis: the ring's radius, the tangential offset of the inner points, and
+// the ring's height.
 struct teapot_ring {
     double radius, step, height;
 };

@@ -148,8 +148,8 @@ static bool read_range(const char *value, struct parser *parser, lam_error *erro
     return true;
 }
 
-// Parses the radius of a sphere, or the angular radius of a disc in degrees. set_size decides which of the two it is,
-// when all keys are known.
+// Parses the radius of a sphere, or the angular radius of a disc in degrees. When all keys are known, set_size decides
+// whether the number is a radius or an angle.
 static bool read_size(const char *value, struct parser *parser, lam_error *error)
 {
     double *number = parser->numbers[field_index("radius")];

@@ -9,8 +9,8 @@
 #include "spelling.h"
 #include "word_values.h"
 
-// A number identifies each key. The first numbers are the indices of the fields in the table of lam_material_field.
-// Then follow the factors of the fields, and then the shorthands. The factors of colours are named ka, kd, ks and kr.
+// A number identifies each key. The first numbers are the indices of the fields in the table of lam_material_field. The
+// next numbers are the factors of the fields, then the shorthands. The factors of colours are named ka, kd, ks and kr.
 enum { MATERIAL_COLOR = 2 * LAM_FIELDS_MAX, MATERIAL_SPECULAR_COLOR, MATERIAL_KEYS };
 _Static_assert((int)MATERIAL_KEYS <= (int)WORD_KEYS_MAX, "the lists of word_key_of");
 

@@ -66,10 +66,10 @@ static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
     return depth <= 0 || x > kx * depth + radius * sqrt(1 + kx * kx) || y > ky * depth + radius * sqrt(1 + ky * ky);
 }
 
-// A list of the first few lights: the name of each light or, if the light has no name, its number, counted from 1.
+// The names of the first few lights, as text. A light without a name is listed by its number, counted from 1.
 struct names {
     char text[160];
-    int count, more; // the number of all lights, and of the omitted lights
+    int count, more; // the number of lights, and the number of lights that `text` omits
 };
 
 static void add_name(struct names *names, const lam_light *light, int number)

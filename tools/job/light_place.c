@@ -1,4 +1,4 @@
-// light_place.c: transforms lights from their frames to the world, and changes lights between the frames of an
+// light_place.c: converts lights from their coordinate frames to world coordinates, and sweeps values of lights in an
 // animation.
 #include "light_place.h"
 
@@ -128,7 +128,7 @@ static lam_vec3 placed(lam_vec3 way, const struct surroundings *s, bool azimuth,
     return times(turned(ahead, cross(ahead, s->up), degrees), length);
 }
 
-// Rotates `v` by the rotation, without roll, that takes the direction `from` to the direction `to`.
+// Applies to `v` the rotation without roll that maps the direction `from` to the direction `to`.
 static lam_vec3 carried(lam_vec3 v, lam_vec3 from, lam_vec3 to, const struct surroundings *s)
 {
     lam_vec3 axes[2][3];

@@ -1,4 +1,4 @@
-// light_place.h: transforms lights from their frames to the world, and changes lights between the frames of an
+// light_place.h: converts lights from their coordinate frames to world coordinates, and sweeps values of lights in an
 // animation.
 #ifndef LIGHT_PLACE_H
 #define LIGHT_PLACE_H
@@ -9,14 +9,14 @@
 // Returns the matrix from a light's frame to the world.
 lam_mat4 light_to_world(const struct job *job, const lam_light *light);
 
-// Converts lights in the camera's frame to lights in the world, at their current positions.
+// Converts lights in the frames of the camera and the view to the world's frame, without moving the lights.
 bool lights_fix_to_world(struct job *job, lam_error *error);
 
 // Sets a swept value of a light. `centre` is the model's centre. Fails with LAM_BAD_ARGUMENT if there is no such light,
 // or if the light does not have this value.
 bool light_sweep(const struct job *job, const struct sweep *sweep, double value, lam_vec3 centre, lam_error *error);
 
-// Multiplies all colours of a light.
+// Multiplies all colours of a light by `factor`.
 void light_brighten(lam_light *light, double factor);
 
 // Gets unit vectors along the scene's up axis and towards the scene's front.

@@ -1,4 +1,5 @@
-// model_guess.c: if a model cannot be read, suggests, for example, another command or a file with a similar name.
+// model_guess.c: suggests a correction if a model cannot be read, such as another command or a file with a similar
+// name.
 #include "model_guess.h"
 
 #include <dirent.h>

@@ -4,7 +4,7 @@
 
 #include "options.h"
 
-// Adds a suggestion to the error of a model that cannot be read, if the program can guess the user's intention.
+// If a model cannot be read, and the program can guess the user's intention, adds a suggestion to the error.
 void model_guess(const char *model, const struct options *options, lam_error *error);
 
 #endif

@@ -79,8 +79,8 @@ bool scene_settings_has_camera(const struct job *job)
     return job->settings.present & LAM_SETTING_CAMERA;
 }
 
-// Stores the environment in use: the environment of the command line, or the environment of the scene file with the
-// rotation of the command line. `names` receives the text of the six file names.
+// Replaces the scene file's environment by the environment of the command line. If the command line sets only the
+// rotation, replaces only the rotation. `names` receives the memory that contains the six file names.
 static bool take_environment(const struct options *o, lam_picture_settings *s, char **names, lam_error *error)
 {
     const char *text = o->shading.environment;

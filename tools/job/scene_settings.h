@@ -5,8 +5,7 @@
 
 #include "job.h"
 
-// Copies the options to job->own, completes them with the settings of the scene file, and sets job->options to the
-// copy.
+// Copies the options to job->own, adds the settings of the scene file to the copy, and sets job->options to the copy.
 void scene_settings_apply(struct job *job);
 
 // Returns whether the scene file contains a camera and no option of the command line sets another camera.

@@ -30,7 +30,7 @@ struct layers {
     char (*names)[NAME_ROOM];
 };
 
-// Adds a layer, and draws it with the picture's parameters and the output `show`.
+// Draws one more layer with the picture's parameters, but with the output `show`.
 static bool add(struct layers *layers, struct job *job, lam_output show, int light, const lam_control *control,
                 lam_error *error)
 {

@@ -1,8 +1,9 @@
 // batch_jobs.h: implements --jobs. Jobs arrive as lines of JSON and wait for a worker. The program answers each job
 // with one line (docs/worker.md).
 //
-// The main thread reads lines; workers take jobs and answer them, in any order. Reading pauses while `--ahead` jobs
-// wait. A job is waiting, being drawn, or answered; at most one job per id is waiting or being drawn.
+// The main thread reads lines; workers take jobs and answer them, in any order. The main thread stops reading while
+// `--ahead` jobs are waiting. A job is waiting, being drawn, or answered; at most one job per id is waiting or being
+// drawn.
 #ifndef BATCH_JOBS_H
 #define BATCH_JOBS_H
 

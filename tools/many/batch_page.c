@@ -1,5 +1,5 @@
-// batch_page.c: writes the page of --report: one HTML file without scripts, which shows failures first, and a folder of
-// thumbnails beside the file.
+// batch_page.c: writes the page of --report, an HTML file without scripts that shows failures first. Writes thumbnails
+// to a folder beside the file.
 #include "batch_page.h"
 
 #include <stdio.h>

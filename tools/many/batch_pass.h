@@ -17,8 +17,8 @@ void batch_end_suspects(struct batch *batch);
 // next model or job, or if the batch must not start any more models. Any thread may call this function.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
-// Processes the results of a unit: counters, journal lines, messages, the answer to a job. Any thread may call this
-// function.
+// Processes the results of a unit: updates counters, writes journal lines and messages, and answers the job. Any thread
+// may call this function.
 void batch_deliver(struct batch *batch, struct batch_unit *unit);
 
 // Removes the temporary files that a killed process left beside a model's pictures. `host` is the machine of the

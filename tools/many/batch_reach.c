@@ -19,7 +19,8 @@
 // readable.
 enum { SINGLE = 64 };
 
-// Returns whether the whole folder of pictures must be readable, because the journal and the page read pictures again.
+// Returns whether the whole folder of pictures must be readable, because the run reads older pictures for the journal
+// and the page.
 static bool takes_folder(const struct batch *b)
 {
     return !b->options->batch.jobs && !b->use &&
@@ -58,8 +59,8 @@ static void add_folder(struct sandbox_paths *paths, char *folder)
     free(folder);
 }
 
-// Returns whether the rule for the previous model also covers this model: both models are in one folder, and this model
-// is neither a scene file nor a link, which may lead elsewhere. A shape has no folder.
+// Returns whether the rule for the previous model also covers this model. Both models must be in one folder, and this
+// model must be neither a scene file nor a link, because these may lead to other folders. A shape has no folder.
 static bool is_within_reach(const char *model, const char *before)
 {
     before = before && lam_shape_find(before) < 0 ? before : NULL;

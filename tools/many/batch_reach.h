@@ -10,7 +10,7 @@
 bool batch_reach_make(const struct batch *batch, const char *journal, lam_error *error);
 
 // Enters the sandbox for `count` models from `first` on, and starts a writer for their pictures if no writer is
-// running. Call it before starting threads. Fails like sandbox_start.
+// running. Call this function before starting threads. Fails like sandbox_start.
 bool batch_reach_enter(const struct batch *batch, size_t first, size_t count, lam_error *error);
 
 // Starts the writer for a process that draws one task. Fails with LAM_LIMIT.

@@ -1,5 +1,5 @@
-// render_cache.h: keeps pictures drawn with faults, and the fault shaders, from one check to the next. Any number of
-// threads may use the cache at the same time.
+// render_cache.h: keeps the fault shaders and their pictures for later checks. Any number of threads may use the
+// cache at the same time.
 #ifndef RENDER_CACHE_H
 #define RENDER_CACHE_H
 
@@ -13,10 +13,10 @@ struct render_key {
     int light_frame, reflection, vertex_lit;
     int size; // width and height in pixels
     int light_capacity;
-    unsigned supports;    // the member of shader_interface
-    unsigned factors;     // the member of shader_interface
+    unsigned supports;    // shader_interface.supports
+    unsigned factors;     // shader_interface.factors
     int tone;             // a lam_tone, as in shader_interface
-    unsigned expectation; // the member of fault_search
+    unsigned expectation; // fault_search.expectation
     fault_set set;
 };
 
@@ -27,7 +27,7 @@ const float *render_cache_find(lam_check_cache *cache, const struct render_key *
 void render_cache_add(lam_check_cache *cache, const struct render_key *key, const float *samples, size_t count);
 
 // Returns an unused fault shader for pictures of this size and stride, or opens a new fault shader. Makes the fault
-// shader's context current. Returns NULL and fills `error` on failure. `cache` may be NULL in both functions.
+// shader's context current. On failure, sets `error` and returns NULL. `cache` may be NULL in both functions.
 struct fault_shader *render_cache_take_shader(lam_check_cache *cache, const lam_check_painter *painter, int size,
                                               int stride, lam_error *error);
 // Returns a shader to the cache; NULL is allowed.

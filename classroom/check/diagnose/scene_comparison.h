@@ -6,7 +6,7 @@
 
 // The comparison of one scene. A pixel is compared if the reference covers all pixels of its 3×3 neighbourhood.
 struct scene_comparison {
-    const struct reference_scene *row;      // the row of the table
+    const struct reference_scene *row;      // the scene's row in reference_scenes
     struct reference_scene reference_scene; // the expected scene
     const float *theirs;                    // the picture of the shader under test: RGBA with straight alpha
     float *reference;                       // straight alpha
@@ -28,7 +28,7 @@ struct difference {
 // Finds the pixels to compare. The caller allocates `inside`, an array of size² elements.
 void scene_comparison_find_inside(struct scene_comparison *scene, int size);
 
-// Excludes pixels for which the surface normal differs by more than 26 degrees from a neighbour's. `normals`: RGBA of
+// Excludes each pixel whose normal differs by more than 26 degrees from the normal of a neighbour. `normals`: RGBA of
 // size² pixels.
 void scene_comparison_leave_out_turns(struct scene_comparison *scene, const float *normals, int size);
 

@@ -8,7 +8,7 @@ static bool is_identifier(const struct declarations *d, int i)
     return i >= 0 && i < d->word_count && word_is_name(d->words[i].text);
 }
 
-// Returns whether a word may precede a name without being its type.
+// Returns whether a word may precede a name without being the name's type.
 static bool is_keyword(const struct declarations *d, int i)
 {
     static const char *const words[] = {"return",    "else",      "do",      "in",        "out",    "inout", "uniform",

@@ -1,4 +1,4 @@
-// check_draw.h: draws a request with any painter.
+// check_draw.h: draws the pictures of a request with any painter.
 #ifndef CHECK_DRAW_H
 #define CHECK_DRAW_H
 

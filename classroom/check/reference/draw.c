@@ -238,8 +238,9 @@ static bool compile(struct shader_run *run, const char *vertex, const char *frag
     return ok;
 }
 
-// Builds the program. Errors are recorded in run->drawn and refer to the unchanged sources. Both shaders are then built
-// with full precision, because a correct shader may use a lower precision (shader_dialect.h).
+// Builds the program. Errors are recorded in run->drawn and refer to the unchanged sources. If a shader lowers the
+// precision, both shaders are then built again with full precision, because a correct shader may use a lower precision
+// (shader_dialect.h).
 static bool build(struct shader_run *run, lam_error *error)
 {
     const char *vertex = shader_dialect_skip_mark(run->request.vertex),
@@ -284,7 +285,7 @@ static bool draw_scenes(struct shader_run *run, float *pixels, lam_error *error)
             struct reference_scene scene = shader_interface_scene(&run->interface, &reference_scenes[i]);
             double taken = 0;
             for (int turn = 0; turn == 0 || (turn == 1 && taken > limit);
-                 turn++) { // the first turn may include the driver's compilation, so a slow scene is drawn again
+                 turn++) { // the first draw may include the driver's compilation, so a slow scene is drawn again
                 double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
                 if (!draw_scene(run, &scene, pixels + at, error))
                     return false;

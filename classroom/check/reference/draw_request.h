@@ -29,7 +29,7 @@ struct draw_result {
     char types[MAX_UNKNOWN_NAMES][96];   // messages about uniforms whose type does not fit
     int unknown_count, types_count;
     unsigned scenes; // same as in the request
-    // RGBA, top row first, one picture after the other. Points into the message.
+    // One RGBA picture after the other, each with the top row first, inside the message.
     const float *pixels;
 };
 

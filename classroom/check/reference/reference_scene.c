@@ -194,7 +194,7 @@ static void put(float *out, lam_vec3 v)
     out[2] = (float)v.z;
 }
 
-// Computes texture coordinates and their axes. On a patch, whose normal is y, the texture is rotated by 30 degrees.
+// Computes texture coordinates and tangents. On a patch, whose normal is y, the texture is rotated by 30 degrees.
 static void lay_texture(enum reference_mesh mesh, struct reference_points *points)
 {
     const lam_vec3 up = v3(0, 1, 0), across = v3(math_cos(PI / 6), 0, -math_sin(PI / 6)), along = v3_cross(up, across);

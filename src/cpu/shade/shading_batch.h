@@ -38,7 +38,7 @@ struct light_batch {
     float l[3][BATCH_ROW], distance[BATCH_ROW], arriving[BATCH_ROW];
     // `arriving` if there is a highlight, otherwise 0
     float share[BATCH_ROW];
-    float base[BATCH_ROW];                     // the bases of the packets listed below, stored consecutively
+    float base[BATCH_ROW];                     // the bases of the packets listed in `packets`, stored consecutively
     float first[BATCH_ROW], second[BATCH_ROW]; // values passed from one step to the next
     int packets[LIGHT_BATCH], packet_count;    // the first point of each packet with a highlight
 };

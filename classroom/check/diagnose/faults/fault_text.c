@@ -124,7 +124,7 @@ static void put_to_eye(struct line *line)
         put(line, "-P");
 }
 
-// Returns the target space of a normal matrix of the contract.
+// Returns the space to which a normal matrix of the contract transforms.
 static lam_light_frame normal_space(const struct line *line, const char *name)
 {
     const struct contract_name *row = contract_find(line->interface->contract, name, false, NULL);
@@ -154,8 +154,8 @@ static void put_shininess(struct line *line)
         put(line, "%.1f", r->defaults.shininess.given ? (double)r->defaults.shininess.value : 64.0);
 }
 
-// Returns the declared name of a material's colour: the name for this term or, if it is not declared, the name for the
-// colour of the surface.
+// Returns the name of the material's colour for a term. If the shader declares only the name of the surface's colour,
+// returns that name.
 static const char *term_name(const struct line *line, enum uniform_semantic semantic)
 {
     const struct shader_interface *r = line->interface;

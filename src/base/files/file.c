@@ -272,7 +272,7 @@ static int open_regular(const char *path, size_t folder, const char *shown, stru
     bool found = stat(path, about) == 0;
     if (found && !kind_of(about->st_mode)) {
         file = folder ? open_beneath(path, folder) : open(path, OPEN_FLAGS);
-        found = file >= 0 && fstat(file, about) == 0; // checks again, because another file may have replaced this file
+        found = file >= 0 && fstat(file, about) == 0; // another file may have replaced the file since stat
     }
     if (!found)
         fail_system(error, LAM_CANNOT_READ, shown, "open");

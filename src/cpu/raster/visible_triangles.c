@@ -55,8 +55,8 @@ static void range_of_triangles(const struct fragments *fragments, uint32_t *lowe
 }
 
 // Adds the triangles of the fragments to `set`. The processor cannot predict whether a fragment's triangle differs from
-// the previous one, so the test has no branch. The bits of a word are combined before they are added, because an atomic
-// operation for each triangle takes longer than the rest.
+// the previous one, so the test has no branch. The bits of a word are combined before they are added to `set`, because
+// one atomic operation for each triangle would take longer than the rest of this function.
 static void add_triangles(struct rank_bitset *set, const struct fragments *fragments)
 {
     enum { WORDS = 128 };
@@ -157,7 +157,7 @@ static bool make_set(struct cpu_frame *cpu, struct visible_buffers *buffers, lam
 }
 
 // Finds memory for the elements and normals of this many corners. The scratch memory is used if it is large enough.
-// Otherwise separate memory is allocated; because corners share normals, not all of its pages are used.
+// Otherwise, separate memory is allocated. Corners share normals, so only some pages of this memory are used.
 static bool place_normals(struct visible_buffers *buffers, struct visible_normals *visible, size_t corners,
                           struct scratch_memory *scratch, struct call_control *call, lam_error *error)
 {

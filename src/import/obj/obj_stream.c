@@ -264,7 +264,7 @@ static void copy_chunk(const struct stream *stream, struct chunk_scratch *scratc
         memcpy(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row, scratch->arrays[kind],
                (size_t)count_of(counts, kind) * array_kinds[kind].row);
     copy_corners(stream, scratch, CORNERS, before->triangles, counts);
-    if (scratch->index_max[0] < rows_max(POSITIONS, stream->file->size)) // otherwise the index is wrong
+    if (scratch->index_max[0] < rows_max(POSITIONS, stream->file->size)) // a larger index is wrong
         mesh_mark_vertices(scratch->arrays[CORNERS], 3 * counts->triangles, stream->marks);
     if (scratch->texcoords)
         copy_corners(stream, scratch, CORNER_TEXCOORDS, before->triangles, counts);

@@ -433,7 +433,7 @@ static void test_header_errors(void **state)
     refuse_text("ply\nproperty float x\n", "a.ply",
                 "a.ply:2: found 'property', expected an element before its properties");
     refuse_text("ply\nelement vertex 1\n" XYZ "end_header\n", "a.ply",
-                "a.ply:6: found 'end_header', expected a format line before it");
+                "a.ply:6: found 'end_header', expected a format line before end_header");
     refuse_text("ply\nformat ascii 1.0\nvertex 3\n", "a.ply",
                 "a.ply:3: the file ends in its header, expected \"end_header\"");
     // A zero byte anywhere in the header; in the body of a binary file, it is a number.

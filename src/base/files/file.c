@@ -209,7 +209,7 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
         file_release(out);
         return false;
     }
-    // The unused bytes after the end stay zero, and no longer count towards the memory limit of the call.
+    // The unused bytes after the file's data stay zero. They do not count towards the memory limit of the call.
     if (call)
         call_refund(call, out->size - used);
     call_add_input(call, fresh ? used : 0);

@@ -19,7 +19,7 @@ enum {
     TAIL = 16 << 10,            // bytes read after a chunk, for its last line
     STATEMENTS = 4096,          // the maximum number of statements per chunk
     COUNT_MAX = UINT32_MAX - 1, // the maximum number of elements of a kind
-    SMALL_FILE = 16 << 20,      // the arrays of smaller files fill few huge pages
+    SMALL_FILE = 16 << 20,      // smaller files use small pages, because their arrays fill few huge pages
 };
 
 enum array { POSITIONS, TEXCOORDS, NORMALS, CORNERS, CORNER_TEXCOORDS, CORNER_NORMALS, POLYGONS, ARRAYS };

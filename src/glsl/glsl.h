@@ -117,8 +117,8 @@ struct glsl_choices {
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 
-// Returns whether an output is a value of the geometry. The fragment shader computes such outputs without lighting, for
-// every shading method.
+// Returns whether an output shows a value of the geometry. The fragment shader computes such outputs without lighting,
+// for every shading method.
 static inline bool glsl_output_is_geometry(lam_output output)
 {
     return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||

@@ -44,7 +44,7 @@ enum { LARGE_PICTURE = 64 };
 // Finds the lowest and the highest triangle number of the fragments.
 static void range_of_triangles(const struct fragments *fragments, uint32_t *lowest, uint32_t *highest)
 {
-    int32_t low = INT32_MAX, high = 0; // every processor has vector comparisons for signed integers
+    int32_t low = INT32_MAX, high = 0; // signed, because every processor can compare vectors of signed integers
     for (int i = 0; i < fragments->count; i++) {
         int32_t id = (int32_t)(fragments->id[i] & ~BACK_SIDE);
         low = id < low ? id : low;

@@ -30,7 +30,7 @@ static inline uint32_t visible_element(const struct visible_normals *visible, si
     return visible->elements[3 * (size_t)rank_bitset_rank(&visible->triangles, triangle) + k];
 }
 
-// The resources of the computation, which do not affect the result.
+// The resources for the computation. These resources do not affect the result.
 struct normals_work {
     struct scratch_memory scratch; // memory to reuse, or a zeroed struct
     int lanes;                     // the maximum number of floats that are processed at a time

@@ -15,9 +15,9 @@ extern const struct glsl_style lecture_style;
 bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
 
 // Makes the C source of the application stage: a function `light_vertex` that computes a vertex's colours for one of
-// the draws in `ranges`. The shader's light i is light order[i] of the frame. The C source contains the mistake
-// choices->mistake. The caller frees the result. On failure, returns NULL, and the error is LAM_UNSUPPORTED (the
-// message names the unsupported option), LAM_LIMIT, or an error from mistake_apply.
+// the draws in `ranges`. The shader's light i is light order[i] of the frame. The function contains the mistake
+// choices->mistake. The caller frees the result. Returns NULL on failure. Errors: LAM_UNSUPPORTED (naming the option
+// that the style does not support), LAM_LIMIT, and the errors of mistake_apply.
 char *lecture_application(const struct glsl_choices *choices, const struct frame *frame, const int *order,
                           const struct frame_draw_range *const *ranges, int count, lam_error *error);
 

@@ -14,9 +14,8 @@
 
 enum {
     NONE = UINT32_MAX,
-    LEAF = 8, // points per leaf of the tree
-    STEP_RATE =
-        4, // a polygon may visit STEP_RATE · count·√count nodes and points; simple polygons need a third of this
+    LEAF = 8,      // points per leaf of the tree
+    STEP_RATE = 4, // at most STEP_RATE · count·√count nodes and points are visited; simple polygons need a third
     CHECK_INTERVAL = 65536,
     STEPS = 1 << 30, // grid steps along the polygon's longer side
 };
@@ -41,7 +40,7 @@ struct corner {
     uint8_t level;           // LEVELS if it is in no queue
 };
 
-// The bounding box of a node's points, of which `count` remain.
+// The bounding box of a node's points. `count` of these points remain.
 struct box {
     int32_t min_x, min_y, max_x, max_y;
     uint32_t count;

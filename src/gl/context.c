@@ -223,7 +223,7 @@ void gl_context_leave(struct gl_context *context, const struct gl_previous_conte
         egl->MakeCurrent(previous->display, previous->draw, previous->read, previous->context);
 }
 
-// The display stays initialized, because the process has only one display, which the calling program may use.
+// The display stays initialized, because the calling program may use the process's only display.
 void gl_context_free(struct gl_context *context)
 {
     if (context->surface != EGL_NO_SURFACE)

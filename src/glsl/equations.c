@@ -107,7 +107,7 @@ static unsigned hash_of(const char *name, size_t length)
     return hash % BUCKETS;
 }
 
-// Marks the definitions whose names occur in a definition. Names after a dot (".xyz") are ignored.
+// Marks the definitions whose names occur in the definition `from`. Names after a dot (".xyz") are ignored.
 static bool mark(struct definition *definitions, const struct definition_index *index, const struct definition *from)
 {
     bool changed = false;

@@ -1,4 +1,4 @@
-// glsl.h: generates GLSL for a set of choices, and computes the values of its uniforms for a frame.
+// glsl.h: generates a shader for a set of choices, and computes the values of the shader's uniforms for a frame.
 //
 // The source consists of the equations in src/lighting that the shader calls (equations.h), and of the files in
 // src/glsl/text. These files contain the code for all choices. For one set of choices, branches with known conditions
@@ -17,7 +17,7 @@
 
 enum glsl_version { GLSL_120, GLSL_330, GLSL_300_ES };
 
-// Storage of the lights and the products of lights and materials.
+// How a shader stores the lights and the products of lights and materials.
 enum glsl_storage {
     GLSL_ARRAY,   // plain uniforms: lights[i].position
     GLSL_BLOCK,   // std140 blocks Lights and Products (or Materials), BackProducts
@@ -68,8 +68,8 @@ struct glsl_choices {
     enum glsl_storage storage;
     enum glsl_encoding encoding;
     enum glsl_environment environment;
-    // Whether the environment lights a physical material: sampler2D environment_light, in addition to `environment`
-    // (environment_light.h).
+    // The environment lights a physical material. In addition to `environment`, the shader reads sampler2D
+    // environment_light (environment_light.h).
     bool environment_light;
     bool occlusion; // ambient occlusion: sampler2D ambient_occlusion has a texel for each pixel of the target
     enum glsl_layer layer;
@@ -112,13 +112,13 @@ struct glsl_choices {
 };
 
 // Sets the choices for a range of a frame. Zeroes the struct first, so that memcmp can compare it. The caller sets
-// version, storage, encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective. With
-// Gouraud shading, LAM_STAGE_AUTO means the vertex stage. With any other shading, it means the fragment stage.
+// version, storage, encoding and products. `environment` is GLSL_FACES, or none if neither material is reflective.
+// LAM_STAGE_AUTO means the vertex stage with Gouraud shading, and the fragment stage with any other shading.
 void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range,
                  lam_stage stage);
 
-// Returns whether an output is a value of the geometry. The fragment shader computes such outputs without lighting, for
-// every shading method.
+// Returns whether an output shows a value of the geometry. The fragment shader computes such outputs without lighting,
+// for every shading method.
 static inline bool glsl_output_is_geometry(lam_output output)
 {
     return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||

@@ -63,7 +63,8 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
             text_print(text, "    float own_%s = front ? %s : back_%s;\n", parameters[i], parameters[i], parameters[i]);
 }
 
-// If `own` is set, adds the parameter's value in the material and its maps, before lighting changes the value.
+// Adds the value of a parameter from the material and its maps. If `own` is false and the shader widens the roughness,
+// adds the widened roughness instead.
 static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length, bool own)
 {
     char member[32];

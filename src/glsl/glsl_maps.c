@@ -58,7 +58,7 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
     for (int side = 0; side < 2; side++) {
         const lam_material *material = frame->materials[side ? range->back : range->front];
         bool masks = material->alpha_mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
-        // If no texel has an alpha below 1, the map does not make the surface translucent, whatever its scale.
+        // If no texel has an alpha below 1, no scale of the map makes the surface translucent.
         bool opaque = material->alpha_mode == LAM_ALPHA_MASK || (!range->translucent && frame_maps(frame, material));
         c->alpha[side] = masks ? LAM_ALPHA_MASK : opaque ? LAM_ALPHA_OPAQUE : (uint8_t)material->alpha_mode;
     }

@@ -302,7 +302,7 @@ static bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *ro
     case GLSL_ALPHA_CUTOFF:
     case GLSL_MAPPED_EMISSION:
         return fragment;
-    case GLSL_MODEL_VIEW: // field_tangent reads its columns
+    case GLSL_MODEL_VIEW: // field_tangent reads the columns of the matrix
         return !fragment ||
                (f->per_fragment && ((f->needs_tangent && !f->choices->tangents) || f->layers & LAYER_VOLUME));
     default:

@@ -238,8 +238,8 @@ static bool put_changes(struct scene_writer *w, json_t *entry, const struct scen
     return true;
 }
 
-// Writes the materials of all parts if the material of any part differs from its material in the model file. Parts with
-// unchanged materials are written as null.
+// If the material of any part differs from the part's material in the model file, writes the materials of all parts.
+// Parts with unchanged materials are written as null.
 static void put_parts(struct scene_writer *w, json_t *entry, const struct scene_origin *origin)
 {
     json_t *list = json_array();
@@ -542,7 +542,8 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
     json_t *out = json_object();
     if (s->present & LAM_SETTING_SIZE)
         put(w, out, "size", list_of(w, (double[]){s->width, s->height}, 2));
-    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples) // readers choose missing samples by the size
+    // if `samples` is missing, readers choose the number of samples by the picture's size
+    if (s->present & LAM_SETTING_SAMPLES && s->draw.samples)
         put(w, out, "samples", json_integer(s->draw.samples));
     if (s->present & LAM_SETTING_BACKGROUND)
         put(w, out, "background", color(w, &s->draw.background.r, 4));

@@ -119,7 +119,7 @@ bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct 
 bool tessellate_implicit_formula(const lam_formula *formula, struct arena *arena, struct call_control *call,
                                  lam_mesh *mesh, lam_error *error);
 
-// Exchanges front and back of a mesh that the caller made.
+// Exchanges the front and the back of a mesh that the caller made.
 void formula_flip(lam_mesh *mesh);
 
 #endif

@@ -18,7 +18,8 @@ bool formula_graph_start(struct formula_graph *graph, struct arena *arena)
     return true;
 }
 
-// For √x and arc functions, an argument that rounding moved just outside the domain is treated as the boundary.
+// Rounding can move an argument of √x or an arc function just outside the domain. Such an argument is replaced by the
+// boundary of the domain.
 #define ROUNDING 1e-12
 
 static double square_root(double x) { return x >= 0 ? math_sqrt(x) : x > -ROUNDING ? 0 : __builtin_nan(""); }

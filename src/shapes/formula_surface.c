@@ -132,7 +132,7 @@ static lam_surface_point probe(struct surface *s, int axis, double along, int j,
     return axis ? evaluate(s, across, along) : evaluate(s, along, across);
 }
 
-// Doubles the segments until no edge deviates from the surface by more than SAGITTA.
+// Doubles the number of segments until no edge deviates from the surface by more than SAGITTA.
 static int choose_segments(struct surface *s, int axis)
 {
     int n = LEAST_SEGMENTS;
@@ -268,7 +268,7 @@ static lam_vec3 corner(const lam_mesh *mesh, size_t i)
     return v3((double)p[0], (double)p[1], (double)p[2]);
 }
 
-// Replaces normals that no derivative determines by the mean of their triangles' normals.
+// If no derivative determines a normal, sets the normal to the mean of the normals of its triangles.
 static void complete_normals(lam_mesh *mesh)
 {
     float *normals = (float *)(uintptr_t)mesh->normals;

@@ -184,7 +184,8 @@ static void print_json(const struct journal_sum *sum, const struct batch_tally *
 
 // --- written files
 
-// Writes a line with the folder for the pictures that follow. `line` is the journal line that names the folder.
+// Writes a line that names the folder of the pictures in the next lines. `line` is the journal line that names the
+// folder.
 static void write_folder(FILE *out, const char *line)
 {
     json_t *run = json_loadb(line, strcspn(line, "\n"), 0, NULL), *folder = json_object_get(run, "folder");

@@ -82,7 +82,7 @@ static void print_table(lam_color_mode color)
                                     "(--color-mode raw lists the published colours).");
 }
 
-// Uses the keys of materials in scene files.
+// Prints the list as JSON. The keys are the same as in the materials of scene files.
 static void print_json(lam_color_mode color, FILE *out)
 {
     struct json json = {.file = out};
@@ -259,7 +259,7 @@ int run_materials(int operand_count, char **operands, const struct options *opti
     free(path);
     if (!ok)
         return report_failure(&error, options);
-    if (!output_is_stream(output) || options->report.json) // with --json, the list may go to standard error
+    if (!output_is_stream(output) || options->report.json) // with --json, print_list may write to standard error
         print_list(options);
     return 0;
 }

@@ -30,7 +30,7 @@ static bool check_models(int count, char **models, lam_error *error)
     return true;
 }
 
-// Prepares to show the picture in the terminal if the command draws only one picture. Refuses to write a picture file
+// If the command draws only one picture, prepares to show the picture in the terminal. Refuses to write a picture file
 // to a terminal.
 static bool check_terminal(int count, const struct options *o, lam_error *error)
 {

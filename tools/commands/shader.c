@@ -76,8 +76,8 @@ static void shader_contract(FILE *file, const lam_shader *s)
 
 // --- files
 
-// Returns the path of the shader files without .vert or .frag, allocated with malloc. This is `output` without its
-// extension. If `output` is a folder, this is the model's name in this folder.
+// Returns the path of the shader files without .vert or .frag, allocated with malloc. If `output` is a folder, the path
+// is the folder and the model's name. Otherwise, the path is `output` without .vert or .frag.
 static char *base_of(const char *output, const char *model)
 {
     char *base = output_path(output, model, "");

@@ -26,7 +26,8 @@ static void identifier(FILE *file, const char *name)
 
 // --- single uniforms
 
-// Returns false for every element of an array except the first. The first element's comment describes the whole array.
+// Returns true for single uniforms and for the first element of an array. The first element's comment describes the
+// whole array.
 static bool is_first(const lam_shader_uniform *u)
 {
     const char *bracket = strchr(u->name, '[');

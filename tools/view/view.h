@@ -14,7 +14,7 @@ enum {
     VIEW_ADDRESS_SIZE = 80,
 };
 
-// A page that waits for changes of files (server-sent events).
+// A connection to a page that waits for file changes (server-sent events).
 struct view_listener {
     struct MHD_Connection *connection;
     struct view *view;

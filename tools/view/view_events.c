@@ -11,7 +11,7 @@
 
 enum {
     KEEP_MS = 10000,
-    PENDING_MAX = 1 << 20, // limits the unsent bytes for a page that does not read
+    PENDING_MAX = 1 << 20, // limits the unsent bytes for a page that does not read its events
 };
 
 static void say(struct view_listener *l, const char *text, size_t size)

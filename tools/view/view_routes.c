@@ -1,6 +1,6 @@
-// view_routes.c: decides which requests are answered. A page of another site can send requests here, and the site's
-// host name may even resolve to this machine. However, such a page does not know the token, sends other Host and Origin
-// headers, and cannot read the answers (view_answer.c).
+// view_routes.c: decides which requests are answered. A page of another site can send requests to this server, and the
+// site's host name may even resolve to this machine. However, such a page does not know the token, sends other Host and
+// Origin headers, and cannot read the answers (view_answer.c).
 #include "view_routes.h"
 
 #include <arpa/inet.h>
@@ -253,7 +253,8 @@ static enum MHD_Result answer_address(struct view_connection *c, const char *add
     return view_answer_text(view, c->connection, 404, "no such page");
 }
 
-// Returns whether the request is from this user. Another user can read the token in the arguments of xdg-open in /proc.
+// Returns whether the request is from the viewer's user. Another user can read the token in the arguments of xdg-open
+// in /proc.
 static bool is_own_user(const struct view_connection *c)
 {
     struct sockaddr_in other = {0};
@@ -273,7 +274,7 @@ static enum MHD_Result answer_request(struct view_connection *c, const char *url
         return view_answer_text(view, c->connection, 403, "not from here");
     if (strlen(url) < VIEW_TOKEN_SIZE + 1 || url[VIEW_TOKEN_SIZE] != '/' || !same_token(url + 1, view->token))
         return view_answer_text(view, c->connection, 403, "open the address that lambent view has printed");
-    if (!is_own_user(c)) // this check comes last, because it reads a table of the whole machine
+    if (!is_own_user(c)) // this check comes last, because it reads the machine's table of all connections
         return view_answer_text(view, c->connection, 403, "this viewer answers only the user who has started it");
     if (c->socket->names_zero)
         return view_answer_text(view, c->connection, 404, "no name contains a zero byte");

@@ -62,7 +62,7 @@ static void add(struct view_watch *watch, const char *real_path, char *folder, c
     free(only);
 }
 
-// If the model is a link, also watches its target.
+// If the model is a link, also watches the link's target.
 static void add_target(struct view_watch *watch, const struct view_files *files)
 {
     struct stat about;

@@ -24,9 +24,9 @@ void view_watch_end(struct view_watch *watch);
 // that is removed or replaced is watched again when it reappears.
 void view_watch_add(struct view_watch *watch, const struct view_files *files, const char *path);
 
-// Calls `changed` with the path in the page of each file that was written, replaced or removed since the last call. The
-// path of a folder, with a '/' at its end, means that any file in it may have changed, because the folder was replaced
-// or the kernel's queue overflowed.
+// For each file that was written, replaced or removed since the last call, calls `changed` with the file's path in the
+// page. The path of a folder, with a '/' at its end, means that any file in the folder may have changed, because the
+// folder was replaced or the kernel's queue overflowed.
 void view_watch_read(struct view_watch *watch, const struct view_files *files,
                      void (*changed)(void *user, const char *path), void *user);
 

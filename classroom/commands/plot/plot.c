@@ -80,14 +80,14 @@ static bool wrong(lam_error *error, const char *kind, const char *word, const ch
     return complain(error, LAM_BAD_ARGUMENT, "plot %s: found '%.100s', expected %s", kind, word, expected);
 }
 
-// Adds the curve of a light, labelled with `name` (may be NULL) and its numbers.
+// Adds the curve of a light. The label consists of `name` (may be NULL) and the light's numbers.
 static bool add_faded(struct plot *plot, const lam_light *light, const char *name, lam_error *error)
 {
     struct curve *curve = add_curve(plot, attenuation_value, error);
     if (!curve)
         return false;
     curve->light = *light;
-    curve->light.name = NULL; // the owner of the name is freed before the plot
+    curve->light.name = NULL; // the name's owner is freed before the plot
     curve->light.object = NULL;
     curve->marked = true;
     lam_attenuation a = light->attenuation;
@@ -295,8 +295,8 @@ static const struct kind *find_kind(const char *name, lam_error *error)
 }
 
 // Returns the length of the axis. The axis ends where the last curve has fallen to a twentieth of its maximum, so that
-// the curves fill the plot. The length is 10 if no curve falls that far. A curve falls below 1/255 beyond the end of
-// the axis, so the legend states this position.
+// the curves fill the plot. The length is 10 if no curve falls that far. Curves fall below 1/255 beyond the end of the
+// axis. The legend therefore states where they fall below 1/255.
 static double length_of(const struct plot *plot, double farthest)
 {
     double most = 0;

@@ -1,5 +1,5 @@
 // call_control.h: enforces the cancel flag, the deadline and the memory budget of lam_control while a call runs, and
-// reports its progress.
+// reports the call's progress.
 #ifndef CALL_CONTROL_H
 #define CALL_CONTROL_H
 

@@ -11,11 +11,11 @@
 // "…".
 bool fail(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-// Reports that memory has run out: LAM_LIMIT, with the size of the request.
+// Reports LAM_LIMIT, because a request for `bytes` bytes of memory failed.
 bool fail_memory(lam_error *error, size_t bytes);
 
-// Rejects a parameter struct in which a program with a newer header sets a new field. Returns false with
-// LAM_BAD_ARGUMENT if a reserved word is not zero (base.h, "Growth").
+// If a reserved word of a parameter struct is not zero, fails with LAM_BAD_ARGUMENT: the program uses a newer header
+// and sets a new field (base.h, "Growth").
 #define check_reserved(what, params, error)                                                                            \
     reserved_words_are_zero(what, (params)->reserved, sizeof(params)->reserved / sizeof(uint64_t), error)
 bool reserved_words_are_zero(const char *what, const uint64_t *words, size_t count, lam_error *error);

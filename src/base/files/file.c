@@ -209,7 +209,7 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
         file_release(out);
         return false;
     }
-    // The unused bytes after the end stay zero, and no longer count towards the memory limit of the call.
+    // The unused bytes after the file's data stay zero. They do not count towards the memory limit of the call.
     if (call)
         call_refund(call, out->size - used);
     call_add_input(call, fresh ? used : 0);
@@ -272,7 +272,7 @@ static int open_regular(const char *path, size_t folder, const char *shown, stru
     bool found = stat(path, about) == 0;
     if (found && !kind_of(about->st_mode)) {
         file = folder ? open_beneath(path, folder) : open(path, OPEN_FLAGS);
-        found = file >= 0 && fstat(file, about) == 0; // checks again, because another file may have replaced this file
+        found = file >= 0 && fstat(file, about) == 0; // another file may have replaced the file since stat
     }
     if (!found)
         fail_system(error, LAM_CANNOT_READ, shown, "open");

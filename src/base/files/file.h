@@ -44,7 +44,7 @@ bool file_check_regular(const char *path, lam_error *error);
 // result, including the final '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
-// A large open file; any thread may read sections of the file.
+// A large open file. Any thread may read sections of the file.
 enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
 struct file_parts {
     int file;

@@ -124,8 +124,8 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
         return false;
     if (w->durable && !sync_file(file))
         return false;
-    // Some file systems report errors only on close. Closing a duplicate handle reports these errors while the file can
-    // still be discarded.
+    // Some file systems report errors only on close. These errors are found by closing a duplicate handle while the
+    // file can still be discarded.
     int copy = dup(file);
     return copy < 0 || close(copy) == 0;
 }

@@ -137,9 +137,9 @@ LANE_FN num power(num base, num exponent)
 }
 
 // Computes 1/√x for normal x > 0 with a relative error of at most 9e-8. The result at 0 is about 3.6e19, so that 0 ·
-// rsqrt(0) = 0. The first estimate is computed from the bits of x, by halving and negating the exponent. The constants
-// of the first step make the step's result slightly too small, because x·y² then has a smaller rounding error. The last
-// step is of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
+// rsqrt(0) = 0. The first estimate is computed from the bits of x, by halving and negating the exponent. With the
+// constants of the first step, the step's result is slightly too small. This makes the rounding error of x·y² smaller.
+// The last step is of third order: with e = 1 − x·y², 1/√x = y/√(1 − e) = y·(1 + e/2 + 3e²/8 + …).
 //
 // Two functions compute the approximation and its refinement, so that loops can overlap the latencies of the two steps.
 LANE_FN num rsqrt_near(num x)

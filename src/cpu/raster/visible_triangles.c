@@ -44,7 +44,7 @@ enum { LARGE_PICTURE = 64 };
 // Finds the lowest and the highest triangle number of the fragments.
 static void range_of_triangles(const struct fragments *fragments, uint32_t *lowest, uint32_t *highest)
 {
-    int32_t low = INT32_MAX, high = 0; // every processor has vector comparisons for signed integers
+    int32_t low = INT32_MAX, high = 0; // signed, because every processor can compare vectors of signed integers
     for (int i = 0; i < fragments->count; i++) {
         int32_t id = (int32_t)(fragments->id[i] & ~BACK_SIDE);
         low = id < low ? id : low;
@@ -55,8 +55,8 @@ static void range_of_triangles(const struct fragments *fragments, uint32_t *lowe
 }
 
 // Adds the triangles of the fragments to `set`. The processor cannot predict whether a fragment's triangle differs from
-// the previous one, so the test has no branch. The bits of a word are combined before they are added, because an atomic
-// operation for each triangle takes longer than the rest.
+// the previous one, so the test has no branch. The bits of a word are combined before they are added to `set`, because
+// one atomic operation for each triangle would take longer than the rest of this function.
 static void add_triangles(struct rank_bitset *set, const struct fragments *fragments)
 {
     enum { WORDS = 128 };
@@ -157,7 +157,7 @@ static bool make_set(struct cpu_frame *cpu, struct visible_buffers *buffers, lam
 }
 
 // Finds memory for the elements and normals of this many corners. The scratch memory is used if it is large enough.
-// Otherwise separate memory is allocated; because corners share normals, not all of its pages are used.
+// Otherwise, separate memory is allocated. Corners share normals, so only some pages of this memory are used.
 static bool place_normals(struct visible_buffers *buffers, struct visible_normals *visible, size_t corners,
                           struct scratch_memory *scratch, struct call_control *call, lam_error *error)
 {

@@ -20,8 +20,8 @@ struct visible_buffers {
 bool keeps_fragments(const struct cpu_frame *cpu);
 
 // Finds the distances of the surfaces (cpu->occlusion), the visible triangles, and the normals of these triangles, each
-// only if the frame needs it. If all surfaces are opaque, the search keeps each tile's fragments; otherwise it treats
-// every binned triangle as visible.
+// only if the frame needs it. If all surfaces are opaque, the search keeps each tile's fragments. Otherwise, the search
+// treats every binned triangle as visible.
 bool cover_in_advance(struct cpu_frame *cpu, struct visible_buffers *buffers, lam_error *error);
 void visible_buffers_empty(struct visible_buffers *buffers, int threads); // frees the fragment stores
 

@@ -92,7 +92,7 @@ static uint64_t rank_of(float key, uint32_t id)
 }
 
 // Clipping divides a triangle into several triangles. This function joins the fragments of these triangles in each
-// pixel to one fragment. If two of the fragments cover a sample, the nearer key is used.
+// pixel into one fragment. If two of the fragments cover a sample, the nearer key is used.
 static void join_clipped_parts(const struct fragments *fragments, struct layer_rows *rows,
                                struct blend_scratch *scratch, int samples)
 {

@@ -10,7 +10,7 @@
 
 struct recorder;
 
-// A pixel's fragment to be sorted by depth at one sample: the larger rank is nearer.
+// A pixel's fragment to be sorted by depth at one sample. The nearer fragment has the larger rank.
 struct layer {
     uint64_t rank;
     uint32_t fragment;
@@ -35,9 +35,9 @@ struct tile_part {
     const uint32_t *ids;
 };
 
-// Blends the sorted and shaded fragments of a rectangle. Adds to the sums of the rectangle's pixels, and sets their
-// `transmittance`. Returns how many of these pixels have no opaque fragment. If `recorder` is not NULL, it receives the
-// values of the explained pixel.
+// Blends the sorted and shaded fragments of a rectangle. Adds the light of the fragments to the sums of the rectangle's
+// pixels, and sets the pixels' `transmittance`. Returns how many of these pixels have no opaque fragment. If `recorder`
+// is not NULL, it receives the values of the explained pixel.
 uint64_t blend_layers(const struct sample_pattern *pattern, const struct fragments *fragments,
                       const struct layer_rows *rows, struct blend_scratch *scratch, const struct tile_part *part,
                       struct pixel_sums *sums, struct recorder *recorder);

@@ -17,8 +17,8 @@
 struct visible_normals {
     struct rank_bitset triangles;
     uint32_t *elements; // 3 · triangles.count
-    // Capacity for 3 · triangles.count normals. The first `used` normals are filled. If corners share normals, `used`
-    // is much smaller than the capacity. The order of the normals depends on the threads.
+    // Capacity for 3 · triangles.count normals. The first `used` elements contain normals. If corners share normals,
+    // `used` is much smaller than the capacity. The order of the normals depends on the threads.
     float (*normals)[3];
     uint32_t used;
     uint32_t *first_corners; // a corner of the mesh for each normal, with the same capacity; NULL if not needed
@@ -30,7 +30,7 @@ static inline uint32_t visible_element(const struct visible_normals *visible, si
     return visible->elements[3 * (size_t)rank_bitset_rank(&visible->triangles, triangle) + k];
 }
 
-// The resources of the computation, which do not affect the result.
+// The resources for the computation. These resources do not affect the result.
 struct normals_work {
     struct scratch_memory scratch; // memory to reuse, or a zeroed struct
     int lanes;                     // the maximum number of floats that are processed at a time

@@ -80,8 +80,8 @@ static int by_numbers(const void *a, const void *b)
     return order ? order : (x->item > y->item) - (x->item < y->item);
 }
 
-// Welds the items that have the same hash. Usually all of them are equal; otherwise they are sorted in a separate
-// array.
+// Welds the items that have the same hash. Usually all of these items are equal. If they differ, they are sorted in a
+// separate array.
 static bool weld_run(uint32_t *firsts, bool by_vertex, const lam_mesh *mesh, const struct hashed_item *run,
                      uint32_t count, struct call_control *call, lam_error *error)
 {

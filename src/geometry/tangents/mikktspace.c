@@ -75,8 +75,8 @@ static void make_group(struct tangent_maker *m, uint32_t corner)
             break;
 }
 
-// Assigns a group to a corner that no group reached: the group of the first equal corner in the list of corners, if
-// that corner exists and is in a group. Otherwise, the corner starts its own group.
+// Assigns a group to a corner that no group reached. If the list of corners contains equal corners and the first of
+// these has a group, assigns this group. Otherwise, the corner starts its own group.
 static void finish_corner(struct tangent_maker *m, uint32_t corner)
 {
     uint32_t v = m->weld.of[corner];

@@ -21,7 +21,7 @@
 // The summands are computed in double and summed as floats, in the order of the corners. The derivatives are floats, as
 // in Mikkelsen's code, because the groups depend on whether a derivative is zero.
 //
-// The bitangent is w·cross(n, t); it is not normalised.
+// The bitangent is w·cross(n, t); it is not normalized.
 #ifndef MIKKTSPACE_H
 #define MIKKTSPACE_H
 

@@ -67,7 +67,8 @@ static bool check_instances(struct gltf *gltf, const struct gltf_mesh *mesh, siz
         return false;
     if (!call_charge(call, objects * sizeof(lam_object)))
         return gltf_no_memory(gltf, objects * sizeof(lam_object));
-    call_refund(call, objects * sizeof(lam_object)); // each object is charged again when it is created
+    // the memory of each object is counted again when the object is created
+    call_refund(call, objects * sizeof(lam_object));
     return true;
 }
 

@@ -95,7 +95,7 @@ static bool read_name(struct state *state, const uint8_t *at, const char **out, 
     char *name = text_name(&state->obj->scene->arena, at, (size_t)(end - at));
     if (!name)
         return no_memory(state, (size_t)(end - at), error);
-    // text_name has converted line continuations, "\\\n", to "\\?"; these are replaced by spaces.
+    // text_name has converted line continuations, "\\\n", to "\\?"; this loop replaces both characters by spaces.
     for (const uint8_t *c = at; c < end; c++) {
         if (*c == '\n') {
             for (char *back = name + (c - at); back >= name && (*back == '?' || *back == '\\'); back--)

@@ -124,7 +124,7 @@ static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at
 }
 
 // Reads a texture coordinate or a normal. Vectors with numbers that are not finite become 0, because some exporters
-// write "nan". One warning is added for all of them.
+// write "nan". One warning is added for all such vectors.
 static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *at, bool normal)
 {
     struct obj *obj = reader->obj;

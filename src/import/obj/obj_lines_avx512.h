@@ -14,7 +14,8 @@
 
 static inline unsigned lowest_bit(uint64_t set) { return (unsigned)__builtin_ctzll(set); }
 static inline uint64_t without_lowest(uint64_t set) { return set & (set - 1); }
-// Moves a mask to a general register. Without the barrier, the compiler computes in the slower mask registers.
+// Moves a mask to a general register. Without the barrier, the compiler would use the mask registers for the
+// calculations, which is slower.
 static inline uint64_t mask_bits(__mmask64 bytes)
 {
     uint64_t set = bytes;

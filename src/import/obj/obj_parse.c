@@ -46,7 +46,7 @@ bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
     memcpy(chunk->low, reader.low, sizeof chunk->low);
     memcpy(chunk->high, reader.high, sizeof chunk->high);
     if (obj->streamed)
-        chunk->counts = reader.next; // the indices of a streamed chunk begin at 0, so these are the counts
+        chunk->counts = reader.next; // a streamed chunk counts from 0, so `next` contains the counts
     return at != NULL;
 }
 

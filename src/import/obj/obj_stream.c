@@ -19,7 +19,7 @@ enum {
     TAIL = 16 << 10,            // bytes read after a chunk, for its last line
     STATEMENTS = 4096,          // the maximum number of statements per chunk
     COUNT_MAX = UINT32_MAX - 1, // the maximum number of elements of a kind
-    SMALL_FILE = 16 << 20,      // the arrays of smaller files fill few huge pages
+    SMALL_FILE = 16 << 20,      // smaller files use small pages, because their arrays fill few huge pages
 };
 
 enum array { POSITIONS, TEXCOORDS, NORMALS, CORNERS, CORNER_TEXCOORDS, CORNER_NORMALS, POLYGONS, ARRAYS };
@@ -264,7 +264,7 @@ static void copy_chunk(const struct stream *stream, struct chunk_scratch *scratc
         memcpy(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row, scratch->arrays[kind],
                (size_t)count_of(counts, kind) * array_kinds[kind].row);
     copy_corners(stream, scratch, CORNERS, before->triangles, counts);
-    if (scratch->index_max[0] < rows_max(POSITIONS, stream->file->size)) // otherwise the index is wrong
+    if (scratch->index_max[0] < rows_max(POSITIONS, stream->file->size)) // a larger index is wrong
         mesh_mark_vertices(scratch->arrays[CORNERS], 3 * counts->triangles, stream->marks);
     if (scratch->texcoords)
         copy_corners(stream, scratch, CORNER_TEXCOORDS, before->triangles, counts);

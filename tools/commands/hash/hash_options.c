@@ -1,4 +1,5 @@
-// hash_options.c: applies the options in a hash file if the command line has no option that changes the picture.
+// hash_options.c: applies the options in a hash file unless the command line contains an option that changes the
+// picture.
 #include "hash.h"
 
 #include <stdio.h>
@@ -40,7 +41,7 @@ static int split(char *text, char **words)
 // options also accept built-in names.
 static const char *const of_files[] = {"environment", "look"};
 
-// Writes the value of an option in of_files. Each path is passed through `map` first.
+// Writes the value of an option that of_files lists. `map` converts each path first.
 static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
                       char *(*map)(const char *file, const char *path))
 {

@@ -52,7 +52,7 @@ struct info {
 };
 enum { INFO_SIDE = 1024 };
 
-// Counts of stored data. A mesh is counted once, even if several objects use it.
+// The numbers of stored parts, triangles and vertices. A mesh is counted once, even if several objects use it.
 struct info_counts {
     uint64_t parts, triangles, vertices;
 };

@@ -14,8 +14,8 @@ static void add(struct info_textures *textures, const lam_texture *texture, cons
     textures->items[textures->count++] = (struct info_texture){.texture = texture, .image = image};
 }
 
-// Adds the textures that were made from the picture: one for colours, one for other values, or both. If the picture is
-// not used, adds the picture alone.
+// Adds the textures that were made from the picture: one for colours, one for other values, or both. If no material
+// uses the picture, adds the picture without a texture.
 static void add_image(struct info_textures *textures, const lam_file_image *image)
 {
     for (int values = 0; values < 2; values++)

@@ -344,7 +344,7 @@ bool gltf_textures_finish(struct gltf *gltf)
     }
     for (size_t i = 0; i < VALUES * images; i++) {
         file_release(&gltf->pictures[i].file);
-        lam_texture_free(gltf->pictures[i].texture); // the scene has its own reference
+        lam_texture_free(gltf->pictures[i].texture); // the scene keeps its own reference to the texture
     }
     return ok;
 }

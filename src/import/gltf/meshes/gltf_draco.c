@@ -39,7 +39,7 @@ struct decoding {
     uint32_t vertices, triangles;
 };
 
-// Checks the result of a function of the module, and reports an error if the function failed. Returns false on error.
+// Checks the result of a function in the module, and reports an error if the function failed. Returns false on error.
 static bool succeeded(const struct decoding *d, const struct place *place, int result, const char *reason)
 {
     return result > 0 ||
@@ -162,7 +162,7 @@ static bool has_plain_bytes(struct gltf *gltf, const json_t *primitive)
     return there && json_object_get(gltf_list_item(gltf, "accessors", (int)number), "bufferView");
 }
 
-// Charges the call for the memory that Draco's own code will allocate.
+// Calls call_charge for the memory that Draco's own code will allocate.
 static bool charge_claim(const struct decoding *d, const struct gltf_view *view, size_t *charged)
 {
     struct gltf *gltf = d->gltf;

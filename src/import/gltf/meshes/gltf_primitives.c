@@ -1,7 +1,7 @@
 // gltf_primitives.c: reads the primitives of meshes (section 3.7.2). Each primitive becomes a mesh of the scene.
 //
-// The primitives of a mesh may have different attributes, materials and sides. Their meshes share common arrays. If
-// possible, the arrays point directly into the file's data, without a copy.
+// The primitives of one glTF mesh may use different attributes and materials. The meshes made from these primitives
+// share common arrays. If possible, the arrays point directly into the file's data, without a copy.
 #include "gltf_primitives.h"
 
 #include "gltf_accessors.h"

@@ -21,7 +21,7 @@ enum {
 // strips and fans, that is, triangles that use a vertex twice.
 bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);
 
-// Like gltf_triangles, for lines and points: sets line_count or point_count.
+// Works like gltf_triangles, but for lines and points, and sets line_count or point_count.
 bool gltf_strokes(struct gltf *gltf, const struct place *place, const json_t *primitive, size_t mode, lam_mesh *mesh);
 
 #endif

@@ -62,7 +62,7 @@ struct job {
     const char *output;           // path of the picture; "-" means standard output
     lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written
     bool one_of_many;  // several models share the options, so a name given to --hide may be missing from this model
-    bool makes_folder; // also creates the folder of an explicitly named picture
+    bool makes_folder; // creates the picture's folder even if the user gave the picture's path
     const lam_cancel *cancel; // stops the job; if NULL, only Ctrl-C does
     const char *format;       // the format of the picture: "png"
     lam_pixel_format pixels;  // the pixel format for drawing

@@ -181,9 +181,9 @@ static void run_threads(struct batch *b, struct worker *workers)
         pthread_join(reader, NULL);
     lam_error error;
     if (!started && b->jobs) {
-        complain(&error, LAM_LIMIT, "no thread can be started");
+        complain(&error, LAM_LIMIT, "cannot start a thread");
         batch_stop(b, &error);
-    } else if (!started) { // no thread can be started, so this thread draws
+    } else if (!started) { // no other thread started, so this thread draws
         b->drawing = 1;
         work(&workers[0]);
     }
@@ -253,8 +253,8 @@ static void share_threads(struct batch *b)
     b->threads = b->workers == 1 ? b->options->work.threads : threads / b->workers;
 }
 
-// Returns a string, allocated with malloc: the options that all pictures in the journal share, and the side and size of
-// each picture of a model. Returns NULL if memory runs out.
+// Returns a string, allocated with malloc. The string first lists the options that apply to all pictures in the
+// journal, and then the side and size of each picture that the run draws per model. Returns NULL if memory runs out.
 static char *pictures_text(const struct batch *b)
 {
     const struct batch_plan *plan = b->plan;
@@ -316,7 +316,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     return ok && (!o->batch.jobs || (b->jobs = batch_jobs_open(b, error)));
 }
 
-// Returns whether every picture has an outcome. If memory ran out, some pictures have none.
+// Returns whether every picture has an outcome. If memory ran out, some pictures are still PICTURE_OPEN.
 static bool has_every_outcome(const struct batch *b)
 {
     size_t pictures = b->plan->count * (size_t)b->plan->view_count, i = 0;
@@ -423,7 +423,8 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
     batch_jobs_close(b.jobs);
-    // Reports an interrupt before the drawing of a single model. Later interrupts are reported during the drawing.
+    // If the command draws only one model, reports an interrupt that arrived before the drawing began. The drawing
+    // itself reports later interrupts.
     if (interrupted() && ok && !is_batch && plan->count == 1 && !b.interrupted &&
         b.pictures[0].outcome == PICTURE_OPEN) {
         complain(&error, LAM_CANCELLED, "%.400s: interrupted", plan->models[0].path);

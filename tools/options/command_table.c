@@ -28,10 +28,10 @@ static const struct own_default shape_defaults[] = {{"output", "NAME.png, parame
                                                     {NULL, NULL, NULL}};
 static const struct own_default diff_defaults[] = {
     {"output", "no picture, no page", "a picture of the difference between two pictures, or a page: FILE.html"},
-    {"size", "384x384", "size of the models' pictures: 800 or 1920x1080"},
+    {"size", "384x384", "size of the models' pictures, for example 800 or 1920x1080"},
     {NULL, NULL, NULL}};
 static const struct own_default hash_defaults[] = {{"output", "required without --check", "the text file of hashes"},
-                                                   {"size", NULL, "size of the pictures: 800 or 1920x1080"},
+                                                   {"size", NULL, "size of the pictures, for example 800 or 1920x1080"},
                                                    {NULL, NULL, NULL}};
 static const struct own_default plot_defaults[] = {
     {"output", "KIND.png", NULL}, {"size", "1600x1000", NULL}, {NULL, NULL, NULL}};

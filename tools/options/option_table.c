@@ -431,8 +431,8 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_number, .others = "scale magnify magnification distance", FIELD(view.zoom), .min = 0.001,
      .max = 1000},
     {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The camera's vertical field of view, above 0 and below 180.",
-     "With a wide angle, the camera is closer to the model, so that the model still fills the picture with a stronger "
-     "perspective. `--fov 60` and `--camera fovy=60` are equivalent.",
+     "With a wide angle, Lambent moves the camera closer, so the model still fills the picture. The perspective is "
+     "then stronger. `--fov 60` and `--camera fovy=60` are equivalent.",
      .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
      FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
@@ -924,9 +924,9 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"json", 0, GROUP_REPORT, NULL, NULL, "Print a report in JSON, one line for each model.",
      "Lambent prints the report to standard output, instead of the line with the file's name. If the picture goes to "
-     "standard output, Lambent prints the report, and nothing else, to standard error. Lambent also prints a report on "
-     "failure. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption and the options "
-     "of each picture.",
+     "standard output, Lambent prints the report, and nothing else, to standard error. Lambent prints a report even "
+     "if the command fails. The schema is `docs/report.schema.json`. For `compare`, the report contains the caption "
+     "and the options of each picture.",
      .brief = "print a report for other programs", .store = store_switch, .others = "stats info", FIELD(report.json),
      .single = TAKES_JSON},
     {"dry-run", 0, GROUP_REPORT, NULL, NULL,
@@ -1135,7 +1135,7 @@ struct option option_table[OPTIONS_MAX] = {
      "By default, Lambent uses the font that the environment variable `LAMBENT_FONT` names. If this variable is not "
      "set, Lambent uses the first of these fonts that it finds in Debian's font folders: DejaVu Sans, Liberation Sans, "
      "Noto Sans, FreeSans, Roboto. FreeType draws the letters. With another version of FreeType, the letters may look "
-     "slightly different. The pictures on the sheet are always identical. An SVG file requests DejaVu Sans, but the "
+     "slightly different. The pictures on the sheet do not change. An SVG file requests DejaVu Sans, but the "
      "viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Omit all text. Lambent then needs no font.", NULL,

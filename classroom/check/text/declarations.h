@@ -28,8 +28,8 @@ struct word {
     int line;
     int depth;      // nesting of braces
     bool is_member; // follows a '.'
-    // Used by declarations_uses. The first of several equal words stores how often the word occurs, and how often the
-    // word occurs as a declared name.
+    // Used by declarations_uses. The first entry of each distinct word stores two counts: the word's occurrences,
+    // and its occurrences as a declared name.
     int times, declared;
 };
 

@@ -15,7 +15,8 @@ void contract_describe_unknown(const struct contract *contract, const struct dec
                                const struct declarations *fragment, const char *const *unknown, int count, char *out,
                                size_t capacity);
 
-// Returns whether an unknown name is misspelt: the contract has a similar name that no shader declares.
+// Returns whether an unknown name is probably misspelt, that is, whether the contract contains a similar name of the
+// same type that no shader declares.
 bool contract_is_misspelt(const struct contract *contract, const struct declarations *vertex,
                           const struct declarations *fragment, const char *name);
 

@@ -25,7 +25,9 @@ struct adler_part {
     uint64_t size;
 };
 
-// These functions append to a sequence: one byte, several bytes, zeros, a row of pixels, or the sequence that follows.
+// These functions append bytes to the sequence `part`: one byte, several bytes, `count` zeros, a row of pixels, or the
+// bytes of the sequence `next`.
+//
 // A row consists of `width` 32-bit words. The first `bytes_per_pixel` bytes (1 … 4) of a word are in the stream, and
 // the other bytes of the word must be zero. The words after the row, up to a multiple of 4, must also be zero.
 void adler_byte(struct adler_part *part, uint8_t byte);

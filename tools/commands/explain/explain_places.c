@@ -33,7 +33,8 @@ static void print_matrices(const lam_explained_matrices *m)
     printf("\n");
     print_matrix("model-view matrix", &m->model_view.m[0][0], 4, "object → eye");
     print_matrix("projection matrix", &m->projection.m[0][0], 4, "eye → clip");
-    print_matrix("normal matrix", &m->normal[0][0], 3, "normals: the model-view's 3×3, inverted and transposed");
+    print_matrix("normal matrix", &m->normal[0][0], 3,
+                 "normals: inverse transpose of the model-view matrix's 3×3 block");
 }
 
 // Prints the face normal (p1 − p0) × (p2 − p0), used for flat shading and for meshes without normals.

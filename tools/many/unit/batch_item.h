@@ -22,7 +22,7 @@ struct batch_item {
     int view_count;
     bool one_of_many;            // several models are drawn with the same options
     bool several;                // the command line has several views or sizes
-    bool makes_folders;          // also create the folders of explicitly named pictures
+    bool makes_folders;          // creates the pictures' folders even if the user gave the pictures' paths
     const lam_cancel *cancel;    // stops the drawing; if NULL, only Ctrl-C does
     const struct batch_use *use; // its functions receive the picture; NULL if the picture is written to a file
     size_t index;                // the index of the model in the plan, for `use`

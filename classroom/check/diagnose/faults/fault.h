@@ -128,9 +128,9 @@ enum { MAX_FAULT_BITS = 8 };
 
 struct fault {
     const char *id;
-    uint8_t bits[MAX_FAULT_BITS]; // values of fault_bit, ends with BIT_NONE
+    uint8_t bits[MAX_FAULT_BITS]; // values of fault_bit; the list ends with BIT_NONE
     unsigned where;               // bits of fault_where
-    unsigned needs;          // a reference_need: the fault can occur only if one of the used scenes also has this need
+    unsigned needs; // a reference_need, or 0: the fault can occur only if a scene of the check uses this feature
     const char *explanation; // a clause for the report, expanded like the correction
     const char *correction;  // one line; {place} is replaced by the shader's own name (fault_text)
     unsigned maps;           // bits of fault_maps
@@ -153,8 +153,8 @@ fault_set fault_set_add(const fault_set *set, const struct fault *fault);
 bool fault_applies(const struct fault *fault, const struct shader_interface *interface, lam_light_frame frame,
                    lam_reflection reflection, unsigned needs);
 
-// Returns whether the fault is an accepted form in these shaders, and not a mistake: a style, or a form that their
-// contract does not forbid.
+// Returns whether these shaders may use the fault's form without making a mistake. They may if the form is only a
+// style, or if their contract requires none of the forms in `demand`.
 bool fault_is_style(const struct fault *fault, const struct shader_interface *interface);
 
 // Expands an explanation or a correction: replaces each {place} by the name that the shaders use.

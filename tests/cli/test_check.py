@@ -185,7 +185,7 @@ class Right(CheckTest):
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
 
     def test_printed_shaders_that_cannot_be_checked(self):
-        for words, says in ((["--lights-in", "texture"], "--lights-in array or block"), (["--stage", "application"], "no lighting in it"),
+        for words, says in ((["--lights-in", "texture"], "--lights-in array or block"), (["--stage", "application"], "no lighting to check"),
                             (["--glsl", "120", "--shading", "flat"], "--glsl 330")):
             self.good("shader", *words, "-q", "-o", "p")
             self.bad(3, "check", "p.frag", "--vertex", "p.vert", says=says, leaves=("p.vert", "p.frag"))
@@ -269,7 +269,7 @@ class Right(CheckTest):
         (self.folder / "s.frag").write_text(text)
         report = self.report_of(*words)
         self.assertEqual(report["verdict"], "passes")
-        self.assertIn("not expected: specular; --terms all", " ".join(self.notes(report, "hint")))
+        self.assertIn("no name of these terms: specular; --terms all", " ".join(self.notes(report, "hint")))
         self.assertEqual(self.report_of(*words, "--terms", "ambient,diffuse")["notes"], [])
         report = self.report_of(*words, "--terms", "all", code=6)
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-specular"])
@@ -632,7 +632,7 @@ class Unruly(CheckTest):
             else:
                 self.assertEqual(report["verdict"], "passes")
                 self.assertEqual(len(report["notes"]), 1, report["notes"])  # no name for a diffuse or specular term
-                self.assertIn("not expected: diffuse, specular", report["notes"][0]["text"])
+                self.assertIn("no name of these terms: diffuse, specular", report["notes"][0]["text"])
 
     def test_unused_and_unset(self):
         """An unknown name on which nothing depends does no harm; an unknown name with the value 0 is reported before any mistake."""

@@ -270,14 +270,16 @@ static bool decompress(const struct inflater *d, const uint8_t *compressed, size
 // before it is read, even if four rows are written at once.
 static bool unfilter_rows(const lam_image *image, const uint8_t *rows, const uint8_t *zeros, int channels)
 {
-    size_t width = (size_t)image->width, height = (size_t)image->height, size = pixel_bytes(image->format), made = 1;
+    size_t width = (size_t)image->width, height = (size_t)image->height, size = pixel_bytes(image->format), made;
     const uint8_t *above = zeros;
-    for (size_t y = 0; made && y < height; y += made, rows += (1 + width * (size_t)channels) * made) {
+    for (size_t y = 0; y < height; y += made, rows += (1 + width * (size_t)channels) * made) {
         uint8_t *row = (uint8_t *)image->pixels + size * width * y;
         made = unfilter_next(row, above, rows, height - y, width, size, channels);
+        if (!made)
+            return false;
         above = row + size * width * (made - 1);
     }
-    return made;
+    return true;
 }
 
 static size_t filtered_bytes(size_t width, size_t height, int channels)

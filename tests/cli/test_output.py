@@ -507,6 +507,10 @@ class Killed(Case):
                 elif not (self.folder / "x.png").exists():
                     (self.folder / "x.png").write_bytes(whole)
                 ended += self.kill(number, chance.uniform(0.2, 1) * length) < 0
+                # The process that writes may still be about to rename the file.
+                patience = time.monotonic() + 5
+                while any(name.endswith(".part") for name in self.new_files()) and time.monotonic() < patience:
+                    time.sleep(0.01)
                 with self.subTest(f"signal {number}"):
                     self.assertLessEqual(self.new_files(), {"x.png"})
                     if "x.png" in self.new_files():

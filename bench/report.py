@@ -199,7 +199,7 @@ def readme_section(result):
         numbers += [row["number"] for row in rows.values() if row["name"].startswith("frame ")]
     if not lines:
         return []
-    return table(("work", "Lambent", "F3D", "speed", "Lambent with smooth normals and 4 samples"), lines) + [
+    return table(("work", "Lambent, with the settings of F3D", "F3D", "speed", "Lambent's default picture"), lines) + [
         "", "Measured on %d processors (%s, %s): [docs/speed.md](docs/speed.md#results), rows %s." % (
             result["machine"]["processors"], result["machine"]["processor"], ISA_NAMES[isa], ", ".join(map(str, numbers)))]
 

@@ -543,8 +543,7 @@ static bool check(const struct options *o, const struct sheet *sheet, const char
     return output_check(path, model, output_is_named(o->picture.output), error);
 }
 
-// Adds to `paths` the files that the cells' own options name, as in --across look=my.look and --across
-// environment=a.png,b.png.
+// Adds to `paths` the files that the cells' own options name, as in --across look=my.look.
 static bool reach_cells(const struct compare *c, struct sandbox_paths *paths, lam_error *error)
 {
     struct options own;

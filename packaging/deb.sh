@@ -1,4 +1,5 @@
-# !/bin/sh deb.sh FOLDER: builds the Debian source package and the binary packages of the committed tree in FOLDER (make deb). The version comes from
+#!/bin/sh
+# deb.sh FOLDER: builds the Debian source package and the binary packages of the committed tree in FOLDER (make deb). The version comes from
 # meson.build and the date from the commit, so the same commit gives the same bytes. DEBFULLNAME and DEBEMAIL name the maintainer.
 set -eu
 tree=$(cd "$(dirname "$0")/.." && pwd)

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""count_lines.py [REVISION]: counts the code lines of the product by folder: C, C++, headers, .inc, GLSL, JavaScript and Python, without
-blank lines and comments. Reads git's files in the working tree or in a revision."""
+"""count_lines.py [REVISION [REVISION]]: counts the code lines of the product by folder, without blank lines and comments: C, C++, headers, .inc,
+GLSL, JavaScript, Python and shell scripts. The lines of tests and of the bench are counted separately. Reads git's files in the working tree or in a
+revision. With two revisions, it also prints the difference, which is what an issue's limit of lines refers to."""
 import collections
+import os
 import re
 import subprocess
 import sys
 
-PRODUCT = ["src", "include", "tools", "web", "classroom"]
+PRODUCT = ["src", "include", "tools", "web", "classroom", "python", "scripts", "packaging"]
+TESTS = ["tests", "bench"]
 DRAWING = ("src/cpu/", "src/gl/", "src/glsl/", "src/lighting/")
 C_LIKE = ("c", "h", "cpp", "inc", "glsl", "js", "mjs", "ts")
 # Strings, template literals and the slashes of regular expressions are not comments; the first match wins.
@@ -28,23 +31,43 @@ def git(*words):
     return subprocess.run(["git", *words], stdout=subprocess.PIPE, check=True).stdout
 
 
-def main():
-    revision = sys.argv[1] if len(sys.argv) > 1 else None
-    names = git("ls-tree", "-r", "--name-only", revision, *PRODUCT) if revision else git("ls-files", *PRODUCT)
-    folders, total, drawing = collections.Counter(), 0, 0
-    for name in names.decode().split("\n"):
-        kind = name.rpartition(".")[2]
-        if kind not in C_LIKE + ("py",):
+def kind_of(name, first_line):
+    """How the file marks comments: the extension, or for a file without one the interpreter on its first line; None if it is not code."""
+    ending = name.rpartition(".")[2] if "." in name.rpartition("/")[2] else ""
+    if ending in C_LIKE + ("py", "sh"):
+        return ending
+    return "sh" if first_line.startswith("#!") else None
+
+
+def count(revision):
+    """The lines of each folder, and of the four sums."""
+    listed = git("ls-tree", "-r", "--name-only", revision) if revision else git("ls-files")
+    folders, sums = collections.Counter(), collections.Counter()
+    for name in listed.decode().split("\n"):
+        top = name.split("/")[0]
+        if top not in PRODUCT + TESTS or (not revision and not os.path.exists(name)):
             continue
-        text = git("show", "%s:%s" % (revision, name)).decode() if revision else open(name, encoding="utf-8").read()
-        lines = code_lines(text, kind)
-        folders["/".join(name.split("/")[:-1][:2 if name.startswith(("src/", "tools/")) else 1])] += lines
-        total += lines
-        drawing += lines if name.startswith(DRAWING) else 0
-    for folder, lines in sorted(folders.items()):
-        print("%-24s %6d" % (folder, lines))
-    print("%-24s %6d" % ("cpu + gl + glsl + lighting", drawing))
-    print("%-24s %6d" % ("product", total))
+        data = git("show", "%s:%s" % (revision, name)) if revision else open(name, "rb").read()
+        kind = kind_of(name, data[:80].decode("utf-8", "replace"))
+        if not kind:
+            continue
+        lines = code_lines(data.decode("utf-8", "replace"), kind)
+        folders["/".join(name.split("/")[:-1][:2 if name.startswith(("src/", "tools/", "tests/")) else 1])] += lines
+        sums["tests and bench" if top in TESTS or name.startswith("packaging/debian/tests/") else "product"] += lines
+        sums["cpu + gl + glsl + lighting"] += lines if name.startswith(DRAWING) else 0
+    return folders, sums
+
+
+def main():
+    revisions = sys.argv[1:3] or [None]
+    counted = [count(revision) for revision in revisions]
+    for part in (0, 1):
+        for name in sorted(set().union(*(one[part] for one in counted))):
+            numbers = [one[part][name] for one in counted]
+            difference = " %+7d" % (numbers[1] - numbers[0]) if len(numbers) > 1 else ""
+            if not part and len(numbers) > 1 and numbers[0] == numbers[1]:
+                continue
+            print("%-26s %s%s" % (name, " ".join("%7d" % number for number in numbers), difference))
 
 
 if __name__ == "__main__":

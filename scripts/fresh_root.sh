@@ -1,6 +1,7 @@
-# !/bin/sh fresh_root.sh RELEASE FOLDER COMMAND: runs COMMAND on a fresh Debian release: in a root file system made by mmdebstrap in
-# FOLDER, with the committed tree in /lambent as the current folder. Remove FOLDER to get a new root file system. It needs root. Exit
-# code 77 means that the root file system cannot be made on this machine.
+#!/bin/sh
+# fresh_root.sh RELEASE FOLDER COMMAND: runs COMMAND on a fresh Debian release: in a root file system made by mmdebstrap in FOLDER, with the
+# committed tree in /lambent as the current folder. Remove FOLDER to get a new root file system. It needs root. Exit code 77 means that the
+# root file system cannot be made on this machine.
 set -eu
 tree=$(cd "$(dirname "$0")/.." && pwd)
 release=$1 folder=$2 command=$3

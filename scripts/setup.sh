@@ -1,5 +1,6 @@
-# !/bin/sh setup.sh GROUP…: installs the Debian packages of the named groups (packages.txt) that are missing, and lists them.
-# It is quick if nothing is missing. It uses sudo unless it runs as root.
+#!/bin/sh
+# setup.sh GROUP…: installs the Debian packages of the named groups (packages.txt) that are missing, and lists them. It is quick if nothing
+# is missing. It uses sudo unless it runs as root.
 set -eu
 list="$(dirname "$0")/../packages.txt"
 wanted=""

@@ -1,4 +1,5 @@
-# !/bin/sh build_packages.sh FOLDER: builds the packages of the source package in FOLDER; runs as root in a fresh root file system
+#!/bin/sh
+# build_packages.sh FOLDER: builds the packages of the source package in FOLDER; runs as root in a fresh root file system
 # (tests/long/packages.py).
 set -eu
 export DEBIAN_FRONTEND=noninteractive

@@ -1,5 +1,6 @@
-# !/bin/sh install.sh: runs as root in a fresh Debian root file system, in Lambent's tree: make install, a program that uses the
-# library, make uninstall. tests/long/install.py calls it.
+#!/bin/sh
+# install.sh: runs as root in a fresh Debian root file system, in Lambent's tree: make install, a program that uses the library, make
+# uninstall. tests/long/install.py calls it.
 set -eu
 scripts/setup.sh build
 rm -f /usr/bin/dpkg-architecture # Meson asks this program for the folder of libraries; many systems lack it

@@ -1,4 +1,5 @@
-# !/bin/sh try_packages.sh FOLDER: runs as root in a fresh root file system (tests/long/packages.py): installs the packages of FOLDER, runs the tests
+#!/bin/sh
+# try_packages.sh FOLDER: runs as root in a fresh root file system (tests/long/packages.py): installs the packages of FOLDER, runs the tests
 # of debian/tests as a user, and removes the packages.
 set -eu
 tree=$(cd "$(dirname "$0")/../.." && pwd)

@@ -271,7 +271,7 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
     }
     const lam_error *first = body.failed ? &body.error : &text.error;
     if (body.failed || text.failed || !body.bytes)
-        fail(error, first->code ? first->code : LAM_LIMIT, "%s", first->code ? first->text : "out of memory");
+        fail(error, first->code ? first->code : LAM_MACHINE, "%s", first->code ? first->text : "out of memory");
     free(body.bytes);
     if (ok && !text.failed)
         return text.bytes;

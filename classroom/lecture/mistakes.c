@@ -357,7 +357,7 @@ bool mistake_apply(const struct glsl_choices *c, char **texts, int count, lam_er
         char *edited[TEXTS_MAX];
         enum outcome outcome = apply_row(&mistakes[i], c->light_count, texts, count, edited);
         if (outcome == NO_MEMORY)
-            return fail(error, LAM_LIMIT, "out of memory");
+            return fail(error, LAM_MACHINE, "out of memory");
         if (outcome == APPLIED) {
             free_texts(texts, count);
             memcpy(texts, edited, (size_t)count * sizeof *texts);

@@ -53,11 +53,13 @@ typedef enum lam_code {
     LAM_BAD_ARGUMENT,
     // A file is missing, unreadable, truncated, or invalid in its format.
     LAM_CANNOT_READ,
-    LAM_UNSUPPORTED, // understood, but not supported by this build or machine
-    // A limit was reached: a size, the memory limit, the time limit, or the machine's memory.
-    LAM_LIMIT,
+    LAM_UNSUPPORTED,  // understood, but not supported by this build or machine
+    LAM_LIMIT,        // a limit was reached: a size, the memory limit or the time limit
     LAM_CANNOT_WRITE, // the output cannot be written
     LAM_CANCELLED,    // the caller's cancel flag was raised
+    // The machine failed, not the input: it has no memory, file descriptors, processes or threads left, or a disk cannot be
+    // read. The same call may succeed later.
+    LAM_MACHINE,
 } lam_code;
 
 // An error. The caller need not initialise it: a failing call fills it completely, and a successful call leaves it

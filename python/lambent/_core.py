@@ -39,7 +39,7 @@ class LimitReached(Error):
 
 
 class OutOfMemory(LimitReached, MemoryError):
-    """The machine's memory, or `memory_limit`, is not sufficient."""
+    """The machine's memory, its file descriptors or `memory_limit` are not sufficient."""
 
 
 class TimeLimit(LimitReached, TimeoutError):
@@ -55,7 +55,8 @@ class Cancelled(Error):
 
 
 CLASSES = {lib.LAM_BAD_ARGUMENT: BadValue, lib.LAM_CANNOT_READ: BadModel, lib.LAM_UNSUPPORTED: Unsupported, lib.LAM_LIMIT: LimitReached,
-           lib.LAM_CANNOT_WRITE: CannotWrite, lib.LAM_CANCELLED: Cancelled}
+           lib.LAM_CANNOT_WRITE: CannotWrite, lib.LAM_CANCELLED: Cancelled,
+           lib.LAM_MACHINE: OutOfMemory}
 
 
 def shown(value):

@@ -322,7 +322,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     explanation->arena = recorder.arena; // the recorder's arena has grown, so it is copied back
     if (recorder.failed) {
         lam_explanation_free(out);
-        fail(error, LAM_LIMIT, "out of memory");
+        fail(error, LAM_MACHINE, "out of memory");
         return NULL;
     }
     return out;

@@ -215,7 +215,7 @@ static bool pack(struct exporting *e, const struct library *zip, const struct te
         zip->zip_source_free(source);
     zip->zip_error_fini(&reason);
     return ok || (export_is_whole(e) && export_text_is_whole(e, &e->text) &&
-                  fail(e->error, LAM_LIMIT, "%s: libzip cannot pack the model: out of memory", e->name));
+                  fail(e->error, LAM_MACHINE, "%s: libzip cannot pack the model: out of memory", e->name));
 }
 
 static void lose(struct exporting *e)

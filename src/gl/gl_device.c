@@ -226,7 +226,7 @@ static bool check_errors(struct gl_frame *f, lam_error *error)
 {
     GLenum code = f->gl->GetError();
     if (code == GL_OUT_OF_MEMORY)
-        return fail(error, LAM_LIMIT, "OpenGL: '%s' is out of memory", f->device->context.renderer);
+        return fail(error, LAM_MACHINE, "OpenGL: '%s' is out of memory", f->device->context.renderer);
     if (code != GL_NO_ERROR)
         return fail(error, LAM_UNSUPPORTED, "OpenGL: the driver of '%s' reports error 0x%x",
                     f->device->context.renderer, code);

@@ -161,7 +161,7 @@ void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum 
     void *mapped =
         f->gl->MapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)bytes, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
     if (!mapped) {
-        fail(error, LAM_LIMIT, "OpenGL: '%s' is out of memory: %zu bytes of vertices", f->device->context.renderer,
+        fail(error, LAM_MACHINE, "OpenGL: '%s' is out of memory: %zu bytes of vertices", f->device->context.renderer,
              bytes);
         return NULL;
     }

@@ -290,7 +290,7 @@ void equations_add(struct text *text, const struct stage_source *sources, int co
         write_kept(text, w);
     } else {
         text->failed = true;
-        fail(&text->error, LAM_LIMIT, "out of memory");
+        fail(&text->error, LAM_MACHINE, "out of memory");
     }
     for (int i = 0; w && i < w->source_count; i++)
         free(w->texts[i].bytes);

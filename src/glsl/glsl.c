@@ -57,7 +57,7 @@ static char *make_stage(const struct glsl_facts *f, bool fragment, lam_error *er
     bool failed = body.failed || text.failed || !text.bytes;
     if (failed) {
         const lam_error *first = body.failed ? &body.error : &text.error;
-        fail(error, first->code ? first->code : LAM_LIMIT, "%s", first->code ? first->text : "out of memory");
+        fail(error, first->code ? first->code : LAM_MACHINE, "%s", first->code ? first->text : "out of memory");
         free(text.bytes);
     }
     free(body.bytes);

@@ -88,7 +88,7 @@ static bool open_contained(lam_font *font, lam_error *error)
     if (uncompress(font->bytes, &size, static_font, static_font_packed_size) == Z_OK &&
         font->ft.FT_New_Memory_Face(font->library, font->bytes, (FT_Long)size, 0, &font->face) == 0)
         return true;
-    return fail(error, LAM_LIMIT, "text: the program's own font cannot be opened: out of memory");
+    return fail(error, LAM_MACHINE, "text: the program's own font cannot be opened: out of memory");
 #else
     (void)font;
     return fail(error, LAM_UNSUPPORTED, "text: none of the default fonts is installed; " NEEDED);
@@ -115,7 +115,7 @@ lam_font *lam_font_open(const char *path, lam_error *error)
     path = path ? path : find_font();
     bool ok = open_freetype(&font->ft, error);
     if (ok && font->ft.FT_Init_FreeType(&font->library) != 0)
-        ok = fail(error, LAM_LIMIT, "text: FreeType did not start: out of memory");
+        ok = fail(error, LAM_MACHINE, "text: FreeType did not start: out of memory");
     ok = ok && (path ? open_file(font, path, error) : open_contained(font, error));
     if (ok)
         return font;

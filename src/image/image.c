@@ -29,8 +29,9 @@ bool image_make_larger(lam_image *image, int width, int height, lam_pixel_format
     // At most half of the memory is used, because drawing and encoding also need memory.
     void *pixels = bytes <= SIZE_MAX && bytes <= pages_of_machine() / 2 ? pages_malloc((size_t)bytes) : NULL;
     if (!pixels)
-        return fail(error, LAM_LIMIT, "image: %d×%d pixels need %.1f MB of memory, which is not available", width,
-                    height, (double)bytes / 1e6);
+        return fail(error, bytes <= pages_of_machine() / 2 ? LAM_MACHINE : LAM_LIMIT,
+                    "image: %d×%d pixels need %.1f MB of memory, which is not available", width, height,
+                    (double)bytes / 1e6);
     *image = (lam_image){.width = width, .height = height, .format = format, .owned = true, .pixels = pixels};
     return true;
 }

@@ -207,7 +207,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     struct lam_scene *scene = NULL;
     struct file_bytes file = {0};
     const struct importer *importer = NULL;
-    bool ok = source.pool || fail(error, LAM_LIMIT, "%s: out of memory for threads", name);
+    bool ok = source.pool || fail(error, LAM_MACHINE, "%s: out of memory for threads", name);
     ok = ok && (folder || !path || fail_memory(error, strlen(path)));
     bool loaded = ok && load_in_parts(&source, &importer, &scene, error);
     call_add_input(&call, path ? 0 : size);

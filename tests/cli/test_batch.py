@@ -5,6 +5,7 @@ import os
 import pathlib
 import pty
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -276,7 +277,7 @@ class Pictures(Batch):
         self.assertIn("3 of 4 pictures written, 1 failed (cannot-read 1)", done.stderr.decode())
         self.assertIn("in/b/m1.stl", done.stderr.decode())
         [failed] = [r for r in self.journal() if r["class"] != "ok"]
-        self.assertEqual((failed["class"], failed["exit"], failed["attempt"]), ("cannot-read", 2, 1))
+        self.assertEqual((failed["class"], failed["exit"], failed["attempt"], failed["cause"]), ("cannot-read", 2, 1, "model"))
         for more in ([], ["--resume"], ["--isolate"], ["--retry-failed", "1"]):
             done = self.batch("in", "-o", "out/", "--failures-ok", *more)
             self.assertIn("1 failed", done.stderr.decode())
@@ -307,8 +308,75 @@ class Crashes(Batch):
         self.assertIn("its process was ended by signal 11 (Segmentation fault)", text)
         self.assertIn("1 of 2 pictures written, 1 failed (crashed 1)", text)
         records = self.journal()
-        self.assertEqual(sorted((r["class"], r["exit"]) for r in records), [("crashed", 8), ("ok", 0)])
+        self.assertEqual(sorted((r["class"], r["exit"], r.get("cause")) for r in records), [("crashed", 8, "machine"), ("ok", 0, None)])
         self.assertEqual(len(self.pictures()), 1)
+
+
+class Machines(Batch):
+    """A failure of the machine is not a failure of the model: --resume draws the picture, --failures-ok does not hide the failure."""
+
+    def limited(self, kind, limit, *words):
+        def apply():
+            resource.setrlimit(kind, (limit, resource.getrlimit(kind)[1]))
+        return subprocess.run([PROGRAM, "batch", "in", "-s", "24", "-o", "out/", "--failures-ok", "--resume", *words], cwd=self.folder, preexec_fn=apply, capture_output=True)
+
+    def check_resumed(self, count, stopped):
+        """Ten failures in succession end the run with 5, and `lambent journal` exits as the run did. The next run draws every picture."""
+        self.assertEqual(stopped.returncode, 5, stopped.stderr)
+        self.assertIn(b"10 pictures in succession failed because of this machine", stopped.stderr)
+        failed = [r for r in self.journal() if r["class"] != "ok"]
+        self.assertEqual({r["cause"] for r in failed}, {"machine"})
+        self.assertLess(len(failed), 15)
+        self.assertEqual(self.run_program("journal", "out").returncode, 5)
+        self.batch("in", "-o", "out/", "--failures-ok", "--resume")
+        self.assertEqual(len(self.pictures()), count)
+        self.assertEqual(self.run_program("journal", "out").returncode, 0)
+
+    def test_no_descriptors(self):
+        self.tree(24)
+        self.check_resumed(24, self.limited(resource.RLIMIT_NOFILE, 8, "--isolate", "-j", "2"))
+
+    def test_no_space(self):
+        """The picture's folder is a file system without inodes."""
+        self.tree(24)
+        out = self.folder / "out"
+        out.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64m,nr_inodes=8", "tmpfs", out], capture_output=True).returncode:
+            self.skipTest("a file system can be mounted only by root")
+        try:
+            for words in ([], ["--isolate"], ["--sandbox", "off"]):
+                subprocess.run(["mount", "-o", "remount,nr_inodes=8", out], check=True)
+                stopped = self.limited(resource.RLIMIT_NOFILE, 1000, *words)
+                subprocess.run(["mount", "-o", "remount,nr_inodes=1000", out], check=True)
+                self.check_resumed(24, stopped)
+                for file in out.iterdir():
+                    file.unlink()
+        finally:
+            subprocess.run(["umount", out], check=True)
+
+    def test_older_lines_and_mixed_failures(self):
+        """Lines of older versions have no cause. Exit codes 4 and 5 are tried again once, 2 is not."""
+        names = self.tree(4)
+        self.batch("in", "-o", "out/")
+        path = self.folder / "out/lambent.jsonl"
+        lines = [json.loads(line) for line in path.read_text().splitlines()]
+        for line, exit, cause in zip([line for line in lines if "model" in line], (2, 4, 5, 8), (None, None, None, "machine")):
+            line.update({"class": "failed", "exit": exit, "error": "e", **({"cause": cause} if cause else {})})
+        path.write_text("".join(json.dumps(line) + "\n" for line in lines))
+        for name in self.pictures():
+            (self.folder / "out" / name).unlink()
+        done = self.batch("in", "-o", "out/", "--resume", "--failures-ok")
+        self.assertIn("3 of 4 pictures written, 1 failed", done.stderr.decode())
+        self.assertEqual(len(names) - 1, len(self.pictures()))
+
+    def test_a_model_that_ends_its_process(self):
+        """The third time that a model's process is killed, the cause is the model, and the run no longer waits for it."""
+        self.tree(1)
+        for attempt, cause, code in ((1, "machine", 7), (2, "machine", 7), (3, "model", 0)):
+            self.limited(resource.RLIMIT_CPU, 1, "-s", "12000", "--samples", "16", "--shadows", "--isolate", "-j", "1")
+            [line] = self.journal()[-1:]
+            self.assertEqual((line["attempt"], line["cause"]), (attempt, cause))
+            self.assertEqual(self.run_program("journal", "out").returncode, code)
 
 
 class Terminal(Batch):

@@ -324,7 +324,7 @@ class Merge(Batch):
         self.sum("out")
         path = self.folder / "out/lambent-3-of-4.jsonl"
         lines = path.read_text().splitlines(True)
-        self.assertEqual(json.loads(lines[-1]), {"ended": True})
+        self.assertEqual(json.loads(lines[-1]), {"ended": True, "exit": 0})
         path.write_text("".join(lines[:-2]) + lines[-2][:40])
         text = self.sum("out", code=7)
         self.assertIn(f"out/lambent-3-of-4.jsonl: the run has not ended: {len(lines) - 3} of {len(lines) - 2} pictures\n8 of 9 pictures", text)

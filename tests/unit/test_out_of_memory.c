@@ -1,7 +1,7 @@
 // test_out_of_memory.c: loads and draws small files of every format while single memory requests fail, and while reads
 // return too little.
 //
-// Whenever memory runs out, a call gives the same picture as usual, or LAM_LIMIT and a message about memory; nothing
+// Whenever memory runs out, a call gives the same picture as usual, or LAM_MACHINE and a message about memory; nothing
 // stays allocated. `test-out-of-memory FILE N`, for a debugger: one request of one row.
 #include "failing_memory.h"
 
@@ -251,7 +251,7 @@ static int fail_each_request(const struct row *row)
             // A warning may be omitted if memory is insufficient; nothing else may.
             const bool good =
                 now.ok ? memcmp(now.pixels, whole.pixels, sizeof now.pixels) == 0 && now.warnings <= whole.warnings
-                       : failed && now.error.code == LAM_LIMIT && strstr(now.error.text, "memory");
+                       : failed && now.error.code == LAM_MACHINE && strstr(now.error.text, "memory");
             if (good && after.blocks == before.blocks && after.mapped == before.mapped)
                 continue;
             mistakes++;
@@ -309,7 +309,8 @@ static void test_reads_fall_short(void **state)
                 reads_end_at(-1, false);
                 const struct memory_held after = memory_held();
                 // An unreadable map causes a warning and another picture.
-                if (now.ok ? now.warnings == whole.warnings : now.error.code != LAM_CANNOT_READ || !now.error.text[0])
+                if (now.ok ? now.warnings == whole.warnings
+                           : now.error.code != (error ? LAM_MACHINE : LAM_CANNOT_READ) || !now.error.text[0])
                     fail_msg("%s, %s at byte %ld: %s (code %d)", row->file, error ? "an error" : "the end", at,
                              now.ok ? "a picture" : now.error.text, now.error.code);
                 assert_true(ended);

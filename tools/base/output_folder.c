@@ -20,7 +20,7 @@ bool output_make_folder(const char *path, lam_error *error)
 {
     char *folder = output_folder_of(path);
     if (!folder)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool ok = true;
     for (char *end = folder; ok && *end;) { // starts with the topmost folder
         end += 1 + strcspn(end + 1, "/");

@@ -60,7 +60,7 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
         for (int k = 0; k < plan->view_count; k++) {
             char *output = batch_plan_output(plan, i, k);
             if (!output)
-                return complain(error, LAM_LIMIT, "out of memory");
+                return complain(error, LAM_MACHINE, "out of memory");
             if (plan->options->report.json) {
                 struct json json = {.file = stdout};
                 json_open(&json, NULL, '{');
@@ -113,7 +113,7 @@ int run_batch(int operand_count, char **operands, const struct options *options)
         ok = print_mapping(&plan, &error);
     char *journal = ok && !options->report.dry_run ? journal_path(&plan, &none) : NULL;
     if (ok && !options->report.dry_run && !journal)
-        ok = complain(&error, LAM_LIMIT, "out of memory");
+        ok = complain(&error, LAM_MACHINE, "out of memory");
     int code = 0;
     if (!ok)
         code = report_failure(&error, options);

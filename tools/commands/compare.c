@@ -93,7 +93,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
                          struct options *options, lam_error *error)
 {
     if (!options_copy(options, c->options))
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     char *words[2 * SHEET_DEFAULTS_MAX + CELL_WORDS + 4]; // options_parse does not modify the words
     int count = 0;
     for (int i = 0; i < c->default_count; i++)
@@ -110,7 +110,7 @@ static bool cell_options(const struct compare *c, const struct cell *cell, const
         options->draw.occlusion = LAM_OCCLUSION_OFF;
     options->shader.lecture_device = c->sheet.mistakes;
     options->shader.mistake = cell->mistake;
-    bool ok = share_rotations(&c->sheet, options) || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = share_rotations(&c->sheet, options) || complain(error, LAM_MACHINE, "out of memory");
     ok = ok && options_parse(count, words, find_groups("render"), options, error) >= 0;
     if (!ok)
         options_free(options);
@@ -371,13 +371,14 @@ static bool describe(struct compare *c, const char *title, lam_error *error)
     size_t size = 0;
     FILE *file = open_memstream(&text, &size);
     if (!file)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     fprintf(file, "%d pictures:", c->sheet.count);
     for (int i = 0; i < c->sheet.count; i++)
         fprintf(file, "%s %s", i ? ";" : "", caption_of(c, &c->sheet.cells[i]));
     bool failed = ferror(file);
     failed |= fclose(file) != 0;
-    bool ok = failed ? complain(error, LAM_LIMIT, "out of memory") : drawing_describe(&c->drawing, title, text, error);
+    bool ok =
+        failed ? complain(error, LAM_MACHINE, "out of memory") : drawing_describe(&c->drawing, title, text, error);
     free(text);
     return ok;
 }
@@ -564,7 +565,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
     lam_error error = {0};
     char *store[ACROSS_MAX] = {0}, *path = NULL;
     bool ok = sheet_choose(options, &c.sheet, store, &error);
-    ok = ok && ((path = path_of(options, c.model, c.sheet.name)) || complain(&error, LAM_LIMIT, "out of memory"));
+    ok = ok && ((path = path_of(options, c.model, c.sheet.name)) || complain(&error, LAM_MACHINE, "out of memory"));
     ok = ok && check(options, &c.sheet, c.model, path, &error);
     if (ok) {
         struct sandbox_paths paths = {0};

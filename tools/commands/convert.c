@@ -139,10 +139,10 @@ static bool write_files(struct convert *c, lam_error *error)
     while (lam_export_file_name(c->result, count))
         count++;
     struct writer_file *files = calloc((size_t)count + 1, sizeof *files);
-    bool ok = files || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = files || complain(error, LAM_MACHINE, "out of memory");
     for (int i = count - 1; ok && i >= 0; i--) {
         char *path = path_of(c, i);
-        ok = path || complain(error, LAM_LIMIT, "out of memory");
+        ok = path || complain(error, LAM_MACHINE, "out of memory");
         ok = ok && job_check_inputs(c->job.scene, path, false, error) && (i == 0 || check_beside(c, path, error));
         if (path)
             files[filled++] = (struct writer_file){path, lam_export_file(c->result, i), right_of(c, path)};

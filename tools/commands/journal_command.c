@@ -37,7 +37,7 @@ static bool sum_times(const struct journal_sum *sum, struct times *times, lam_er
     float *list = calloc(sum->written + 1, sizeof *list);
     size_t count = 0;
     if (!list)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (size_t i = 0; i < sum->count; i++) {
         const struct journal_entry *entry = &sum->entries[i];
         if (entry->ms <= 0)
@@ -72,7 +72,7 @@ static bool sum_classes(const struct journal_sum *sum, struct batch_tally *tally
         batch_count_class(tally, exit_code_name(journal_value(record, "class")));
         json_decref(record);
         if (!record)
-            return complain(error, LAM_LIMIT, "out of memory");
+            return complain(error, LAM_MACHINE, "out of memory");
     }
     return true;
 }
@@ -217,10 +217,10 @@ static bool write_merged(const struct journal_sum *sum, size_t pictures, const c
         putc('\n', out);
     }
     if (ok && journal_sum_is_whole(sum))
-        fputs("{\"ended\":true}\n", out);
+        fprintf(out, "{\"ended\":true,\"exit\":%d}\n", journal_sum_exit(sum));
     if (out && !standard)
         ok = fclose(out) == 0 && ok;
-    ok = ok || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok || complain(error, LAM_MACHINE, "out of memory");
     ok = ok && (standard || writer_save(path, &(lam_bytes){text, size}, false, error));
     json_decref(run);
     free(line);
@@ -293,7 +293,7 @@ int run_journal(int operand_count, char **operands, const struct options *o)
         print_failures(&sum);
         print_sum(&sum, &tally, &times);
     }
-    int code = !ok ? report_failure(&error, o) : sum.failed || !journal_sum_is_whole(&sum) ? EXIT_SOME_FAILED : 0;
+    int code = !ok ? report_failure(&error, o) : journal_sum_exit(&sum);
     journal_sum_free(&sum);
     return code;
 }

@@ -255,7 +255,7 @@ int run_materials(int operand_count, char **operands, const struct options *opti
     if (ok && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO) && !terminal_shows())
         ok = terminal_refuse("materials", &error);
     char *path = ok ? output_path(output, "materials", ".png") : NULL;
-    ok = ok && (path ? make_sheet(options, path, &error) : complain(&error, LAM_LIMIT, "out of memory"));
+    ok = ok && (path ? make_sheet(options, path, &error) : complain(&error, LAM_MACHINE, "out of memory"));
     free(path);
     if (!ok)
         return report_failure(&error, options);

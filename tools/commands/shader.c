@@ -95,7 +95,7 @@ static bool write_file(const char *output, const char *base, const char *ending,
 {
     char *path = malloc(strlen(base) + strlen(ending) + 1);
     if (!path)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     strcpy(path, base);
     strcat(path, ending);
     lam_bytes bytes = {(void *)(uintptr_t)text, size};
@@ -128,7 +128,7 @@ static bool write_files(const struct options *o, const lam_shader *shader, const
     char *base = base_of(o->picture.output, model), *host = NULL;
     size_t host_size = 0;
     if (!base)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool ok = write_file(o->picture.output, base, endings[0], shader->vertex, strlen(shader->vertex), error) &&
               write_file(o->picture.output, base, endings[1], shader->fragment, strlen(shader->fragment), error);
     if (ok && shader->application)
@@ -138,7 +138,7 @@ static bool write_files(const struct options *o, const lam_shader *shader, const
         const char *name = strrchr(base, '/');
         if (file)
             shader_host(file, shader, name ? name + 1 : base, model);
-        ok = (file && fclose(file) == 0) || complain(error, LAM_LIMIT, "out of memory");
+        ok = (file && fclose(file) == 0) || complain(error, LAM_MACHINE, "out of memory");
         ok = ok && write_file(o->picture.output, base, endings[3], host, host_size, error);
         free(host);
     }

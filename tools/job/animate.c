@@ -141,7 +141,7 @@ static bool name_frames(struct job *job, const struct animation *a, lam_error *e
     job->frames.first = path_of_frame(a, 0);
     job->frames.last = path_of_frame(a, a->count - 1);
     job->output = job->frames.first;
-    return (job->frames.first && job->frames.last) || complain(error, LAM_LIMIT, "out of memory");
+    return (job->frames.first && job->frames.last) || complain(error, LAM_MACHINE, "out of memory");
 }
 
 // --- the options of a frame
@@ -162,7 +162,7 @@ static bool add_turns(struct animation *a, struct options *o, lam_error *error)
     free(o->shading.sheet_rotations.items);
     o->shading.sheet_rotations = (struct texts){.items = items};
     if (!items)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     if (about_up || any)
         items[o->shading.sheet_rotations.count++] = all[up_letter(a->up) - 'x'];
     if (any) // with two axes, the camera is fitted for any rotation
@@ -178,7 +178,7 @@ static bool set_options(struct animation *a, int frame, lam_error *error)
     options_free(&a->frame);
     if (!options_copy(&a->frame, a->given)) {
         a->frame = (struct options){0};
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     }
     struct options *o = &a->frame;
     for (int i = 0; i < a->sweep_count; i++) {
@@ -362,7 +362,7 @@ static bool begin(struct job *job, const struct options *o, lam_error *error)
     a->sweeps = calloc((size_t)o->animation.sweeps.count + 1, sizeof *a->sweeps);
     a->words = calloc((size_t)o->animation.sweeps.count + 1, sizeof *a->words);
     if (!a->sweeps || !a->words)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     if (o->animation.sweeps.count > OPTIONS_MAX)
         return complain(error, LAM_BAD_ARGUMENT, "option '--sweep': given %d times, expected at most %d",
                         o->animation.sweeps.count, OPTIONS_MAX);
@@ -396,7 +396,7 @@ static bool put_frame(struct job *job, lam_animation *file, lam_error *error)
     if (!file) {
         char *path = path_of_frame(job->animation, job->animation->index);
         job->output = path;
-        bool ok = path ? job_write(job, error) : complain(error, LAM_LIMIT, "out of memory");
+        bool ok = path ? job_write(job, error) : complain(error, LAM_MACHINE, "out of memory");
         job->output = job->frames.first;
         free(path);
         return ok;
@@ -431,7 +431,7 @@ static bool draw_frames(struct job *job, lam_animation *file, struct progress *p
     struct animation *a = job->animation;
     lam_frame_report *reports = calloc((size_t)a->count, sizeof *reports);
     uint64_t covered = 0;
-    bool ok = reports || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = reports || complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; ok && i < a->count; i++) {
         job->times.frame_start = clock_ms();
         ok = prepare(job, i, error) && job_arrange(job, progress, error) &&

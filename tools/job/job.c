@@ -304,7 +304,7 @@ static bool fill_darkness(struct job *job, lam_draw_params *draw, int width, int
     int count = lam_scene_light_count(job->scene);
     job->unfilled = malloc((size_t)count * sizeof *job->unfilled);
     if (!job->unfilled)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; i < count; i++)
         job->unfilled[i] = *lam_scene_light(job->scene, i);
     if (!job_control(job, NULL, &control, error) ||
@@ -380,7 +380,7 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
     const int count = job->options->work.repeat;
     lam_frame_report *reports = calloc((size_t)count, sizeof *reports);
     if (!reports)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool ok = job_draw_frames(job, 0.5, 0.5, count, reports, progress, error);
     if (ok)
         job_time_frames(job, reports, count);

@@ -98,7 +98,7 @@ static bool keep_lights(struct job *job, lam_error *error)
     job->lights = calloc((size_t)job->light_count + 1, sizeof *job->lights);
     for (int i = 0; job->lights && i < job->light_count; i++)
         job->lights[i] = *lam_scene_light(job->scene, i);
-    return job->lights || complain(error, LAM_LIMIT, "out of memory");
+    return job->lights || complain(error, LAM_MACHINE, "out of memory");
 }
 
 bool job_light_again(struct job *job, lam_error *error)
@@ -142,7 +142,7 @@ bool job_place_camera(struct job *job, lam_error *error)
         return false;
     double start = clock_ms();
     if (job->view_count && !(job->cameras = calloc((size_t)job->view_count, sizeof *job->cameras)))
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     // in reverse order, so that the first view is the current view afterwards
     for (int i = job->view_count - 1; i >= 0; i--) {
         job_choose_view(job, &job->views[i]);

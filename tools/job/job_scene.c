@@ -57,7 +57,7 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
     char *text;
     struct material_option color;
     if (asprintf(&text, "color=%s", o->material.model_color) < 0)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool ok = material_option_parse(text, (lam_color_mode)o->picture.color_mode, &color, error) &&
               material_option_set(&color, false, "color", scene, error);
     free(text);

@@ -41,7 +41,7 @@ bool kept_model_take(struct kept_model *model, struct job *job, struct progress 
 {
     char *key = key_of(job->model, job->options);
     if (!key)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool same = model->key && strcmp(model->key, key) == 0;
     if (!same) {
         kept_model_forget(model);

@@ -111,7 +111,7 @@ bool light_markers_add(struct job *job, lam_error *error)
         return true;
     lam_light *lights = calloc((size_t)count + 1, sizeof *lights);
     if (!lights)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     lam_draw_lights(scene, job->rig, job->options->draw.ground, lights, count);
     // The rig's lights are added to the scene first, because some of them depend on the scene's sphere, which the
     // markers enlarge.

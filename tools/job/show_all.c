@@ -88,7 +88,7 @@ bool show_all_write(struct job *job, const lam_control *control, lam_error *erro
                             .names = calloc(room, sizeof *layers.names)};
     bool ok = lights && layers.list && layers.images && layers.names;
     if (!ok)
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
     if (ok) {
         lam_draw_lights(job->scene, job->draw.rig, job->draw.ground, lights, light_count);
         ok = draw_all(&layers, job, lights, light_count, control, error) && save_layers(&layers, job, error);

@@ -74,7 +74,8 @@ static void draw_here(struct batch *b, struct batch_unit *u)
     if (device)
         batch_unit_draw(u, b, &options, device, NULL, true);
     else if (asprintf(&u->err, "lambent: %s\n", error.text) >= 0)
-        batch_unit_fail(u, b, exit_code_of(error.code)->name, exit_code_of(error.code)->code, error.text);
+        batch_unit_fail(u, b, exit_code_of(error.code)->name, exit_code_of(error.code)->code,
+                        batch_is_by_machine(&error), error.text);
     lam_device_free(device);
 }
 
@@ -189,7 +190,7 @@ static void fail_process(struct batch *b, struct batch_unit *u, const struct bat
     if (asprintf(&u->err, "lambent: %s\n", error.text) < 0)
         u->err = NULL;
     const char *class = crashed ? "crashed" : exit_code_of(LAM_LIMIT)->name;
-    batch_unit_fail(u, b, class, crashed ? EXIT_CRASHED : exit_code_of(LAM_LIMIT)->code, error.text);
+    batch_unit_fail(u, b, class, crashed ? EXIT_CRASHED : exit_code_of(LAM_LIMIT)->code, crashed, error.text);
 }
 
 static bool has_open(const struct batch_unit *u)
@@ -253,10 +254,11 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
         child_wait_pid(writer);
         if (open) {
             if (!error.code)
-                complain(&error, LAM_LIMIT, "%.400s: cannot start a process: %s", path, strerror(errno));
+                complain(&error, LAM_MACHINE, "%.400s: cannot start a process: %s", path, strerror(errno));
             if (asprintf(&u->err, "lambent: %s\n", error.text) < 0)
                 u->err = NULL;
-            batch_unit_fail(u, b, exit_code_of(LAM_LIMIT)->name, exit_code_of(LAM_LIMIT)->code, error.text);
+            batch_unit_fail(u, b, exit_code_of(LAM_LIMIT)->name, exit_code_of(LAM_LIMIT)->code,
+                            batch_is_by_machine(&error), error.text);
         }
         batch_deliver(b, u);
         batch_unit_free(u);
@@ -291,7 +293,7 @@ void batch_isolate(struct batch *b)
     struct batch_process *processes = calloc((size_t)b->workers, sizeof *processes);
     lam_error error;
     if (!units || !processes) {
-        complain(&error, LAM_LIMIT, "out of memory");
+        complain(&error, LAM_MACHINE, "out of memory");
         batch_stop(b, &error);
     }
     int running = 0;

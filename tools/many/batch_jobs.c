@@ -87,7 +87,7 @@ struct batch_jobs *batch_jobs_open(struct batch *b, lam_error *error)
     const struct options *o = b->options;
     struct batch_jobs *jobs = calloc(1, sizeof *jobs);
     if (!jobs)
-        return complain(error, LAM_LIMIT, "out of memory"), NULL;
+        return complain(error, LAM_MACHINE, "out of memory"), NULL;
     jobs->batch = b;
     jobs->stream =
         (struct job_stream){.file = -1, .limit = o->batch.line_limit_bytes ? o->batch.line_limit_bytes : LINE_LIMIT};
@@ -339,7 +339,7 @@ static void read_more(struct batch_jobs *jobs, int wait_ms)
         job_answers_fail(&jobs->out, EPIPE);
     if (!wait[0].revents || job_stream_read(&jobs->stream))
         return;
-    complain(&error, errno == ENOMEM ? LAM_LIMIT : LAM_CANNOT_READ, "the jobs cannot be read: %s", strerror(errno));
+    complain(&error, errno == ENOMEM ? LAM_MACHINE : LAM_CANNOT_READ, "the jobs cannot be read: %s", strerror(errno));
     batch_stop(jobs->batch, &error);
 }
 

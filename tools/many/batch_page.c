@@ -208,7 +208,7 @@ bool batch_page_write(const struct batch_page *page, lam_error *error)
     FILE *out = open_memstream(&text, &size);
     if (out)
         put_page(out, page);
-    bool ok = (out && fclose(out) == 0) || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = (out && fclose(out) == 0) || complain(error, LAM_MACHINE, "out of memory");
     ok = ok && writer_save(page->path, &(lam_bytes){text, size}, false, error);
     free(text);
     return ok;

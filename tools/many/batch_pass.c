@@ -26,6 +26,7 @@ static bool reopen(struct batch *b, size_t model)
             picture->outcome = PICTURE_OPEN;
             b->tally.failed--;
             b->tally.retried--;
+            b->tally.by_machine -= picture->by_machine;
             b->tally.classes[picture->class].count--;
             open = true;
         }
@@ -137,6 +138,8 @@ void batch_end_suspects(struct batch *b)
 
 // --- results
 
+enum { MACHINE_FAILURES = 10 }; // after this many in succession, the run stops
+
 static void count(struct batch *b, const struct batch_unit *u, int view)
 {
     struct batch_tally *t = &b->tally;
@@ -147,6 +150,7 @@ static void count(struct batch *b, const struct batch_unit *u, int view)
         break;
     case PICTURE_WRITTEN:
         t->written++;
+        t->by_machine_in_row = 0;
         break;
     case PICTURE_SAME:
         t->same++;
@@ -156,6 +160,8 @@ static void count(struct batch *b, const struct batch_unit *u, int view)
         break;
     case PICTURE_FAILED:
         t->failed++;
+        t->by_machine += picture->by_machine;
+        t->by_machine_in_row += picture->by_machine;
         t->retried += picture->attempts <= b->options->batch.retry_failed;
         picture->class = (uint8_t)batch_count_class(t, class ? class : "failed");
         break;
@@ -208,6 +214,11 @@ void batch_deliver(struct batch *b, struct batch_unit *u)
     }
     batch_show_progress(&b->tally);
     pthread_mutex_unlock(&b->lock);
+    if (ok && !job && b->is_batch && b->tally.by_machine_in_row >= MACHINE_FAILURES)
+        ok = complain(&error, LAM_CANNOT_WRITE,
+                      "%d pictures in succession failed because of this machine, not because of their models; mend the "
+                      "cause and repeat the command with --resume",
+                      MACHINE_FAILURES);
     if (!ok)
         batch_stop(b, &error);
     if (job)

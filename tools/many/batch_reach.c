@@ -38,7 +38,7 @@ static bool make_folder(char *folder, lam_error *error)
 {
     char *file = NULL;
     bool ok = folder && asprintf(&file, "%s%s", folder, *folder ? "." : "./.") >= 0;
-    ok = ok ? output_make_folder(file, error) : complain(error, LAM_LIMIT, "out of memory");
+    ok = ok ? output_make_folder(file, error) : complain(error, LAM_MACHINE, "out of memory");
     free(file);
     free(folder);
     return ok;

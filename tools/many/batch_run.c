@@ -181,7 +181,7 @@ static void run_threads(struct batch *b, struct worker *workers)
         pthread_join(reader, NULL);
     lam_error error;
     if (!started && b->jobs) {
-        complain(&error, LAM_LIMIT, "cannot start a thread");
+        complain(&error, LAM_MACHINE, "cannot start a thread");
         batch_stop(b, &error);
     } else if (!started) { // no other thread started, so this thread draws
         b->drawing = 1;
@@ -222,7 +222,7 @@ static bool run_passes(struct batch *b, lam_error *error)
 {
     struct worker *workers = b->options->batch.isolate ? NULL : calloc((size_t)b->workers, sizeof *workers);
     if (!workers && !b->options->batch.isolate)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     draw_suspects(b);
     bool ok = !workers || (batch_reach_enter(b, 0, b->plan->count, error) && make_workers(b, workers, error));
     for (int pass = 0; ok && (b->jobs ? pass == 0 : batch_begin_pass(b, pass)); pass++) {
@@ -292,7 +292,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     bool keeps = o->batch.report_page || b->use;
     b->records = keeps ? calloc(pictures + 1, sizeof *b->records) : NULL;
     if (!b->pictures || !b->taken || !b->texts.list || (keeps && !b->records))
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     b->tally = (struct batch_tally){.shard = b->plan->shard,
                                     .total = pictures,
                                     .start_ms = clock_ms(),
@@ -303,12 +303,12 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     if (!batch_reach_make(b, journal, error))
         return false;
     char *all = journal ? pictures_text(b) : NULL;
-    bool ok = !journal || all || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = !journal || all || complain(error, LAM_MACHINE, "out of memory");
     char shard[32] = "";
     if (b->plan->shard.count)
         snprintf(shard, sizeof shard, "%d/%d", b->plan->shard.number, b->plan->shard.count);
     char *folder = journal ? batch_plan_folder(b->plan) : NULL;
-    ok = ok && (!journal || folder || complain(error, LAM_LIMIT, "out of memory"));
+    ok = ok && (!journal || folder || complain(error, LAM_MACHINE, "out of memory"));
     struct journal_run run = {all, folder, *shard ? shard : NULL, pictures};
     ok = ok && (!journal || (b->journal = journal_open(journal, b->way, &run, b->workers, error)));
     free(folder);
@@ -415,13 +415,13 @@ static int run(const struct batch_plan *plan, const char *journal, bool is_batch
     bool started = start(&b, journal, &error), ok = started && run_passes(&b, &error);
     if (started && ok)
         finish(&b);
-    journal_close(b.journal, ok && !interrupted() && !b.failed, interrupted());
-    int code = ok ? b.code : report_failure(&error, plan->options);
+    int code = !ok ? report_failure(&error, plan->options) : b.failed && is_batch ? b.stop_code : b.code;
     bool some_failed = ok && !use && !b.failed && b.tally.failed + b.tally.failed_before;
-    if (some_failed && b.options->batch.failures_ok && has_every_outcome(&b))
+    if (some_failed && b.options->batch.failures_ok && !b.tally.by_machine && has_every_outcome(&b))
         code = 0;
     else if (some_failed && is_batch)
         code = EXIT_SOME_FAILED;
+    journal_close(b.journal, ok && !interrupted() && !b.failed, code, interrupted());
     batch_jobs_close(b.jobs);
     // If the command draws only one model, reports an interrupt that arrived before the drawing began. The drawing
     // itself reports later interrupts.
@@ -448,7 +448,7 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
     char *own_journal = journal ? batch_shard_path(journal, shard) : NULL;
     char *own_page = page ? batch_shard_path(page, shard) : NULL;
     lam_error error = {0};
-    bool ok = ((own_journal || !journal) && (own_page || !page)) || complain(&error, LAM_LIMIT, "out of memory");
+    bool ok = ((own_journal || !journal) && (own_page || !page)) || complain(&error, LAM_MACHINE, "out of memory");
     ok = ok && (!journal || batch_shard_check_folder(journal, shard, &error));
     options.batch.report_page = own_page;
     part.options = &options;

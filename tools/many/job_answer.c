@@ -154,8 +154,8 @@ static void set_whole(json_t *answer, const struct batch_unit *u, const char *ou
     const json_t *failed = failed_record(u);
     lam_error error = {0};
     if (failed) {
-        static const char *const shared[] = {"class", "exit", "error"};
-        for (int i = 0; i < 3; i++)
+        static const char *const shared[] = {"class", "exit", "error", "cause"};
+        for (int i = 0; i < 4; i++)
             json_object_set_new(answer, shared[i], json_deep_copy(json_object_get(failed, shared[i])));
         return;
     }
@@ -163,7 +163,7 @@ static void set_whole(json_t *answer, const struct batch_unit *u, const char *ou
     if (strcmp(outcome, "cancelled") == 0)
         complain(&error, LAM_CANCELLED, "%.400s: %s", model, interrupted() ? "interrupted" : "cancelled");
     else if (strcmp(outcome, "failed") == 0)
-        complain(&error, LAM_LIMIT, "%.400s: out of memory", model);
+        complain(&error, LAM_MACHINE, "%.400s: out of memory", model);
     set_class(answer, exit_code_of(error.code), error.code ? error.text : NULL);
 }
 

@@ -11,7 +11,7 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
 {
     char *copy = strdup(text), *rest = copy;
     if (!copy)
-        return complain(error, LAM_LIMIT, "out of memory"), NULL;
+        return complain(error, LAM_MACHINE, "out of memory"), NULL;
     int count = 0;
     bool empty = false;
     for (char *path; (path = strsep(&rest, ",")); count++) {

@@ -874,6 +874,9 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_integer, .others = "retries retry attempts", FIELD(batch.retry_failed), .max = 1000},
     {"failures-ok", 0, GROUP_BATCH, NULL, NULL,
      "Exit with 0 even if models fail, provided that the journal records each result.",
+     "This does not apply to failures of the machine, such as a full disk: the exit code is then 7, and `--resume` "
+     "draws "
+     "these pictures again. "
      "Open MPI stops all ranks if one rank exits with a code other than 0. Other schedulers repeat a task that exits "
      "with such a code. The journal and the messages still report the failures. If a run ends early, for example after "
      "a wrong option or an interrupt, the command still exits with an error code.",

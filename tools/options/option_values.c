@@ -435,7 +435,7 @@ static bool append(const struct option *option, const char *value, struct option
     struct texts *texts = field_of(options, option->field);
     const char **items = realloc(texts->items, ((size_t)texts->count + 1) * sizeof *items);
     if (!items)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     items[texts->count++] = value;
     texts->items = items;
     return true;

@@ -381,7 +381,7 @@ bool settings_apply(struct options *options, struct options *before, struct sett
     char *text = read_text(source->path, &length, error);
     options->settings.values = text ? malloc(3 * FILE_MAX) : NULL;
     struct settings_parser reader = {options, before, source->path, text, NULL, options->settings.values, error};
-    bool ok = text && (options->settings.values || complain(error, LAM_LIMIT, "out of memory")) &&
+    bool ok = text && (options->settings.values || complain(error, LAM_MACHINE, "out of memory")) &&
               apply_text(&reader, length);
     free(text);
     options->picture.has_size = before->picture.has_size; // sheets and scene files set their own sizes

@@ -109,7 +109,7 @@ bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params
     int count = lam_draw_lights(scene, params->rig, params->ground, NULL, 0);
     lam_light *lights = calloc((size_t)count + 1, sizeof *lights);
     if (!lights)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     lam_draw_lights(scene, params->rig, params->ground, lights, count);
     params->output_light = find(wanted, lights, count);
     bool directed = params->output != LAM_OUTPUT_LIGHT;

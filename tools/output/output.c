@@ -52,7 +52,7 @@ static bool check_folder(const char *path, bool makes, lam_error *error)
         folder = above;
     }
     if (!folder)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool ok = true;
     if (stat(folder, &found) != 0)
         ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));

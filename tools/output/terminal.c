@@ -135,7 +135,7 @@ static bool show_png(const lam_bytes *png, const lam_image *image, lam_error *er
     size_t length;
     char *text = base64_encode(png->data, png->size, &length), dimension[32] = "";
     if (!text)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     // The sequence contains only the width or only the height. The terminal scales the picture and computes the other
     // dimension from the aspect ratio.
     bool tall, kitty = terminal.kind == TERM_KITTY;

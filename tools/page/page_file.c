@@ -51,7 +51,7 @@ char *page_file_find(lam_error *error)
     if (named && *named) {
         found = strdup(named);
         if (!found)
-            complain(error, LAM_LIMIT, "out of memory");
+            complain(error, LAM_MACHINE, "out of memory");
         return found;
     }
     // Relative to the program's folder: the installed page, and the page of a build folder.
@@ -65,7 +65,7 @@ char *page_file_find(lam_error *error)
             continue;
         found = strdup(path);
         if (!found)
-            complain(error, LAM_LIMIT, "out of memory");
+            complain(error, LAM_MACHINE, "out of memory");
         return found;
     }
     fail_missing(own, slash ? (size_t)(slash + 1 - own) : 0, error);
@@ -86,7 +86,7 @@ char *page_file_read(const char *path, size_t most, size_t *size, lam_error *err
         complain(error, LAM_LIMIT, "%s: has %.1f MB, more than the %.1f MB that fit", path, (double)length / 1e6,
                  (double)most / 1e6);
     } else if (!(bytes = malloc((size_t)length + 1))) {
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
     } else if (!read_all(file, bytes, (size_t)length)) {
         complain(error, LAM_CANNOT_READ, "%s: cannot read: %s", path,
                  errno ? strerror(errno) : "the file has become shorter");

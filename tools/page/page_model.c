@@ -24,7 +24,7 @@ static bool add(struct page_model *model, const char *path, char *inside, lam_er
     if (!copy || !inside) {
         free(copy);
         free(inside);
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     }
     model->files[model->count++] = (struct page_file){copy, inside};
     return true;
@@ -90,10 +90,10 @@ bool page_model_add_environment(const struct options *options, struct page_model
         return true;
     char *copy = strchr(text, ',') ? environment_option_faces(text, paths, error) : strdup(text);
     if (!copy)
-        return strchr(text, ',') ? false : complain(error, LAM_LIMIT, "out of memory");
+        return strchr(text, ',') ? false : complain(error, LAM_MACHINE, "out of memory");
     size_t size = 0;
     FILE *value = open_memstream(&model->environment, &size);
-    bool ok = value || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = value || complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; ok && i < (strchr(text, ',') ? LAM_FACE_COUNT : 1); i++) {
         const char *slash = strrchr(paths[i], '/');
         char *inside = NULL;
@@ -104,7 +104,7 @@ bool page_model_add_environment(const struct options *options, struct page_model
         ok = add(model, paths[i], inside, error);
     }
     if (value && fclose(value) != 0 && ok)
-        ok = complain(error, LAM_LIMIT, "out of memory");
+        ok = complain(error, LAM_MACHINE, "out of memory");
     free(copy);
     return ok;
 }
@@ -188,7 +188,7 @@ bool page_model_words(FILE *out, const struct job *job, const struct options *gi
     size_t size = 0;
     FILE *list = open_memstream(&text, &size);
     if (!list)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     struct words words = {.json = {.file = list}, .model = model};
     json_open(&words.json, NULL, '[');
     bool shape = lam_shape_find(job->model) >= 0 || !model->count;
@@ -199,5 +199,5 @@ bool page_model_words(FILE *out, const struct job *job, const struct options *gi
     if (ok)
         html_script(out, text);
     free(text);
-    return ok || complain(error, LAM_LIMIT, "out of memory");
+    return ok || complain(error, LAM_MACHINE, "out of memory");
 }

@@ -57,7 +57,7 @@ static bool put_file(FILE *out, const struct page_file *file, size_t *left, lam_
     char *text = base64_encode((const uint8_t *)bytes, size, &length);
     free(bytes);
     if (!text)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     fputs("<script type=\"text/plain\" class=\"inside-file\" data-path=\"", out);
     html_text(out, file->inside);
     fputs("\">", out);
@@ -102,9 +102,9 @@ static bool write_page(struct job *job, const struct options *given, const char 
     }
     warn_formats(job, &model);
     FILE *out = open_memstream(&text, &length);
-    ok = out ? put_page(out, job, given, page, &model, error) : complain(error, LAM_LIMIT, "out of memory");
+    ok = out ? put_page(out, job, given, page, &model, error) : complain(error, LAM_MACHINE, "out of memory");
     if (out && (ferror(out) | fclose(out)) && ok)
-        ok = complain(error, LAM_LIMIT, "out of memory");
+        ok = complain(error, LAM_MACHINE, "out of memory");
     ok = ok && output_save_bytes(&(lam_bytes){text, length}, job->output, given->picture.durable, &job->bytes, error);
     page_model_free(&model);
     free(page);

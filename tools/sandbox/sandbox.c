@@ -207,7 +207,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
 {
     *state = sandbox_offered();
     if (paths->failed)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     if (!state->landlock && !state->filter)
         return true;
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) { // otherwise an executed program could gain privileges
@@ -217,7 +217,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
     drop_capabilities();
     if (state->landlock && !enter_landlock(paths, state->landlock)) {
         if (is_exhausted(errno))
-            return complain(error, LAM_LIMIT, "cannot start the sandbox: %s", strerror(errno));
+            return complain(error, LAM_MACHINE, "cannot start the sandbox: %s", strerror(errno));
         state->landlock = 0;
         state->reason = "the kernel refuses Landlock";
     }
@@ -247,7 +247,7 @@ struct sandbox_state sandbox_offered(void)
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error)
 {
     *state = sandbox_offered();
-    return !paths->failed || complain(error, LAM_LIMIT, "out of memory");
+    return !paths->failed || complain(error, LAM_MACHINE, "out of memory");
 }
 
 #endif

@@ -174,7 +174,7 @@ static bool act(int connection, const struct request *request, const char *path,
         return skip(connection, request->size);
     void *data = malloc(request->size ? request->size : 1);
     if (!data)
-        complain(error, LAM_LIMIT, "%.400s: cannot write: out of memory", path);
+        complain(error, LAM_MACHINE, "%.400s: cannot write: out of memory", path);
     bool ok = data ? read_all(connection, data, request->size) : skip(connection, request->size);
     if (ok && data)
         save((enum action)request->action, path, &(lam_bytes){data, request->size}, right, error);
@@ -318,7 +318,7 @@ bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, la
     if (process > 0)
         return true;
     writer_leave();
-    return complain(error, LAM_LIMIT, "cannot start the process that writes files: %s", strerror(reason));
+    return complain(error, LAM_MACHINE, "cannot start the process that writes files: %s", strerror(reason));
 }
 
 bool writer_is_there(void) { return writer.count > 0; }

@@ -25,7 +25,7 @@ enum { STAGED_MAX = 8192 };
 bool writer_check_links(const char *path, size_t named, lam_error *error)
 {
     char *copy = strdup(path);
-    bool ok = copy || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = copy || complain(error, LAM_MACHINE, "out of memory");
     for (char *end = ok ? copy + named : NULL; ok && *end;) {
         struct stat found;
         end += 1 + strcspn(end + 1, "/");

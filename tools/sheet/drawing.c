@@ -15,7 +15,7 @@ bool drawing_open(struct drawing *d, int width, int height, bool svg, bool words
     if (svg) {
         d->svg = open_memstream(&d->svg_text, &d->svg_size);
         if (!d->svg)
-            return complain(error, LAM_LIMIT, "out of memory");
+            return complain(error, LAM_MACHINE, "out of memory");
         draw_box(d, (struct point){0, 0}, width, height, 0xffffff);
         return true;
     }
@@ -46,7 +46,7 @@ bool drawing_describe(struct drawing *d, const char *title, const char *descript
     free(d->description);
     d->title = strdup(title);
     d->description = strdup(description);
-    return (d->title && d->description) || complain(error, LAM_LIMIT, "out of memory");
+    return (d->title && d->description) || complain(error, LAM_MACHINE, "out of memory");
 }
 
 void drawing_free(struct drawing *d)
@@ -110,7 +110,7 @@ static bool paint_line(struct drawing *d, const struct point *p, int count, doub
     int columns = right - left;
     float *cover = calloc((size_t)columns * (size_t)(bottom - top), sizeof *cover);
     if (!cover)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; i + 1 < count || (i == 0 && count == 1); i++) {
         struct point a = p[i], b = p[count == 1 ? 0 : i + 1];
         int x0 = within((a.x < b.x ? a.x : b.x) - half - 1, d->width),
@@ -140,7 +140,7 @@ static bool paint_dashes(struct drawing *d, const struct point *p, int count, do
 {
     struct point *part = calloc((size_t)count + 2, sizeof *part);
     if (!part)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool ok = true, on = true;
     int parts = 0;
     double left = dash;
@@ -362,7 +362,7 @@ static bool svg_image(struct drawing *d, const lam_image *image, int left, int t
     char *text = base64_encode(png.data, png.size, &length);
     lam_bytes_free(&png);
     if (!text)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     fprintf(d->svg, "<image x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" href=\"data:image/png;base64,", left, top,
             image->width, image->height);
     fwrite(text, 1, length, d->svg);
@@ -398,7 +398,7 @@ static bool write_svg(struct drawing *d, const char *path, lam_error *error)
     uint64_t written;
     FILE *file = fflush(d->svg) == 0 && !ferror(d->svg) ? open_memstream(&text, &size) : NULL;
     if (!file)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     fprintf(file,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\"%s "
             "font-family=\"DejaVu Sans, Verdana, sans-serif\">\n",
@@ -414,7 +414,7 @@ static bool write_svg(struct drawing *d, const char *path, lam_error *error)
     bool failed = ferror(file);
     failed |= fclose(file) != 0;
     bytes = (lam_bytes){text, size};
-    bool ok = failed ? complain(error, LAM_LIMIT, "out of memory")
+    bool ok = failed ? complain(error, LAM_MACHINE, "out of memory")
                      : output_save_bytes(&bytes, path, d->durable, &written, error);
     free(text);
     return ok;

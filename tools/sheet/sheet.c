@@ -222,7 +222,7 @@ static bool choose_mistakes(const char *values, struct sheet *sheet, char **stor
         ok = add_mistake(sheet, mistake.id, error);
     *store = ok && !sheet->all ? strdup(values) : NULL;
     if (ok && !sheet->all && !*store)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (char *name = *store, *end; ok && name; name = end) {
         end = strchr(name, ',');
         if (end)
@@ -296,7 +296,7 @@ static bool choose_across(const char *across, struct sheet *sheet, char **store,
     size_t dashed = strlen(option->name) + 3;
     *store = malloc(dashed + (values ? strlen(values) : 0) + 1);
     if (!*store)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     sprintf(*store, "--%s", option->name);
     *sheet = (struct sheet){.name = option->name, .across = true};
     // A row of single terms or values shows the unchanged model. In a row of all five terms, the row's defaults change

@@ -138,7 +138,7 @@ bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_e
     bool ok = batch_add_folder(&plan, *view->files.prefix ? view->files.prefix : "/", error);
     FILE *out = ok ? open_memstream(text, size) : NULL;
     if (ok && !out)
-        ok = complain(error, LAM_LIMIT, "out of memory");
+        ok = complain(error, LAM_MACHINE, "out of memory");
     if (ok) {
         fputs("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
               "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self'; "
@@ -155,7 +155,7 @@ bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_e
         put_models(out, view, &plan);
         fputs("</main>\n</body>\n</html>\n", out);
         if (fclose(out) != 0)
-            ok = complain(error, LAM_LIMIT, "out of memory");
+            ok = complain(error, LAM_MACHINE, "out of memory");
     }
     batch_plan_free(&plan);
     return ok;

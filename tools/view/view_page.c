@@ -22,7 +22,7 @@ static bool take_environment(struct view_files *files, const struct page_model *
 {
     files->environment = calloc((size_t)model->count + 1, sizeof *files->environment);
     if (!files->environment)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; i < model->count; i++) {
         char *real = realpath(model->files[i].path, NULL);
         if (!real)
@@ -63,13 +63,13 @@ static bool take_options(struct view_page *page, const struct options *options, 
     w.words = ok ? open_memstream(&page->words, &page->words_size) : NULL;
     w.fragment = w.words ? open_memstream(&page->fragment, &size) : NULL;
     if (ok && !w.fragment)
-        ok = complain(error, LAM_LIMIT, "out of memory");
+        ok = complain(error, LAM_MACHINE, "out of memory");
     if (ok)
         each_given_option(options, put_option, &w);
     bool lost = w.words && fclose(w.words) != 0;
     lost |= w.fragment && fclose(w.fragment) != 0;
     if (lost && ok)
-        ok = complain(error, LAM_LIMIT, "out of memory");
+        ok = complain(error, LAM_MACHINE, "out of memory");
     page_model_free(&model);
     return ok;
 }
@@ -89,7 +89,7 @@ static bool put_data(FILE *out, const struct view_page *page, const char *model,
     size_t size = 0;
     FILE *list = open_memstream(&text, &size);
     if (!list)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     struct json json = {.file = list};
     if (model) {
         json_open(&json, NULL, '[');
@@ -99,7 +99,7 @@ static bool put_data(FILE *out, const struct view_page *page, const char *model,
             json_text(&json, NULL, argument);
         json_close(&json, ']');
     }
-    bool ok = fclose(list) == 0 || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = fclose(list) == 0 || complain(error, LAM_MACHINE, "out of memory");
     if (ok && model)
         put_json(out, "inside-words", text);
     char served[64];
@@ -125,7 +125,7 @@ static bool fill(struct view_page *page, const char *text, const char *model, la
                         "the page given by LAMBENT_PAGE or by the build is not the lambent.html of `make web`");
     FILE *out = open_memstream(&page->text, &page->size);
     if (!out)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     fwrite(text, 1, (size_t)(directive - text), out);
     fputs(own_policy, out);
     directive += strlen(policy);
@@ -133,7 +133,7 @@ static bool fill(struct view_page *page, const char *text, const char *model, la
     bool ok = put_data(out, page, model, error);
     fputs(end, out);
     if ((ferror(out) | fclose(out)) && ok)
-        ok = complain(error, LAM_LIMIT, "out of memory");
+        ok = complain(error, LAM_MACHINE, "out of memory");
     return ok;
 }
 
@@ -143,7 +143,7 @@ static bool take_module(struct view_page *page, const char *path, lam_error *err
     const char *slash = strrchr(path, '/');
     char *beside = NULL;
     if (asprintf(&beside, "%.*slambent-threads.wasm", slash ? (int)(slash + 1 - path) : 0, path) < 0)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool exists = access(beside, R_OK) == 0;
     page->module = exists ? page_file_read(beside, PAGE_MAX, &page->module_size, error) : NULL;
     free(beside);

@@ -60,7 +60,7 @@ static bool split_scenes(struct check_command *c, lam_error *error)
         return true;
     c->scene_list = strdup(c->options->check.scenes);
     if (!c->scene_list)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (char *word = strtok(c->scene_list, ","); word && c->batch.scene_count < MAX_SCENES; word = strtok(NULL, ","))
         c->scenes[c->batch.scene_count++] = word;
     c->batch.scenes = c->batch.scene_count ? c->scenes : NULL;
@@ -87,7 +87,7 @@ static bool find_submissions(struct check_command *c, int operand_count, char **
                         "check: no shader given, expected the file of a fragment shader, --class FOLDER, or --list");
     for (int i = 0; o->check.class_folder && o->check.vertex && i < c->batch.count; i++)
         if (!c->submissions[i].vertex && !(c->submissions[i].vertex = strdup(o->check.vertex)))
-            return complain(error, LAM_LIMIT, "out of memory");
+            return complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; c->batch.count > 1 && !c->batch.in_class && i < c->batch.count; i++)
         if (strcmp(c->submissions[i].fragment, "-") == 0)
             return complain(error, LAM_BAD_ARGUMENT, "'-' (standard input) is possible only for a single shader");

@@ -32,7 +32,7 @@ char *check_read_text(const char *path, lam_error *error)
     if (!standard)
         fclose(file);
     if (!text)
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
     else if (bad)
         complain(error, LAM_CANNOT_READ, "%s: %s", path, strerror(reason));
     else if (size > MAX_TEXT_BYTES)
@@ -129,7 +129,7 @@ static void write_sheet(struct check_batch *b, struct check_result *result)
         int index = (int)(result->submission - b->submissions);
         result->sheet = check_sheet_path(o->picture.output, b->submissions, index, b->in_class);
         if (!result->sheet)
-            complain(&result->sheet_error, LAM_LIMIT, "out of memory");
+            complain(&result->sheet_error, LAM_MACHINE, "out of memory");
         else if (output_is_stream(result->sheet) ||
                  output_check(result->sheet, result->submission->fragment,
                               !b->in_class && output_is_named(o->picture.output), &result->sheet_error))
@@ -241,7 +241,7 @@ static void *check_next(void *work)
         struct check_result *result = check_one(w->b, index);
         if (!result) {
             pthread_mutex_lock(&w->lock);
-            complain(w->first, LAM_LIMIT, "out of memory");
+            complain(w->first, LAM_MACHINE, "out of memory");
             pthread_mutex_unlock(&w->lock);
             return NULL;
         }
@@ -262,7 +262,7 @@ int check_batch_run(struct check_batch *b, lam_error *first)
 {
     struct work w = {.b = b, .first = first, .results = calloc((size_t)b->count, sizeof(struct check_result *))};
     if (!w.results) {
-        complain(first, LAM_LIMIT, "out of memory");
+        complain(first, LAM_MACHINE, "out of memory");
         return exit_code_of(LAM_LIMIT)->code;
     }
     pthread_mutex_init(&w.lock, NULL);

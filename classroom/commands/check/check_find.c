@@ -78,7 +78,7 @@ static int list_folder(const char *folder, char ***paths, lam_error *error)
             free(path);
             free_paths(*paths, count);
             closedir(open);
-            complain(error, LAM_LIMIT, "out of memory");
+            complain(error, LAM_MACHINE, "out of memory");
             return -1;
         }
         (*paths)[count++] = path;
@@ -154,7 +154,7 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
     free(fragments);
     free(vertices);
     if (!ok)
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; ok && i < count; i++) {
         struct stat found;
         if (lstat(paths[i], &found) != 0 || !S_ISDIR(found.st_mode))
@@ -162,7 +162,7 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         if (depth == MAX_DEPTH) {
             if (!add(f, name_of(top, paths[i], false), NULL, NULL,
                      "the folder is nested too deeply, so it was not searched"))
-                ok = complain(error, LAM_LIMIT, "out of memory");
+                ok = complain(error, LAM_MACHINE, "out of memory");
             continue;
         }
         int before = f->count;
@@ -171,7 +171,7 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         if (ok && depth == 0 && f->count == before &&
             !add(f, name_of(top, paths[i], false), NULL, NULL,
                  "there is no shader in this folder: expected a file that ends in .frag, .fs, .fsh or .fragment"))
-            ok = complain(error, LAM_LIMIT, "out of memory");
+            ok = complain(error, LAM_MACHINE, "out of memory");
     }
     free_paths(paths, count);
     return ok;

@@ -33,7 +33,7 @@ struct check_page *check_page_make(lam_error *error)
     if (page && page->rows)
         return page;
     free(page);
-    complain(error, LAM_LIMIT, "out of memory");
+    complain(error, LAM_MACHINE, "out of memory");
     return NULL;
 }
 
@@ -217,7 +217,7 @@ char *check_page_path(const char *folder, lam_error *error)
     size_t length = strlen(folder);
     if (asprintf(&path, "%s%sindex.html", folder, length && folder[length - 1] != '/' ? "/" : "") >= 0)
         return path;
-    complain(error, LAM_LIMIT, "out of memory");
+    complain(error, LAM_MACHINE, "out of memory");
     return NULL;
 }
 
@@ -228,7 +228,7 @@ bool check_page_write(struct check_page *page, const char *folder, const char *t
     FILE *file = path ? open_memstream(&text, &size) : NULL;
     if (file)
         write_page(file, page, title);
-    bool ok = path && ((file && fclose(file) == 0) || complain(error, LAM_LIMIT, "out of memory"));
+    bool ok = path && ((file && fclose(file) == 0) || complain(error, LAM_MACHINE, "out of memory"));
     ok = ok && writer_save(path, &(lam_bytes){.data = text, .size = size}, false, error);
     free(text);
     free(path);

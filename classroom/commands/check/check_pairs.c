@@ -87,7 +87,7 @@ int check_pair(int count, char **files, const char *vertex, struct check_submiss
     }
     if (!ok) {
         check_free_submissions(out, made);
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
         return -1;
     }
     *submissions = out;

@@ -120,7 +120,7 @@ void check_worker(const char *memory)
     enum child_read got = CHILD_READ;
     while (got == CHILD_READ)
         got = request.size <= MAX_BYTES ? child_read(STDIN_FILENO, &request, READ_BYTES) : CHILD_MEMORY;
-    bool ok = got == CHILD_CLOSED || complain(&error, LAM_LIMIT, "out of memory");
+    bool ok = got == CHILD_CLOSED || complain(&error, LAM_MACHINE, "out of memory");
     ok = ok && lam_check_draw(request.data, request.size, NULL, &drawn, &error);
     int code = ok ? 0 : (int)error.code;
     if (!write_all(answer, ok ? drawn.data : error.text, ok ? drawn.size : strlen(error.text)))
@@ -185,7 +185,7 @@ static bool start(struct child *child, const struct check_process *how, lam_erro
     struct worker worker = {.time_limit_s = how->time_limit_s, .path = path ? path : "lambent"};
     snprintf(worker.memory, sizeof worker.memory, "%llu", (unsigned long long)how->memory_limit_bytes);
     if (!child_start(child, work, &worker))
-        return complain(error, LAM_LIMIT, "cannot start the drawing process: %s", strerror(errno));
+        return complain(error, LAM_MACHINE, "cannot start the drawing process: %s", strerror(errno));
     fcntl(child->to, F_SETFL, O_NONBLOCK);
     fcntl(child->from, F_SETFL, O_NONBLOCK);
     return true;

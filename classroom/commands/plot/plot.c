@@ -418,9 +418,9 @@ int run_plot(int operand_count, char **operands, const struct options *options)
     lam_error error = {0};
     const struct kind *kind = find_kind(operands[0], &error);
     struct plot *plot = kind ? malloc(sizeof *plot) : NULL;
-    bool ok = kind && (plot || complain(&error, LAM_LIMIT, "out of memory"));
+    bool ok = kind && (plot || complain(&error, LAM_MACHINE, "out of memory"));
     char *path = ok ? output_path(options->picture.output, kind->name, ".png") : NULL;
-    ok = ok && (path || complain(&error, LAM_LIMIT, "out of memory"));
+    ok = ok && (path || complain(&error, LAM_MACHINE, "out of memory"));
     ok = ok && fill(plot, kind, operand_count - 1, operands + 1, options, &error) &&
          draw_to(plot, path, options, &error);
     if (ok) {

@@ -80,7 +80,7 @@ static bool path_add(struct path *path, double x, double y, lam_error *error)
         int room = path->room ? 2 * path->room : 1024;
         struct point *points = realloc(path->points, (size_t)room * sizeof *points);
         if (!points)
-            return complain(error, LAM_LIMIT, "out of memory");
+            return complain(error, LAM_MACHINE, "out of memory");
         path->points = points;
         path->room = room;
     }
@@ -106,7 +106,7 @@ static bool draw_path(const struct plot *plot, const struct layout *at, const st
 {
     struct point *stroke = calloc((size_t)path->count + 2, sizeof *stroke);
     if (!stroke)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool ok = true;
     int count = 0;
     for (int i = 0; ok && i < path->count; i++) {

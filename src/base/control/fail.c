@@ -30,7 +30,7 @@ bool fail(lam_error *error, lam_code code, const char *format, ...)
 
 bool fail_memory(lam_error *error, size_t bytes)
 {
-    return fail(error, LAM_LIMIT, "out of memory: %.1f MB more were needed", (double)bytes / 1e6);
+    return fail(error, LAM_MACHINE, "out of memory: %.1f MB more were needed", (double)bytes / 1e6);
 }
 
 bool reserved_words_are_zero(const char *what, const uint64_t *words, size_t count, lam_error *error)

@@ -11,7 +11,7 @@
 // "…".
 bool fail(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-// Reports LAM_LIMIT, because a request for `bytes` bytes of memory failed.
+// Reports LAM_MACHINE, because a request for `bytes` bytes of memory failed.
 bool fail_memory(lam_error *error, size_t bytes);
 
 // If a reserved word of a parameter struct is not zero, fails with LAM_BAD_ARGUMENT: the program uses a newer header

@@ -32,7 +32,8 @@ static bool fail_system(lam_error *error, lam_code code, const char *path, const
     int reason = errno;
     char buffer[128];
     const char *text = strerror_r(reason, buffer, sizeof buffer);
-    return fail(error, code, "%s: cannot %s: %s", path, action, text);
+    bool by_machine = reason == EMFILE || reason == ENFILE || reason == ENOMEM || reason == EIO || reason == ESTALE;
+    return fail(error, by_machine ? LAM_MACHINE : code, "%s: cannot %s: %s", path, action, text);
 }
 
 bool file_hold(size_t size, struct call_control *call, struct file_bytes *out, lam_error *error)

@@ -390,7 +390,7 @@ static bool make_application(struct build *m, int object, lam_error *error)
         if (is_selected(&m->frame, &m->frame.ranges[i], object))
             ranges[count++] = &m->frame.ranges[i];
     if (!ranges)
-        return fail(error, LAM_LIMIT, "out of memory");
+        return fail(error, LAM_MACHINE, "out of memory");
     m->shader->application = lecture_application(&m->choices, &m->frame, m->order, ranges, count, error);
     return m->shader->application != NULL;
 }
@@ -411,7 +411,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
         !choose(m, draw, object, params, error))
         return false;
     if (!order_lights(m))
-        return fail(error, LAM_LIMIT, "out of memory");
+        return fail(error, LAM_MACHINE, "out of memory");
     struct glsl_choices shaders = m->choices;
     if (m->choices.style && m->facts.application) {
         if (!make_application(m, object, error))
@@ -433,7 +433,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
                            .flat = m->facts.shading == LAM_SHADING_FLAT};
     if (!list_attributes(m) || !list_uniforms(m, NULL, &result->uniforms, &result->uniform_count) ||
         !list_draws(m, object) || !list_textures(m))
-        return fail(error, LAM_LIMIT, "out of memory for the values of the uniforms");
+        return fail(error, LAM_MACHINE, "out of memory for the values of the uniforms");
     return true;
 }
 
@@ -459,7 +459,7 @@ lam_shader *lam_shader_make(const lam_scene *scene, const lam_camera *camera, co
     struct shader *shader = calloc(1, sizeof *shader);
     struct build *build = calloc(1, sizeof *build);
     if (!shader || !build) {
-        fail(error, LAM_LIMIT, "out of memory");
+        fail(error, LAM_MACHINE, "out of memory");
         free(shader);
         free(build);
         return NULL;

@@ -37,7 +37,7 @@ static bool try_library(struct obj *obj, const char *name, enum attempt *attempt
     bool found = obj->source->open(obj->source, name, &obj->memory, &file, why);
     *attempt = found ? READ : MISSING;
     bool ok = note(obj, confined, found, error);
-    if (!found && (why->code == LAM_CANCELLED || why->code == LAM_LIMIT)) {
+    if (!found && why->code != LAM_CANNOT_READ) {
         if (error)
             *error = *why;
         return false;

@@ -107,7 +107,7 @@ static bool keep(json_t *found, const char *key, const lam_image *image, bool ra
     bool ok = text && json_object_set_new(found, key, json_string(text)) == 0;
     free(text);
     lam_bytes_free(&png);
-    return ok || complain(error, LAM_LIMIT, "out of memory");
+    return ok || complain(error, LAM_MACHINE, "out of memory");
 }
 
 static void put_counts(json_t *found, const char *key, const struct model_counts *counts)

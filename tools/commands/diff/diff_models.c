@@ -53,7 +53,7 @@ static bool make_pairs(struct model_diff *diff, lam_error *error)
     struct batch_plan *olds = &diff->olds, *news = &diff->news;
     diff->pairs = calloc(olds->count + news->count + 1, sizeof *diff->pairs);
     if (!diff->pairs)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     if (!diff->folders)
         return add_pair(diff, olds->models, news->models, error);
     sort(olds);
@@ -147,7 +147,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
     bool ok = true, standard = diff->page && strcmp(diff->page, "-") == 0;
     if (diff->page) {
         char *page = diff_page(diff, records);
-        ok = page || complain(&error, LAM_LIMIT, "out of memory");
+        ok = page || complain(&error, LAM_MACHINE, "out of memory");
         if (ok && standard)
             fputs(page, stdout);
         else
@@ -216,7 +216,7 @@ int diff_models(char **operands, bool folders, const struct options *options)
                               .folders = folders};
     struct batch_use use = {diff_draw, reach, right_of, finish, &diff};
     bool ok = check(&diff, &error) && batch_plan_start(&diff.plan, &drawn, &error) &&
-              ((diff.rows = shared_count_make()) || complain(&error, LAM_LIMIT, "out of memory"));
+              ((diff.rows = shared_count_make()) || complain(&error, LAM_MACHINE, "out of memory"));
     diff.olds.options = diff.news.options = &drawn;
     ok = ok && add_side(&diff.olds, diff.old, folders, &error) && add_side(&diff.news, diff.new, folders, &error) &&
          make_pairs(&diff, &error);

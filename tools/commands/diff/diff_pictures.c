@@ -130,7 +130,7 @@ int diff_pictures(char **operands, const struct options *options)
                       "A B -o - > FILE");
     else if (options->picture.output &&
              !(pair.output = output_path(options->picture.output, pair.name[0], "-difference.png")))
-        ok = complain(&error, LAM_LIMIT, "out of memory");
+        ok = complain(&error, LAM_MACHINE, "out of memory");
     else if (options->picture.output && !to_stdout)
         ok = output_check(pair.output, pair.name[0], output_is_named(options->picture.output), &error) &&
              ((!job_is_same_file(pair.output, operands[0]) && !job_is_same_file(pair.output, operands[1])) ||

@@ -169,7 +169,7 @@ int run_explain(int operand_count, char **operands, const struct options *option
     bool failed = false;
     bool ok = check(&job, operands[1], &x, &y, &error);
     char *figure = ok ? figure_path(options, job.model, &failed) : NULL;
-    ok = ok && (!failed || complain(&error, LAM_LIMIT, "out of memory"));
+    ok = ok && (!failed || complain(&error, LAM_MACHINE, "out of memory"));
     ok = ok && (!figure || check_figure(figure, options, job.model, &error));
     int code = ok ? 0 : report_failure(&error, options);
     interrupt_start();

@@ -33,7 +33,7 @@ static bool make_pictures_folder(const struct options *o, lam_error *error)
     if (!folder || (o->hash.check && !o->hash.update))
         return true;
     if (asprintf(&inside, "%s/.", folder) < 0)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     lam_error reason = {0};
     bool ok = output_make_folder(inside, &reason);
     free(inside);
@@ -83,7 +83,7 @@ static bool add_models(struct hash_run *run, int count, char **operands, lam_err
         ok = batch_add_list(&run->plan, run->options->batch.lists.items[i], error);
     for (size_t i = 0; ok && run->by_file && i < run->then.count; i++) {
         char *model = hash_file_model(run->path, run->then.entries[i].name);
-        ok = model || complain(error, LAM_LIMIT, "out of memory");
+        ok = model || complain(error, LAM_MACHINE, "out of memory");
         ok = ok && hash_file_may_name(run->path, model, run->options, error) &&
              batch_plan_add(&run->plan, model, NULL, error);
         free(model);
@@ -102,7 +102,7 @@ static bool name_models(struct hash_run *run, lam_error *error)
         ok = (run->names[i] = hash_file_name(run->path, plan->models[i].path)) != NULL;
         seen.entries[i] = (struct hash_entry){run->names[i], i};
     }
-    ok = ok || complain(error, LAM_LIMIT, "out of memory");
+    ok = ok || complain(error, LAM_MACHINE, "out of memory");
     seen.count = ok ? plan->count : 0;
     hash_file_sort(&seen);
     for (size_t i = 1; ok && i < seen.count; i++)
@@ -124,7 +124,7 @@ static bool find_kept(struct hash_run *run, lam_error *error)
                        (lam_shape_find(model) >= 0 || access(model, F_OK) == 0);
         free(model);
     }
-    return ok || complain(error, LAM_LIMIT, "out of memory");
+    return ok || complain(error, LAM_MACHINE, "out of memory");
 }
 
 // --- drawing
@@ -134,7 +134,7 @@ static bool save_picture(const struct hash_run *run, const char *name, const str
     char *path = hash_picture_path(run->options->hash.pictures, name);
     lam_save_params params = {.threads = job->options->work.threads};
     lam_bytes png = {0};
-    bool ok = path || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = path || complain(error, LAM_MACHINE, "out of memory");
     ok = ok && writer_check_links(path, strlen(run->options->hash.pictures), error) &&
          lam_image_encode(&job->image, "png", &params, &png, error) && writer_save(path, &png, false, error);
     lam_bytes_free(&png);
@@ -209,12 +209,12 @@ static bool take_hashes(struct hash_run *run, json_t *const *records, lam_error 
 {
     run->now = (struct hash_file){.entries = calloc(run->plan.count + 1, sizeof *run->now.entries)};
     if (!run->now.entries)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (size_t i = 0; i < run->plan.count; i++) {
         const char *text = json_string_value(json_object_get(records[i], "pixels"));
         struct hash_entry entry = {strdup(run->names[i]), 0};
         if (!entry.name)
-            return complain(error, LAM_LIMIT, "out of memory");
+            return complain(error, LAM_MACHINE, "out of memory");
         run->now.entries[run->now.count++] = entry;
         if (text)
             xxh64_parse(text, &run->now.entries[run->now.count - 1].hash);
@@ -228,7 +228,7 @@ static bool write_file(struct hash_run *run, json_t *const *records, char *optio
     struct hash_file out = {.version = (char *)(uintptr_t)lam_version(), // not modified
                             .options = options_text,
                             .entries = calloc(run->plan.count + run->then.count + 1, sizeof *out.entries)};
-    bool ok = out.entries || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = out.entries || complain(error, LAM_MACHINE, "out of memory");
     for (size_t i = 0; ok && i < run->plan.count; i++) {
         const char *text = json_string_value(json_object_get(records[i], "pixels"));
         struct hash_entry entry = {run->names[i], 0};
@@ -240,7 +240,7 @@ static bool write_file(struct hash_run *run, json_t *const *records, char *optio
             out.entries[out.count++] = run->then.entries[i];
     hash_file_sort(&out);
     char *text = ok ? hash_file_text(&out) : NULL;
-    ok = ok && (text || complain(error, LAM_LIMIT, "out of memory"));
+    ok = ok && (text || complain(error, LAM_MACHINE, "out of memory"));
     if (ok && strcmp(run->path, "-") == 0)
         fputs(text, stdout);
     else
@@ -315,7 +315,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
     char *options_text = hash_options_text(o, run->path);
     const bool writes = !run->checks || o->hash.update, blocked = failed && !o->batch.failures_ok;
     int rows = 0;
-    bool ok = (options_text || complain(&error, LAM_LIMIT, "out of memory")) && take_hashes(run, records, &error) &&
+    bool ok = (options_text || complain(&error, LAM_MACHINE, "out of memory")) && take_hashes(run, records, &error) &&
               (!writes || blocked || write_results(run, records, options_text, &rows, &error));
     if (ok && o->report.json)
         head_json(&json, run, options_text);
@@ -341,7 +341,7 @@ static bool say_head(const struct hash_run *run, lam_error *error)
 {
     char *now = hash_options_text(run->options, run->path);
     if (!now)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool says = !run->options->report.quiet;
     if (says && strcmp(run->then.version, lam_version()) != 0)
         say_plain("lambent: %s was written by version %s, and this is %s: pictures may differ for that reason\n",
@@ -395,7 +395,7 @@ static bool prepare(struct hash_run *run, int count, char **operands, lam_error 
         !output_check(run->path, "", OUTPUT_NAMED, error))
         return false;
     if (o->hash.update && (!(run->sheet = hash_sheet_path(run->path)) || !(run->rows = shared_count_make())))
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     return add_models(run, count, operands, error) && name_models(run, error) && find_kept(run, error);
 }
 

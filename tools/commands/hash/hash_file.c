@@ -92,12 +92,12 @@ static bool add_line(struct hash_file *file, const char *path, int number, char 
         *capacity = *capacity ? 2 * *capacity : 64;
         struct hash_entry *more = realloc(file->entries, *capacity * sizeof *more);
         if (!more)
-            return complain(error, LAM_LIMIT, "out of memory");
+            return complain(error, LAM_MACHINE, "out of memory");
         file->entries = more;
     }
     entry.name = strdup(line + HASH + 2);
     if (!entry.name)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     file->entries[file->count++] = entry;
     return true;
 }
@@ -139,7 +139,7 @@ static bool read_lines(struct hash_file *file, FILE *in, const char *path, lam_e
             ok = add_line(file, path, number, line, &capacity, error);
     }
     if (ok && !feof(in)) // getline also fails if memory runs out
-        ok = complain(error, errno == ENOMEM ? LAM_LIMIT : LAM_CANNOT_READ, "%.400s: cannot read: %s", path,
+        ok = complain(error, errno == ENOMEM ? LAM_MACHINE : LAM_CANNOT_READ, "%.400s: cannot read: %s", path,
                       strerror(errno));
     if (ok && (!file->version || !file->options))
         ok = complain(error, number < 4 ? LAM_CANNOT_READ : LAM_LIMIT,

@@ -103,7 +103,7 @@ static bool may_name(const char *path, const char *name, const char *value, cons
     for (const char *from = value; ok && from;) {
         size_t length = environment ? strcspn(from, ",") : strlen(from);
         char *one = strndup(from, length);
-        ok = one ? hash_file_may_name(path, one, o, error) : complain(error, LAM_LIMIT, "out of memory");
+        ok = one ? hash_file_may_name(path, one, o, error) : complain(error, LAM_MACHINE, "out of memory");
         free(one);
         from = from[length] ? from + length + 1 : NULL;
     }
@@ -149,7 +149,7 @@ bool hash_options_take(const struct hash_file *file, const char *path, const str
     if (*kept)
         strcpy(*kept, file->options);
     if (!ok || (wanted && !*kept))
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     if (!wanted)
         return true;
     lam_error reason = {0};

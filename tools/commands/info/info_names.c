@@ -45,7 +45,7 @@ bool info_names_list(const lam_scene *scene, struct info_names *names, lam_error
     add_all(names, scene);
     names->items = calloc((size_t)names->count + 1, sizeof *names->items);
     if (!names->items)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     add_all(names, scene);
     qsort(names->items, (size_t)names->count, sizeof *names->items, by_name);
     int kept = 0;

@@ -40,7 +40,7 @@ bool info_textures_list(const lam_scene *scene, struct info_textures *textures, 
     size_t room = 2 * (size_t)file->image_count + (size_t)materials * LAM_MAP_COUNT + 1;
     *textures = (struct info_textures){.items = calloc(room, sizeof *textures->items)};
     if (!textures->items)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; i < file->image_count; i++)
         add_image(textures, &file->images[i]);
     for (int i = 0; i < materials; i++)

@@ -109,7 +109,7 @@ static bool read_bytes(struct batch_job *job, const json_t *value, lam_error *er
     uint8_t *bytes = base64_decode(json_string_value(value), json_string_length(value), &size, &at);
     if (!bytes)
         return at == SIZE_MAX
-                   ? complain(error, LAM_LIMIT, "out of memory")
+                   ? complain(error, LAM_MACHINE, "out of memory")
                    : complain(error, LAM_BAD_ARGUMENT,
                               "key 'data': expected base64 (RFC 4648, with padding), found something else at "
                               "character %zu",
@@ -164,7 +164,7 @@ static bool read_output(struct batch_job *job, const json_t *root, lam_error *er
                       o->batch.size_count > 1 ? "-{size}" : "", format ? format : "png") < 0)
         job->output = NULL;
     o->picture.output = job->output;
-    return job->output || complain(error, LAM_LIMIT, "out of memory");
+    return job->output || complain(error, LAM_MACHINE, "out of memory");
 }
 
 // --- files that the options name
@@ -203,7 +203,7 @@ static bool check_outputs(const struct batch_job *job, const struct batch_job_ru
     bool ok = true;
     for (int i = 0; ok && !job->in_answer && i < job->plan.view_count; i++) {
         char *output = batch_plan_output(&job->plan, 0, i);
-        ok = output ? job_roots_have(rules->roots, output, true, error) : complain(error, LAM_LIMIT, "out of memory");
+        ok = output ? job_roots_have(rules->roots, output, true, error) : complain(error, LAM_MACHINE, "out of memory");
         free(output);
     }
     return ok;
@@ -217,7 +217,7 @@ static bool read_options(struct batch_job *job, const json_t *root, const struct
     struct options *o = &job->options;
     if (!options_copy(o, rules->options)) {
         *o = (struct options){0};
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     }
     o->work.threads = rules->threads;
     o->limits.in_flight = rules->in_flight;
@@ -266,7 +266,7 @@ enum batch_line batch_job_read(const char *line, size_t size, const struct batch
         *id = json_incref(own);
         job = calloc(1, sizeof *job);
         if (!job)
-            complain(error, LAM_LIMIT, "out of memory");
+            complain(error, LAM_MACHINE, "out of memory");
         else if (fill(job, root, rules, error))
             kind = LINE_JOB;
     }

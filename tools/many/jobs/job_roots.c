@@ -18,7 +18,7 @@ bool job_roots_start(struct job_roots *roots, const struct options *options, lam
     const struct texts *given = &options->limits.allow_paths;
     *roots = (struct job_roots){.paths = calloc((size_t)given->count + 1, sizeof *roots->paths)};
     if (!roots->paths)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; i < given->count; i++) {
         if (!path_is_folder(given->items[i]))
             return complain(error, LAM_BAD_ARGUMENT,

@@ -20,7 +20,7 @@ static bool append(char ***words, int *count, char *argument, lam_error *error)
     char **more = argument && *count < WORDS_MAX ? realloc(*words, ((size_t)*count + 2) * sizeof *more) : NULL;
     if (!more) {
         free(argument);
-        return *count < WORDS_MAX ? complain(error, LAM_LIMIT, "out of memory")
+        return *count < WORDS_MAX ? complain(error, LAM_MACHINE, "out of memory")
                                   : complain(error, LAM_BAD_ARGUMENT, "key 'options': more than %d words", WORDS_MAX);
     }
     *words = more;
@@ -142,7 +142,7 @@ static bool parse(char *const *words, int count, struct options *options, lam_er
 {
     char **list = calloc((size_t)count + 1, sizeof *list);
     if (!list)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (int i = 0; i < count; i++)
         list[i] = words[i];
     int operands = options_parse(count, list, ~WRITES_NO_FILE, options, error);

@@ -108,7 +108,7 @@ char *batch_options_text(const struct options *o, lam_error *error)
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    bool ok = out || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = out || complain(error, LAM_MACHINE, "out of memory");
     for (const struct option *option = option_table; ok && option->name; option++) {
         if (!option_is_in(option, IN_KEY) || (option->has_field && option->store != store_switch &&
                                               !*(const bool *)((const char *)o + option->has_field)))
@@ -121,7 +121,7 @@ char *batch_options_text(const struct options *o, lam_error *error)
         putc('\n', out);
     }
     if (out && fclose(out) != 0 && ok)
-        ok = complain(error, LAM_LIMIT, "out of memory");
+        ok = complain(error, LAM_MACHINE, "out of memory");
     if (ok)
         return text;
     free(text);

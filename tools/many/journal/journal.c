@@ -174,7 +174,7 @@ static bool read_lines(struct journal *j, size_t size, const char **options, jso
         json_decref(record);
     }
     json_decref(folder);
-    return ok || complain(error, LAM_LIMIT, "out of memory");
+    return ok || complain(error, LAM_MACHINE, "out of memory");
 }
 
 // --- opening
@@ -187,7 +187,7 @@ static bool begin_run(struct journal *j, const struct journal_run *about, lam_er
                                     lam_build_info(), "options", clean, "folder", j->folder, "shard", about->shard,
                                     "pictures", (json_int_t)about->pictures)
                         : NULL;
-    bool ok = run || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = run || complain(error, LAM_MACHINE, "out of memory");
     ok = ok && journal_add(j, run, error);
     json_decref(run);
     free(clean);
@@ -198,7 +198,7 @@ static bool check_options(const char *path, const char *then, const char *option
 {
     char *now = journal_text(options), difference[300];
     if (!now)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool same = strcmp(then, now) == 0;
     if (!same)
         batch_options_difference(then, now, difference);
@@ -241,7 +241,7 @@ static bool set_aside(const struct journal *j, lam_error *error)
         fclose(file);
     if (!ours)
         return complain(error, LAM_BAD_ARGUMENT, "%s: expected a journal of lambent, found another file", j->path);
-    bool ok = asprintf(&before, "%s.before", j->path) >= 0 || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = asprintf(&before, "%s.before", j->path) >= 0 || complain(error, LAM_MACHINE, "out of memory");
     ok = ok && (rename(j->path, before) == 0 ||
                 complain(error, LAM_CANNOT_WRITE, "%s: cannot rename to %s: %s", j->path, before, strerror(errno)));
     if (ok)
@@ -311,7 +311,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
             .path = strdup(path), .folder = journal_text(run->folder), .way = way, .file = -1, .running = -1};
     bool ok = j && j->path && j->folder && asprintf(&j->running_path, "%s.running", path) >= 0;
     if (!ok)
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
     ok = ok && output_make_folder(path, error) && open_running(j, error) &&
          (way == JOURNAL_START ? set_aside(j, error) : read_journal(j, way, run->options, error));
     if (ok) {
@@ -324,7 +324,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
     ok = ok && begin_run(j, run, error) && take_over_running(j, slots, error);
     if (ok)
         return j;
-    journal_close(j, false, false);
+    journal_close(j, false, 0, false);
     return NULL;
 }
 
@@ -369,7 +369,7 @@ bool journal_add(struct journal *j, const json_t *record, lam_error *error)
 {
     char *line = journal_line(record);
     if (!line)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     bool ok = write_all(j->file, line, strlen(line)) ||
               complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->path, strerror(errno));
     free(line);
@@ -413,21 +413,21 @@ void journal_each_running(const struct journal *j,
 }
 
 // Writes the line that ends a run. If writing fails, the run looks as if it had been killed just before its end.
-static void end_run(struct journal *j)
+static void end_run(struct journal *j, bool done, int exit)
 {
     lam_error error;
-    json_t *ended = json_pack("{s:b}", "ended", 1);
+    json_t *ended = json_pack("{s:b, s:i}", "ended", done, "exit", exit);
     if (ended)
         journal_add(j, ended, &error);
     json_decref(ended);
 }
 
-void journal_close(struct journal *j, bool done, bool interrupted)
+void journal_close(struct journal *j, bool done, int exit, bool interrupted)
 {
     if (!j)
         return;
-    if (done && j->file >= 0)
-        end_run(j);
+    if (j->begun && !interrupted)
+        end_run(j, done, exit);
     if (j->file >= 0)
         close(j->file);
     if (j->was_running &&

@@ -61,9 +61,9 @@ void journal_each_running(const struct journal *journal,
 // failure; errno is 0 if the file does not exist.
 char *journal_read(const char *path, size_t *size);
 
-// Closes the journal. `done` means that the run was completed. If FILE.running contains the slots of this run, the
+// Closes the journal. `done` means that the run was completed, `exit` is the run's exit code. If FILE.running contains the slots of this run, the
 // function removes the file, unless `interrupted` is set. NULL is allowed.
-void journal_close(struct journal *journal, bool done, bool interrupted);
+void journal_close(struct journal *journal, bool done, int exit, bool interrupted);
 
 // Converts text for JSON: bytes that are not UTF-8 become U+FFFD and two hexadecimal digits. The result is allocated
 // with malloc. Returns NULL if memory runs out.

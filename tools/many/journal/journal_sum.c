@@ -12,6 +12,7 @@
 
 #include "batch_key.h"
 #include "console.h"
+#include "exit_codes.h"
 #include "journal.h"
 #include "xxh64.h"
 
@@ -67,7 +68,7 @@ static bool add_picture(struct journal_sum *s, const json_t *record, const char 
                         lam_error *error)
 {
     if (!make_room(s))
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     struct xxh64 hash;
     xxh64_start(&hash);
     xxh64_add_text(&hash, output);
@@ -111,6 +112,7 @@ static void begin_run(struct journal_part *part, const json_t *record)
     if (shard)
         batch_shard_of(shard, &part->shard, &error); // cannot fail: only Lambent writes journals
     part->ended = false;
+    part->exit = -1;
 }
 
 // Ignores lines that are not JSON: the last line of a killed run may be truncated. The next run redraws the picture of
@@ -129,8 +131,11 @@ static bool read_lines(struct journal_sum *s, int number, lam_error *error)
             ok = add_picture(s, record, output, entry, error);
         else if (json_is_string(json_object_get(record, "options")))
             begin_run(&s->parts[number], record);
-        else if (json_is_true(json_object_get(record, "ended")))
-            s->parts[number].ended = true;
+        else if (json_is_boolean(json_object_get(record, "ended"))) {
+            const json_t *exit = json_object_get(record, "exit");
+            s->parts[number].ended = json_is_true(json_object_get(record, "ended"));
+            s->parts[number].exit = json_is_integer(exit) ? (int)json_integer_value(exit) : -1;
+        }
         json_decref(record);
     }
     return ok;
@@ -157,17 +162,29 @@ static bool check_together(const struct journal_part *a, const struct journal_pa
                     b->path, difference);
 }
 
+int journal_sum_exit(const struct journal_sum *s)
+{
+    int code = journal_sum_is_whole(s) ? 0 : EXIT_SOME_FAILED;
+    for (int i = 0; i < s->part_count; i++) {
+        int exit = s->parts[i].exit;
+        if (exit > 0 && exit != EXIT_SOME_FAILED)
+            return exit;
+        code = exit == EXIT_SOME_FAILED || (exit < 0 && s->parts[i].failed) ? EXIT_SOME_FAILED : code;
+    }
+    return code;
+}
+
 bool journal_sum_add(struct journal_sum *s, const char *path, lam_error *error)
 {
     struct journal_part *more = realloc(s->parts, ((size_t)s->part_count + 1) * sizeof *more);
     if (!more)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     s->parts = more;
     struct journal_part *part = &s->parts[s->part_count++];
     *part = (struct journal_part){.path = strdup(path)};
     part->text = part->path ? journal_read(path, &part->size) : NULL;
     if (!part->path || (!part->text && errno == ENOMEM))
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     if (!part->text)
         return complain(error, LAM_CANNOT_READ, "%s: cannot read the journal: %s", path,
                         strerror(errno ? errno : ENOENT));
@@ -200,7 +217,7 @@ bool journal_sum_add_folder(struct journal_sum *s, const char *folder, lam_error
         if (ok &&
             asprintf(&path, "%s%s%s", folder, folder[strlen(folder) - 1] == '/' ? "" : "/", names[i]->d_name) < 0) {
             path = NULL;
-            ok = complain(error, LAM_LIMIT, "out of memory");
+            ok = complain(error, LAM_MACHINE, "out of memory");
         }
         ok = ok && journal_sum_add(s, path, error);
         free(path);

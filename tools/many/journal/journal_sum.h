@@ -13,6 +13,7 @@ struct journal_part {
     size_t pictures;              // the number of planned pictures
     size_t written, failed;       // numbers of pictures
     bool ended;                   // whether the run was completed
+    int exit;                     // the exit code of the run; −1 if the journal does not contain it
     char *text;                   // the contents of the file
     size_t size;
 };
@@ -50,6 +51,10 @@ json_t *journal_sum_record(const struct journal_sum *sum, size_t entry);
 
 // Returns true if each shard has a completed journal and no picture is in two journals.
 bool journal_sum_is_whole(const struct journal_sum *sum);
+
+// Returns the exit code of the whole batch: an exit code of a run other than EXIT_SOME_FAILED, if there is one, else
+// EXIT_SOME_FAILED if a run ended with it or if a part is missing.
+int journal_sum_exit(const struct journal_sum *sum);
 bool journal_sum_has_shard(const struct journal_sum *sum, int number);
 
 void journal_sum_free(struct journal_sum *sum);

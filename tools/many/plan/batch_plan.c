@@ -34,7 +34,7 @@ static bool make_pattern(struct batch_plan *plan, lam_error *error)
     return plan->pattern
                ? output_name_check(plan->pattern,
                                    NAME_VIEW | NAME_SIZE | (animation_wanted(plan->options) ? NAME_FRAME : 0), error)
-               : complain(error, LAM_LIMIT, "out of memory");
+               : complain(error, LAM_MACHINE, "out of memory");
 }
 
 static bool check_together(const struct options *o, lam_error *error)
@@ -84,7 +84,7 @@ bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root,
         size_t capacity = plan->capacity ? 2 * plan->capacity : 64;
         struct batch_model *more = realloc(plan->models, capacity * sizeof *more);
         if (!more)
-            return complain(error, LAM_LIMIT, "out of memory");
+            return complain(error, LAM_MACHINE, "out of memory");
         plan->models = more;
         plan->capacity = capacity;
     }
@@ -96,7 +96,7 @@ bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root,
     }
     free(model->path);
     free(model->root);
-    return complain(error, LAM_LIMIT, "out of memory");
+    return complain(error, LAM_MACHINE, "out of memory");
 }
 
 void batch_plan_drop_last(struct batch_plan *plan)
@@ -192,7 +192,7 @@ static bool keep_shard(struct batch_plan *plan, lam_error *error)
         free(name);
     }
     plan->count = kept;
-    return ok || complain(error, LAM_LIMIT, "out of memory");
+    return ok || complain(error, LAM_MACHINE, "out of memory");
 }
 
 bool batch_plan_check(struct batch_plan *plan, lam_error *error)
@@ -210,7 +210,7 @@ bool batch_plan_check(struct batch_plan *plan, lam_error *error)
         ok = output != NULL;
     }
     if (!ok)
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
     else
         qsort(named, count, sizeof *named, by_output);
     ok = ok && find_doubles(plan, named, count, error);

@@ -222,7 +222,7 @@ bool batch_shard_check_folder(const char *path, const struct batch_shard *shard,
     size_t stem = (size_t)(ending - name);
     char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
     if (!folder)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     DIR *list = opendir(folder); // a folder that does not exist yet contains no journals
     bool ok = true;
     for (struct dirent *entry; ok && list && (entry = readdir(list));) {

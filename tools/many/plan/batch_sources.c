@@ -56,7 +56,7 @@ static bool add_folder(struct batch_plan *plan, const char *folder, const char *
         bool slash = folder[strlen(folder) - 1] != '/';
         if (ok && asprintf(&path, "%s%s%s", folder, slash ? "/" : "", entries[i]->d_name) < 0) {
             path = NULL;
-            ok = complain(error, LAM_LIMIT, "out of memory");
+            ok = complain(error, LAM_MACHINE, "out of memory");
         }
         if (ok && lstat(path, &own) == 0) {
             if (S_ISDIR(own.st_mode))
@@ -106,7 +106,7 @@ static bool check_order(const struct batch_plan *plan, const char *path, lam_err
     char *before = batch_plan_output(plan, plan->count - 2, 0), *now = batch_plan_output(plan, plan->count - 1, 0);
     const char *model = plan->models[plan->count - 1].path;
     int order = before && now ? strcmp(before, now) : -1;
-    bool ok = before && now ? true : complain(error, LAM_LIMIT, "out of memory");
+    bool ok = before && now ? true : complain(error, LAM_MACHINE, "out of memory");
     if (order == 0)
         ok = batch_same_output(plan->models[plan->count - 2].path, model, now, error);
     else if (order > 0)
@@ -148,7 +148,7 @@ bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error)
         batch_plan_drop_last(plan);
     plan->listed += plan->count - first;
     if (ok && !past && !feof(file)) // getline also fails if memory runs out
-        ok = complain(error, errno == ENOMEM ? LAM_LIMIT : LAM_CANNOT_READ, "%s: cannot read the list: %s", path,
+        ok = complain(error, errno == ENOMEM ? LAM_MACHINE : LAM_CANNOT_READ, "%s: cannot read the list: %s", path,
                       strerror(errno));
     free(line);
     if (!standard)

@@ -82,6 +82,11 @@ static void name_model(const struct job *job, lam_error *error)
 
 // --- records
 
+bool batch_is_by_machine(const lam_error *error)
+{
+    return error->code == LAM_MACHINE || error->code == LAM_CANNOT_WRITE;
+}
+
 // The files of a model and their hashes.
 struct files {
     int count;
@@ -126,7 +131,8 @@ static void set_ms(json_t *record, const char *key, double ms)
     json_object_set_new(record, key, json_real((double)(int64_t)(ms * 1e3 + 0.5) / 1e3));
 }
 
-static json_t *start_record(const struct batch_item *item, int view, const char *class, int exit, const char *error)
+static json_t *start_record(const struct batch_item *item, int view, const char *class, int exit, bool by_machine,
+                            const char *error)
 {
     const struct job_view *v = &item->views[view];
     json_t *record = json_object();
@@ -137,13 +143,16 @@ static json_t *start_record(const struct batch_item *item, int view, const char 
     json_object_set_new(record, "exit", json_integer(exit));
     char shown[MESSAGE_SIZE];
     journal_set_text(record, "error", error ? name_options(error, shown) : NULL);
+    if (exit)
+        journal_set_text(record, "cause", by_machine ? "machine" : "model");
     json_object_set_new(record, "attempt", json_integer(item->attempts[view]));
     return record;
 }
 
-json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text)
+json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, bool by_machine,
+                            const char *text)
 {
-    return start_record(item, view, name, exit, text);
+    return start_record(item, view, name, exit, by_machine, text);
 }
 
 static json_t *warnings_of(const struct job *job)
@@ -219,7 +228,8 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
                          const struct files *files)
 {
     const struct exit_code *code = exit_code_of(error->code);
-    json_t *record = start_record(item, view, code->name, code->code, error->code ? error->text : NULL);
+    json_t *record =
+        start_record(item, view, code->name, code->code, batch_is_by_machine(error), error->code ? error->text : NULL);
     if (job->scene) {
         json_object_set_new(record, "triangles", json_integer((json_int_t)job->model_counts.triangles));
         json_object_set_new(record, "lines", json_integer((json_int_t)job->model_counts.lines));
@@ -286,6 +296,7 @@ static void finish_picture(struct model_run *r, struct job *job, int view, bool 
     r->result->code = code->code > r->result->code ? code->code : r->result->code;
     r->result->interrupted |= error->code == LAM_CANCELLED;
     r->result->outcomes[view].class = code->name;
+    r->result->outcomes[view].by_machine = batch_is_by_machine(error);
     r->result->outcomes[view].kind = ok                             ? BATCH_WRITTEN
                                      : error->code == LAM_CANCELLED ? BATCH_INTERRUPTED
                                                                     : BATCH_FAILED;

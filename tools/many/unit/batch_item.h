@@ -40,6 +40,7 @@ struct batch_artist {
 struct batch_outcome {
     enum { BATCH_INTERRUPTED, BATCH_WRITTEN, BATCH_FAILED } kind;
     const char *class; // the name of the picture's exit code
+    bool by_machine;   // batch_is_by_machine
 };
 
 struct batch_result {
@@ -55,7 +56,12 @@ struct batch_result {
 void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result);
 void batch_result_free(struct batch_result *result);
 
+// Returns whether the machine caused an error, not the model: no space, memory, descriptors or processes. A later run
+// draws the picture again.
+bool batch_is_by_machine(const lam_error *error);
+
 // Makes the record of a failed picture. Call this if the drawing process ended without a report.
-json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, const char *text);
+json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, bool by_machine,
+                            const char *text);
 
 #endif

@@ -12,6 +12,7 @@ void batch_stop(struct batch *b, const lam_error *error)
         batch_hide_progress(&b->tally);
         say_error(error->text);
     }
+    b->stop_code = b->failed ? b->stop_code : code;
     b->failed = true;
     b->code = code > b->code ? code : b->code;
     pthread_mutex_unlock(&b->lock);

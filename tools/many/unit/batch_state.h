@@ -23,6 +23,7 @@ struct batch_picture {
     uint8_t outcome;   // enum picture_outcome
     uint8_t class;     // for a failed picture, the index of its class in tally.classes
     uint16_t attempts; // attempts so far, including earlier runs
+    bool by_machine;   // for a failed picture, whether the machine caused the failure (batch_is_by_machine)
 };
 
 struct batch_job;
@@ -61,7 +62,8 @@ struct batch {
     struct batch_texts texts;
     int code; // the highest exit code
     bool interrupted;
-    bool failed; // an error has ended the run, so no further model is started
+    bool failed;   // an error has ended the run, so no further model is started
+    int stop_code; // the exit code of this error
 };
 
 // Returns the states of the pictures of a model in the batch's plan.

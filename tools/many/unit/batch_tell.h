@@ -19,6 +19,8 @@ struct batch_tally {
         const char *name;
         size_t count;
     } classes[TALLY_CLASSES]; // the failures by class
+    size_t by_machine;        // failures that the machine caused (batch_is_by_machine); `failed` includes these
+    size_t by_machine_in_row; // since the latest written picture
     size_t retried;           // failed pictures that wait for a retry; `failed` includes these
     double start_ms;
     bool has_progress; // the terminal shows a progress line

@@ -34,7 +34,7 @@ bool batch_unit_start(struct batch_unit *u, const struct batch *b, const struct 
     if (ok)
         return true;
     batch_unit_free(u);
-    return complain(error, LAM_LIMIT, "out of memory");
+    return complain(error, LAM_MACHINE, "out of memory");
 }
 
 void batch_unit_free(struct batch_unit *u)
@@ -144,8 +144,12 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
                      found.st_size == json_integer_value(json_object_get(record, "bytes"));
         return whole ? PICTURE_BEFORE : PICTURE_OPEN;
     }
+    // Lambent 0.1 before 2026-12 recorded no cause: a limit or a failed write may then be the machine's.
+    int exit = (int)json_integer_value(json_object_get(record, "exit"));
+    const char *cause = journal_value(record, "cause");
+    bool by_machine = *cause ? strcmp(cause, "machine") == 0 : exit == 4 || exit == 5;
     *attempts = (uint16_t)json_integer_value(json_object_get(record, "attempt"));
-    return *attempts > b->options->batch.retry_failed ? PICTURE_FAILED_BEFORE : PICTURE_OPEN;
+    return by_machine || *attempts <= b->options->batch.retry_failed ? PICTURE_OPEN : PICTURE_FAILED_BEFORE;
 }
 
 bool batch_unit_look(struct batch_unit *u, const struct batch *b)
@@ -239,6 +243,7 @@ void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct o
             continue;
         u->classes[which[i]] = result.outcomes[i].class;
         picture->outcome = result.outcomes[i].kind == BATCH_WRITTEN ? PICTURE_WRITTEN : PICTURE_FAILED;
+        picture->by_machine = result.outcomes[i].by_machine;
         picture->attempts++;
         u->records[which[i]] = result.records[i];
         u->is_new[which[i]] = true;
@@ -247,7 +252,8 @@ void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct o
     batch_result_free(&result);
 }
 
-void batch_unit_fail(struct batch_unit *u, const struct batch *b, const char *class, int exit, const char *text)
+void batch_unit_fail(struct batch_unit *u, const struct batch *b, const char *class, int exit, bool by_machine,
+                     const char *text)
 {
     struct job_view views[VIEWS];
     char *outputs[VIEWS];
@@ -258,8 +264,10 @@ void batch_unit_fail(struct batch_unit *u, const struct batch *b, const char *cl
         struct batch_picture *picture = &u->pictures[which[i]];
         picture->outcome = PICTURE_FAILED;
         picture->attempts++;
+        picture->by_machine = by_machine && picture->attempts < ATTEMPTS_OF_MACHINE;
         u->classes[which[i]] = class;
-        u->records[which[i]] = item.has_records ? batch_record_failed(&item, i, class, exit, text) : NULL;
+        u->records[which[i]] =
+            item.has_records ? batch_record_failed(&item, i, class, exit, picture->by_machine, text) : NULL;
         u->is_new[which[i]] = true;
     }
 }

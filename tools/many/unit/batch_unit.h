@@ -35,6 +35,10 @@ void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const s
 
 // Marks all open pictures as failed with an error class. Call this if the drawing process ended without a report, for
 // example in a crash. The message `text` must name the model.
-void batch_unit_fail(struct batch_unit *unit, const struct batch *batch, const char *class, int exit, const char *text);
+// `by_machine`: batch_is_by_machine. If a model's process ends without a report in ATTEMPTS_OF_MACHINE attempts, the
+// model is the cause.
+enum { ATTEMPTS_OF_MACHINE = 3 };
+void batch_unit_fail(struct batch_unit *unit, const struct batch *batch, const char *class, int exit, bool by_machine,
+                     const char *text);
 
 #endif

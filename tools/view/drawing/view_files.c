@@ -29,7 +29,7 @@ bool view_files_start(struct view_files *files, const char *operand, bool is_fol
     if (!is_folder && asprintf(&files->model, "/%s", slash ? slash + 1 : operand) < 0)
         files->model = NULL;
     if (!files->prefix || (!is_folder && (!files->model || !files->model_path)))
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     for (size_t length = strlen(files->prefix); length > 1 && files->prefix[length - 1] == '/';)
         files->prefix[--length] = 0;
     bool root = !*files->prefix || strcmp(files->prefix, "/") == 0;

@@ -27,7 +27,7 @@ static char *machine_path(const struct view_files *files, const char *path, lam_
     close(file);
     char *found = view_files_path(files, path);
     if (!found)
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
     return found;
 }
 
@@ -40,7 +40,7 @@ static bool take_environment(struct view_words *w, const struct view_files *file
     size_t size = 0;
     FILE *list = open_memstream(&w->environment, &size);
     char *copy = strdup(out->shading.environment), *rest = copy;
-    bool ok = (list && copy) || complain(error, LAM_LIMIT, "out of memory");
+    bool ok = (list && copy) || complain(error, LAM_MACHINE, "out of memory");
     for (char *part; ok && (part = strsep(&rest, ","));) {
         char *path = machine_path(files, part, error);
         ok = path != NULL;
@@ -50,7 +50,7 @@ static bool take_environment(struct view_words *w, const struct view_files *file
     }
     free(copy);
     if (list && fclose(list) != 0 && ok)
-        ok = complain(error, LAM_LIMIT, "out of memory");
+        ok = complain(error, LAM_MACHINE, "out of memory");
     if (ok)
         out->shading.environment = w->environment;
     return ok;
@@ -101,7 +101,7 @@ bool view_words_parse(struct view_words *w, const char *text, size_t size, const
         count += !text[i];
     w->words = calloc((size_t)count + 1, sizeof *w->words);
     if (!w->text || !w->words)
-        return complain(error, LAM_LIMIT, "out of memory");
+        return complain(error, LAM_MACHINE, "out of memory");
     memcpy(w->text, text, size);
     w->text[size] = 0;
     char *at = w->text;
@@ -122,7 +122,7 @@ bool view_words_parse(struct view_words *w, const char *text, size_t size, const
     take_limits(limits, out);
     w->model = job_model_is_shape(w->page_model) ? strdup(w->page_model) : machine_path(files, w->page_model, error);
     if (!w->model && job_model_is_shape(w->page_model))
-        complain(error, LAM_LIMIT, "out of memory");
+        complain(error, LAM_MACHINE, "out of memory");
     return w->model != NULL;
 }
 

@@ -9,18 +9,28 @@
 
 #define KNOWN "PNG, JPEG, WebP, BMP, TGA, PPM (P6), PFM, EXR or Radiance"
 
-// If memory runs out, picture libraries report a damaged file, and loading a library fails. After such an
-// error, this function tests whether memory can still be allocated. If the test fails, the function replaces the error.
+// After an error that is_doubtful, tests whether memory can still be allocated. If the test fails, replaces the error.
 static bool blame_memory(lam_error *error)
 {
     enum { SOME = 1 << 20 }; // more memory than these libraries request at once
-    if (error->code != LAM_CANNOT_READ && error->code != LAM_UNSUPPORTED)
-        return false;
     void *volatile some = malloc(SOME); // volatile, so that the unused memory is really allocated
     if (!some)
         return fail_memory(error, SOME);
     free(some);
     return false;
+}
+
+// If memory runs out, picture libraries report a damaged file, and loading a library fails. A picture with such an error
+// is therefore decoded a second time: a model must not be drawn without its texture because one allocation failed.
+static bool is_doubtful(const lam_error *error)
+{
+    return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED;
+}
+
+static bool read_once(const struct codec *codec, const struct picture_file *file, bool *wide, lam_image *image,
+                      lam_error *error)
+{
+    return wide && codec->read_wide ? codec->read_wide(file, image, wide, error) : codec->read(file, image, error);
 }
 
 // Decodes a picture. Keeps all bits of the file if `wide` is not NULL (codec.read_wide).
@@ -37,9 +47,10 @@ static bool decode(const struct picture_file *file, bool *wide, lam_image *image
     lam_error own = {0};
     error = error ? error : &own;
     uint64_t state = float_state_enter();
-    bool ok = wide && codec->read_wide ? codec->read_wide(file, image, wide, error) : codec->read(file, image, error);
+    bool ok = read_once(codec, file, wide, image, error);
+    ok = ok || (is_doubtful(error) && read_once(codec, file, wide, image, error));
     float_state_leave(state);
-    return ok || blame_memory(error);
+    return ok || (is_doubtful(error) && blame_memory(error));
 }
 
 bool picture_decode_wide(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)

@@ -1,8 +1,6 @@
-// test_obj_lines.c: the fast readers of OBJ lines for every instruction set of this machine read the same numbers as
-// the C library.
+// test_obj_lines.c: the fast reader of OBJ lines reads the same numbers as the C library.
 #include "loading.h"
 
-#include "cpu_features.h"
 #include "obj.h"
 
 enum { LINES = 20000, ROOM = 128 * LINES };
@@ -18,18 +16,6 @@ static uint64_t next_random(void)
     random_state ^= random_state >> 7;
     random_state ^= random_state << 17;
     return random_state;
-}
-
-static int readers(obj_lines_reader *out[2])
-{
-    out[0] = obj_read_lines_scalar;
-#if defined(__x86_64__)
-    if (cpu_has(CPU_AVX512 | CPU_AVX512_VBMI)) {
-        out[1] = obj_read_lines_avx512;
-        return 2;
-    }
-#endif
-    return 1;
 }
 
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
@@ -51,34 +37,30 @@ static size_t make_position(char *at, const char *form, uint64_t digits, const c
 
 static void check(size_t size, uint64_t positions, uint64_t triangles)
 {
-    obj_lines_reader *all[2];
-    int count = readers(all);
     memset(text + size, 0, FILE_PADDING);
     const uint8_t *begin = (const uint8_t *)text, *end = begin + size;
-    for (int r = 0; r < count; r++) {
-        struct obj obj = {
-            .begin = begin, .end = end, .positions = found, .indices = found_corners, .total = {.positions = 1u << 31}};
-        struct obj_chunk chunk = {.begin = begin, .end = end};
-        struct obj_reader reader = {
-            .obj = &obj, .chunk = &chunk, .end = end, .limit = {.positions = LINES, .triangles = LINES}};
-        memset(found, 0xff, 3 * LINES * sizeof *found);
-        memset(found_corners, 0xff, 3 * LINES * sizeof *found_corners);
-        for (const uint8_t *at = begin; at < end;) {
-            at = all[r](&reader, at, end);
-            assert_non_null(at);
-        }
-        assert_int_equal(reader.next.positions, positions);
-        assert_int_equal(reader.next.triangles, triangles);
-        assert_memory_equal(found, expected, 3 * positions * sizeof *found);
-        assert_memory_equal(found_corners, expected_corners, 3 * triangles * sizeof *found_corners);
-        float low[3] = {0}, high[3] = {0};
-        for (uint64_t i = 0; i < 3 * positions; i++) {
-            low[i % 3] = expected[i] < low[i % 3] ? expected[i] : low[i % 3];
-            high[i % 3] = expected[i] > high[i % 3] ? expected[i] : high[i % 3];
-        }
-        for (int i = 0; i < 3; i++)
-            assert_true(reader.low[i] == low[i] && reader.high[i] == high[i]);
+    struct obj obj = {
+        .begin = begin, .end = end, .positions = found, .indices = found_corners, .total = {.positions = 1u << 31}};
+    struct obj_chunk chunk = {.begin = begin, .end = end};
+    struct obj_reader reader = {
+        .obj = &obj, .chunk = &chunk, .end = end, .limit = {.positions = LINES, .triangles = LINES}};
+    memset(found, 0xff, 3 * LINES * sizeof *found);
+    memset(found_corners, 0xff, 3 * LINES * sizeof *found_corners);
+    for (const uint8_t *at = begin; at < end;) {
+        at = obj_read_lines(&reader, at, end);
+        assert_non_null(at);
     }
+    assert_int_equal(reader.next.positions, positions);
+    assert_int_equal(reader.next.triangles, triangles);
+    assert_memory_equal(found, expected, 3 * positions * sizeof *found);
+    assert_memory_equal(found_corners, expected_corners, 3 * triangles * sizeof *found_corners);
+    float low[3] = {0}, high[3] = {0};
+    for (uint64_t i = 0; i < 3 * positions; i++) {
+        low[i % 3] = expected[i] < low[i % 3] ? expected[i] : low[i % 3];
+        high[i % 3] = expected[i] > high[i % 3] ? expected[i] : high[i % 3];
+    }
+    for (int i = 0; i < 3; i++)
+        assert_true(reader.low[i] == low[i] && reader.high[i] == high[i]);
 }
 
 static void positions(void **state)
@@ -173,48 +155,45 @@ static void attributes(void **state)
             triangles += count - 2;
         }
         memset(text + size, 0, FILE_PADDING);
-        obj_lines_reader *all[2];
-        for (int r = readers(all) - 1; r >= 0; r--) {
-            const uint8_t *begin = (const uint8_t *)text, *end = begin + size;
-            struct obj obj = {.begin = begin,
-                              .end = end,
-                              .positions = found,
-                              .texcoords = texcoords,
-                              .normals = normals,
-                              .indices = read[0],
-                              .texcoord_indices = layout & 1 ? read[1] : NULL,
-                              .normal_indices = layout & 2 ? read[2] : NULL,
-                              .polygons = polygons,
-                              .total = {.positions = 20000, .texcoords = 20000000, .normals = 20000000}};
-            struct obj_chunk chunk = {.begin = begin, .end = end};
-            struct obj_counts limit = {
-                .texcoords = COUNT, .normals = COUNT, .triangles = triangles, .polygons = polygon_count};
-            struct obj_reader reader = {.obj = &obj, .chunk = &chunk, .end = end, .limit = limit};
-            memset(read, 0, sizeof read);
-            for (const uint8_t *at = begin; at < end;) {
-                at = all[r](&reader, at, end);
-                assert_non_null(at);
-            }
-            assert_memory_equal(&reader.next, &limit, sizeof limit);
-            assert_int_equal(chunk.texcoord_used, layout & 1);
-            assert_int_equal(chunk.normal_used, layout >> 1);
-            assert_false((layout & 1 && chunk.texcoord_missing) || (layout & 2 && chunk.normal_missing));
-            for (int i = 0; i < COUNT; i++) {
-                assert_memory_equal(texcoords + 2 * i, made[i], 2 * sizeof(float));
-                assert_memory_equal(normals + 3 * i, made[i] + 2, 3 * sizeof(float));
-            }
-            size_t p = 0, at = 0;
-            for (size_t t = 0; t < triangles;) {
-                size_t count = p < polygon_count && polygons[p].first_triangle == t ? polygons[p++].count : 3;
-                for (int k = 0; k < 3; k++)
-                    if (k == 0 || layout & k)
-                        assert_memory_equal(read[k] + 3 * t, corners[k] + 3 * t, count * sizeof(uint32_t));
-                t += count - 2;
-                at += count;
-            }
-            assert_int_equal(p, polygon_count);
-            assert_true(at >= 3 * COUNT);
+        const uint8_t *begin = (const uint8_t *)text, *end = begin + size;
+        struct obj obj = {.begin = begin,
+                          .end = end,
+                          .positions = found,
+                          .texcoords = texcoords,
+                          .normals = normals,
+                          .indices = read[0],
+                          .texcoord_indices = layout & 1 ? read[1] : NULL,
+                          .normal_indices = layout & 2 ? read[2] : NULL,
+                          .polygons = polygons,
+                          .total = {.positions = 20000, .texcoords = 20000000, .normals = 20000000}};
+        struct obj_chunk chunk = {.begin = begin, .end = end};
+        struct obj_counts limit = {
+            .texcoords = COUNT, .normals = COUNT, .triangles = triangles, .polygons = polygon_count};
+        struct obj_reader reader = {.obj = &obj, .chunk = &chunk, .end = end, .limit = limit};
+        memset(read, 0, sizeof read);
+        for (const uint8_t *at = begin; at < end;) {
+            at = obj_read_lines(&reader, at, end);
+            assert_non_null(at);
         }
+        assert_memory_equal(&reader.next, &limit, sizeof limit);
+        assert_int_equal(chunk.texcoord_used, layout & 1);
+        assert_int_equal(chunk.normal_used, layout >> 1);
+        assert_false((layout & 1 && chunk.texcoord_missing) || (layout & 2 && chunk.normal_missing));
+        for (int i = 0; i < COUNT; i++) {
+            assert_memory_equal(texcoords + 2 * i, made[i], 2 * sizeof(float));
+            assert_memory_equal(normals + 3 * i, made[i] + 2, 3 * sizeof(float));
+        }
+        size_t p = 0, at = 0;
+        for (size_t t = 0; t < triangles;) {
+            size_t count = p < polygon_count && polygons[p].first_triangle == t ? polygons[p++].count : 3;
+            for (int k = 0; k < 3; k++)
+                if (k == 0 || layout & k)
+                    assert_memory_equal(read[k] + 3 * t, corners[k] + 3 * t, count * sizeof(uint32_t));
+            t += count - 2;
+            at += count;
+        }
+        assert_int_equal(p, polygon_count);
+        assert_true(at >= 3 * COUNT);
     }
 }
 
@@ -233,8 +212,9 @@ static void damaged_faces(void **state)
     static const char *const forms[] = {"f %u %u %u\n", "f %u/%u %u/%u %u/%u\n", "f %u//%u %u//%u %u//%u\r\n",
                                         "f %u/%u/%u %u/%u/%u %u/%u/%u\n"};
     static const char bytes[] = "0189/ -.x#\r\t/ 0";
-    obj_lines_reader *all[3] = {read_line_by_line};
-    const int count = 1 + readers(all + 1);
+    const uint8_t *(*const all[2])(struct obj_reader *, const uint8_t *, const uint8_t *) = {read_line_by_line,
+                                                                                             obj_read_lines};
+    const int count = 2;
     for (int i = 0; i < 4 * LINES; i++) {
         const int layout = (int)(next_random() % 4); // 1: texture coordinates, 2: normals
         uint32_t n[9];
@@ -326,32 +306,27 @@ static void others(void **state)
     };
     static struct obj_statement statements[8];
     static struct mesh_polygon polygons[8];
-    obj_lines_reader *all[2];
-    int count = readers(all);
-    for (int r = 0; r < count; r++) {
-        for (size_t l = 0; l < sizeof lines / sizeof *lines; l++) {
-            size_t size = (size_t)sprintf(text, "%s", lines[l].line);
-            memset(text + size, 0, FILE_PADDING);
-            const uint8_t *begin = (const uint8_t *)text, *end = begin + size, *at = begin;
-            struct obj obj = {.begin = begin,
-                              .end = end,
-                              .positions = found,
-                              .indices = found_corners,
-                              .statements = statements,
-                              .polygons = polygons,
-                              .total = {.positions = 4000000000u}};
-            struct obj_chunk chunk = {.begin = begin, .end = end};
-            struct obj_reader reader = {.obj = &obj,
-                                        .chunk = &chunk,
-                                        .end = end,
-                                        .limit = {.positions = 8, .triangles = 8, .others = 8, .polygons = 8}};
-            while (at && at < end)
-                at = all[r](&reader, at, end);
-            if ((at == NULL) != (lines[l].positions < 0) ||
-                (at && (reader.next.positions != (uint64_t)lines[l].positions ||
-                        reader.next.triangles != (uint64_t)lines[l].triangles)))
-                fail_msg("reader %d: %s: %s", r, lines[l].line, at ? "read" : "refused");
-        }
+    for (size_t l = 0; l < sizeof lines / sizeof *lines; l++) {
+        size_t size = (size_t)sprintf(text, "%s", lines[l].line);
+        memset(text + size, 0, FILE_PADDING);
+        const uint8_t *begin = (const uint8_t *)text, *end = begin + size, *at = begin;
+        struct obj obj = {.begin = begin,
+                          .end = end,
+                          .positions = found,
+                          .indices = found_corners,
+                          .statements = statements,
+                          .polygons = polygons,
+                          .total = {.positions = 4000000000u}};
+        struct obj_chunk chunk = {.begin = begin, .end = end};
+        struct obj_reader reader = {.obj = &obj,
+                                    .chunk = &chunk,
+                                    .end = end,
+                                    .limit = {.positions = 8, .triangles = 8, .others = 8, .polygons = 8}};
+        while (at && at < end)
+            at = obj_read_lines(&reader, at, end);
+        if ((at == NULL) != (lines[l].positions < 0) || (at && (reader.next.positions != (uint64_t)lines[l].positions ||
+                                                                reader.next.triangles != (uint64_t)lines[l].triangles)))
+            fail_msg("%s: %s", lines[l].line, at ? "read" : "refused");
     }
 }
 

@@ -13,8 +13,6 @@ unsigned cpu_features(void)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl"))
         features |= CPU_AVX512;
-    if (__builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("bmi2"))
-        features |= CPU_AVX512_VBMI;
 #elif defined(__aarch64__)
     features |= CPU_NEON; // part of every 64-bit Arm processor
 #elif defined(__wasm_simd128__)

@@ -6,12 +6,11 @@
 #include <stdbool.h>
 
 enum cpu_feature {
-    CPU_SSE4 = 1,        // SSE4.2
-    CPU_AVX2 = 2,        // AVX2
-    CPU_AVX512 = 4,      // AVX-512 F, BW, DQ, VL
-    CPU_AVX512_VBMI = 8, // AVX-512 VBMI, and BMI2
-    CPU_NEON = 16,
-    CPU_WASM_SIMD = 32, // SIMD128
+    CPU_SSE4 = 1,   // SSE4.2
+    CPU_AVX2 = 2,   // AVX2
+    CPU_AVX512 = 4, // AVX-512 F, BW, DQ, VL
+    CPU_NEON = 8,
+    CPU_WASM_SIMD = 16, // SIMD128
 };
 
 // Returns the features of this machine. Omits features whose registers the operating system does not save.

@@ -141,10 +141,9 @@ struct obj_reader {
     lam_error *error;
 };
 
-// obj_lines.c, compiled for several instruction sets: reads lines up to the first line with a continuation. Returns the
-// start of the next line, at most `end`, or NULL on error.
-typedef const uint8_t *obj_lines_reader(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
-obj_lines_reader obj_read_lines_scalar, obj_read_lines_avx512;
+// obj_lines.c: reads lines up to the first line with a continuation. Returns the start of the next line, at most `end`,
+// or NULL on error.
+const uint8_t *obj_read_lines(struct obj_reader *reader, const uint8_t *line, const uint8_t *end);
 
 // obj_line.c. Reads one logical line of any kind. Returns the start of the next line, or NULL on error.
 const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at);

@@ -1,39 +1,11 @@
 // obj_lines.c: a fast path for the most frequent lines: "v x y z", "vt s t", "vn x y z", and faces whose corners all
-// contain the attributes that are kept. obj_line.c reads all other lines. The file is compiled for several instruction
-// sets (meson.build defines ISA). The results are identical, because src/base/text/number.c parses all numbers whose
-// last bit is uncertain.
+// contain the attributes that are kept. obj_line.c reads all other lines. The results are identical, because
+// src/base/text/number.c parses all numbers whose last bit is uncertain.
 #include "byte_masks.h"
 #include "number_scan.h"
 #include "obj.h"
 
-#if !defined(ISA)
-#define ISA scalar
-#endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b)  JOIN_(a, b)
-
-#if defined(__AVX512VBMI__)
-#include "obj_lines_avx512.h"
-#else
-
-// Constants of the loop over the lines.
-struct constants {
-    uint32_t index_limit; // indices of faces are below this limit
-};
-static inline struct constants constants_of(const struct obj *obj)
-{
-    const bool plain = !obj->texcoord_indices && !obj->normal_indices;
-    return (struct constants){plain ? (uint32_t)obj->total.positions : 0};
-}
-
-static inline uint64_t newlines_of(const struct constants *c, const uint8_t *block)
-{
-    (void)c;
-    return byte_masks_newlines(block);
-}
-
-static inline bool read_triangle(const struct constants *c, const uint8_t *line, const uint8_t *line_end,
-                                 uint32_t to[3])
+static inline bool read_triangle(uint32_t index_limit, const uint8_t *line, const uint8_t *line_end, uint32_t to[3])
 {
     const uint8_t *at = line + 1;
     for (int i = 0; i < 3; i++) {
@@ -42,7 +14,7 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
         uint64_t eight = number_load8(++at);
         unsigned digits = number_digit_count(eight);
         uint64_t index = number_digits_value(eight, digits) - 1;
-        if (digits == 0 || index >= c->index_limit)
+        if (digits == 0 || index >= index_limit)
             return false;
         to[i] = (uint32_t)index;
         at += digits;
@@ -50,10 +22,8 @@ static inline bool read_triangle(const struct constants *c, const uint8_t *line,
     return at + (*at == '\r') == line_end;
 }
 
-static inline bool read_coordinates(const struct constants *c, const uint8_t *line, const uint8_t *line_end,
-                                    float out[3])
+static inline bool read_coordinates(const uint8_t *line, const uint8_t *line_end, float out[3])
 {
-    (void)c;
     const uint8_t *at = line + 1;
     for (int i = 0; i < 3; i++) {
         at = *at == ' ' ? number_float_quick(at + 1, line_end, &out[i]) : NULL;
@@ -64,19 +34,13 @@ static inline bool read_coordinates(const struct constants *c, const uint8_t *li
     return at + (*at == '\r') == line_end && sum == 0; // all numbers are finite
 }
 
-#endif
-
 // The output position of the fast path. A local variable of this type stays in registers, unlike `reader`.
 struct output {
     float *position, *positions_end, *texcoord, *texcoords_end, *normal, *normals_end;
     size_t corner, corners_end;
     bool faces; // whether the fast path has read a face
     struct box {
-#if defined(__AVX512VBMI__)
-        __m128 low, high;
-#else
         float low[4], high[4];
-#endif
     } box;
 };
 
@@ -119,18 +83,12 @@ static inline void store_output(const struct output *output, struct obj_reader *
     memcpy(reader->high, &output->box.high, sizeof reader->high);
 }
 
-static inline bool append_triangle(struct output *output, const struct constants *c, const struct obj *obj,
+static inline bool append_triangle(struct output *output, uint32_t index_limit, const struct obj *obj,
                                    const uint8_t *line, const uint8_t *line_end)
 {
     if (output->corner >= output->corners_end)
         return false;
-#if defined(__AVX512VBMI__)
-    if (read_corners(c, obj, line, line_end, output->corner)) {
-        output->corner += 3;
-        return output->faces = true;
-    }
-#endif
-    if (!read_triangle(c, line, line_end, obj->indices + output->corner))
+    if (!read_triangle(index_limit, line, line_end, obj->indices + output->corner))
         return false;
     output->corner += 3;
     return true;
@@ -191,79 +149,56 @@ static inline bool append_texcoord(struct output *output, const uint8_t *line, c
     return true;
 }
 
-#if defined(__AVX512VBMI__)
-static inline void store_three(float *to, __m128 three)
-{
-    _mm_storel_pi((__m64 *)(void *)to, three);
-    _mm_store_ss(to + 2, _mm_movehl_ps(three, three));
-}
-#endif
-
-static inline bool append_position(struct output *output, const struct constants *c, const uint8_t *line,
-                                   const uint8_t *line_end)
+static inline bool append_position(struct output *output, const uint8_t *line, const uint8_t *line_end)
 {
     if (output->position >= output->positions_end)
         return false;
     struct box *box = &output->box;
-#if defined(__AVX512VBMI__)
-    __m128 three;
-    if (!read_coordinates(c, line, line_end, &three))
-        return false;
-    store_three(output->position, three);
-    box->low = _mm_min_ps(three, box->low);
-    box->high = _mm_max_ps(three, box->high);
-#else
     float *three = output->position;
-    if (!read_coordinates(c, line, line_end, three))
+    if (!read_coordinates(line, line_end, three))
         return false;
     for (int i = 0; i < 3; i++) {
         box->low[i] = three[i] < box->low[i] ? three[i] : box->low[i];
         box->high[i] = three[i] > box->high[i] ? three[i] : box->high[i];
     }
-#endif
     output->position += 3;
     return true;
 }
 
-static inline bool append_normal(struct output *output, const struct constants *c, const uint8_t *line,
-                                 const uint8_t *line_end)
+static inline bool append_normal(struct output *output, const uint8_t *line, const uint8_t *line_end)
 {
     if (output->normal == output->normals_end)
         return false;
-#if defined(__AVX512VBMI__)
-    __m128 three;
-    if (!read_coordinates(c, line + 1, line_end, &three))
+    if (!read_coordinates(line + 1, line_end, output->normal))
         return false;
-    store_three(output->normal, three);
-#else
-    if (!read_coordinates(c, line + 1, line_end, output->normal))
-        return false;
-#endif
     output->normal += 3;
     return true;
 }
 
-static inline bool append_line(struct output *output, struct obj_reader *reader, const struct constants *c,
+static inline bool append_line(struct output *output, struct obj_reader *reader, uint32_t index_limit,
                                const uint8_t *line, const uint8_t *line_end)
 {
     if (line[0] == 'f')
-        return append_triangle(output, c, reader->obj, line, line_end) || append_face(output, reader, line, line_end);
+        return append_triangle(output, index_limit, reader->obj, line, line_end) ||
+               append_face(output, reader, line, line_end);
     if (line[0] != 'v')
         return false;
-    return line[1] == 'n'   ? append_normal(output, c, line, line_end)
+    return line[1] == 'n'   ? append_normal(output, line, line_end)
            : line[1] == 't' ? append_texcoord(output, line, line_end)
-                            : append_position(output, c, line, line_end);
+                            : append_position(output, line, line_end);
 }
 
 // Line ends are found 64 bytes at a time, so that reading a line does not depend on the previous line.
-const uint8_t *JOIN(obj_read_lines_, ISA)(struct obj_reader *reader, const uint8_t *line, const uint8_t *end)
+const uint8_t *obj_read_lines(struct obj_reader *reader, const uint8_t *line, const uint8_t *end)
 {
-    const struct constants constants = constants_of(reader->obj);
+    const struct obj *obj = reader->obj;
+    // Triangles without attributes have indices below this limit; 0 if faces have other attributes.
+    const uint32_t index_limit = obj->texcoord_indices || obj->normal_indices ? 0 : (uint32_t)obj->total.positions;
     struct output output = load_output(reader);
     for (const uint8_t *block = line;; block += 64) {
-        for (uint64_t ends = newlines_of(&constants, block); ends; ends &= ends - 1) {
+        for (uint64_t ends = byte_masks_newlines(block); ends; ends &= ends - 1) {
             const uint8_t *line_end = block + __builtin_ctzll(ends);
-            if (!append_line(&output, reader, &constants, line, line_end)) {
+            if (!append_line(&output, reader, index_limit, line, line_end)) {
                 store_output(&output, reader);
                 const uint8_t *next = obj_read_line(reader, line);
                 if (next != line_end + 1)

@@ -1,22 +1,12 @@
 // obj_parse.c: pass two over an OBJ file: reads vertices and faces into their arrays.
 #include "obj.h"
 
-#include "cpu_features.h"
 #include "number_scan.h"
 #include "origin.h"
 #include "parallel_rows.h"
 #include "srgb.h"
 
 #include <string.h>
-
-static obj_lines_reader *lines_reader(void)
-{
-#if defined(OBJ_LINES_AVX512)
-    if (cpu_has(CPU_AVX512 | CPU_AVX512_VBMI))
-        return obj_read_lines_avx512;
-#endif
-    return obj_read_lines_scalar;
-}
 
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
 {
@@ -29,7 +19,6 @@ bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
         .high = {-__FLT_MAX__, -__FLT_MAX__, -__FLT_MAX__},
         .error = error,
     };
-    obj_lines_reader *read_lines = lines_reader();
     chunk->short_faces = chunk->nonfinite_numbers = 0;
     chunk->brightest = 0;
     reader.limit = (struct obj_counts){
@@ -42,7 +31,7 @@ bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
     };
     const uint8_t *at = chunk->begin;
     while (at && at < chunk->end)
-        at = read_lines(&reader, at, chunk->end);
+        at = obj_read_lines(&reader, at, chunk->end);
     memcpy(chunk->low, reader.low, sizeof chunk->low);
     memcpy(chunk->high, reader.high, sizeof chunk->high);
     if (obj->streamed)

@@ -64,6 +64,10 @@ class ThreeMF(Case):
         self.given.add(name)
         return name
 
+    def pixels(self, name, view, *places):
+        width, height, pixels = self.png(name, "-s", 64, "--view", view, "--show", "base-color", "--projection", "orthographic", "--samples", 1, "-o", "-")
+        return [tuple(pixels[4 * (int(y * height) * width + int(x * width)):][:3]) for x, y in places]
+
     def info(self, name, *words):
         row = json.loads(self.good("info", "--json", name, *words).stdout)
         check_value(self, row, SCHEMA, "info", SCHEMA)
@@ -102,16 +106,16 @@ class Read(ThreeMF):
         """The production extension: parts with their own units, as slicers write them."""
         root = model('<object id="1"><components><component objectid="3" p:path="/3D/Objects/a_1.model"/></components></object>'
                      f'<object id="2">{box()}</object>', '<item objectid="1" p:UUID="x"/><item objectid="2" transform="1 0 0 0 1 0 0 0 1 50 0 0"/>',
-                     'requiredextensions="p" unit="millimeter"', f'{CORE} {PRODUCTION} xmlns:BambuStudio="http://schemas.bambulab.com/package/2021"')
+                     'requiredextensions="p" unit="millimeter"', f'{CORE} {PRODUCTION} xmlns:v="http://example.com/package/2021"')
         part = model(f'<object id="3">{box(1, 1, 1)}</object>', "", 'unit="centimeter"')
         name = self.save("a.3mf", root, **{"3D__Objects__a_1_dot_model": part})
         row = self.info(name)
         self.assertEqual((row["size"], row["counts"]["objects"]), ([51, 10, 10], 2))
         self.assertEqual([(e["required"], e["support"]) for e in row["extensions"]], [(True, "supported"), (False, "unknown")])
         self.bad(2, "info", self.save("b.3mf", root), says="its part 3D/Objects/a_1.model cannot be read")
-        self.bad(3, "info", self.save("c.3mf", root.replace('requiredextensions="p"', 'requiredextensions="p BambuStudio"')),
+        self.bad(3, "info", self.save("c.3mf", root.replace('requiredextensions="p"', 'requiredextensions="p v"')),
                  says=("requires the extension", "package/2021", "--lenient"))
-        self.good("info", "--lenient", self.save("d.3mf", root.replace('requiredextensions="p"', 'requiredextensions="BambuStudio"'), **{"3D__Objects__a_1_dot_model": part}))
+        self.good("info", "--lenient", self.save("d.3mf", root.replace('requiredextensions="p"', 'requiredextensions="v"'), **{"3D__Objects__a_1_dot_model": part}))
 
     def test_base_materials(self):
         """Named materials with colours: the triangles of a material are a part; triangles without a material keep the default."""
@@ -125,8 +129,7 @@ class Read(ThreeMF):
         self.assertEqual(tuple(pixels[4 * (8 * width + 8):][:3]), (255, 0, 0))
 
     def pixel(self, name, view, at=(0.5, 0.5)):
-        width, height, pixels = self.png(name, "-s", 64, "--view", view, "--show", "base-color", "--projection", "orthographic", "--samples", 1, "-o", "-")
-        return tuple(pixels[4 * (int(at[1] * height) * width + int(at[0] * width)):][:3])
+        return self.pixels(name, view, at)[0]
 
     def test_colors(self):
         """Colour groups: colours of triangles and of corners, a default of the object, and composites."""
@@ -143,6 +146,22 @@ class Read(ThreeMF):
         self.assertEqual(self.pixel(name, "left"), (0, 0, 0))
         default = self.save("b.3mf", model(f'<object id="1">{box()}</object>'))
         self.assertEqual(self.pixel(name, "top"), self.pixel(default, "top"))
+
+    def test_converted_colors(self):
+        """Colours of corners stay in 3MF and in OBJ, which repeats vertices; a model without materials warns of none."""
+        group = '<m:colorgroup id="2"><m:color color="#00FF00"/><m:color color="#8000FF"/></m:colorgroup>'
+        words = {2: ' pid="2" p1="0"', 3: ' pid="2" p1="1" p2="0" p3="1"'}
+        mesh = box(properties=lambda face: words.get(face, ""))
+        name = self.save("a.3mf", model(f'{group}<object id="1">{mesh}</object>', spaces=f"{CORE} {MATERIALS}"))
+        for output in ("b.3mf", "b.obj"):
+            self.assertEqual(json.loads(self.good("convert", name, output, "--json").stdout)["losses"], [])
+            self.given |= self.new_files()
+            for view in ("front", "right", "back"):
+                pictures = [self.png(file, "-s", 64, "--view", view, "-o", "-")[2] for file in (name, output)]
+                self.assertLessEqual(max(abs(a - b) for a, b in zip(*pictures)), 1, (output, view))
+        losses = json.loads(self.good("convert", "cube.stl", "c.glb", "--json").stdout)["losses"]
+        self.given |= self.new_files()
+        self.assertEqual([loss[:26] for loss in losses], ["the model has no materials"])
 
     def test_texture(self):
         """A texture's lower left corner is (0, 0); a missing picture causes a warning."""
@@ -241,6 +260,27 @@ class Read(ThreeMF):
         self.good("-q", "batch", name, "cube.obj", "--isolate", "-s", 32, "--sandbox", "require", "-o", "out/")
         self.assertEqual((self.folder / "out" / "a.png").read_bytes()[:4], b"\x89PNG")
 
+    def test_unknown_properties(self):
+        """Property groups of other vendors, and elements that a group lacks: one warning, and the default colour."""
+        vendor = '<v:mats id="9" xmlns:v="http://example.com/2016"/>'
+        groups = f'{vendor}<m:colorgroup id="2"><m:color color="#FF0000"/></m:colorgroup>'
+        for words, says in (('pid="9" pindex="0"', 'unknown property (pid="9", p1="0")'), ('pid="7" pindex="0"', 'unknown property (pid="7", p1="0")'),
+                            ('pid="2" pindex="1"', 'unknown property (pid="2", p1="1")')):
+            name = self.save("a.3mf", model(f'{groups}<object id="1" {words}>{box()}</object>', spaces=f"{CORE} {MATERIALS}"))
+            warnings = self.info(name)["warnings"]
+            self.assertEqual(len(warnings), 1, warnings)
+            self.assertIn(says, warnings[0])
+
+    def test_zip64(self):
+        """Microsoft's 3D Builder writes ZIP64 records also in small files."""
+        data = package({"_rels/.rels": relations("/3D/3dmodel.model"), "3D/3dmodel.model": model(f'<object id="1">{box()}</object>')})
+        end = data.rindex(b"PK\5\6")
+        size, start = struct.unpack_from("<II", data, end + 12)
+        record = struct.pack("<IQHHIIQQQQ", 0x06064b50, 44, 45, 45, 0, 0, 2, 2, size, start) + struct.pack("<IIQI", 0x07064b50, 0, end, 1)
+        for counts in ((0xffff, 0xffff), (2, 2)):
+            name = self.save_bytes("a.3mf", data[:end] + record + struct.pack("<IHHHHIIH", 0x06054b50, 0, 0, *counts, 0xffffffff, 0xffffffff, 0))
+            self.assertEqual(self.info(name)["counts"]["triangles"], 12)
+
     @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
     def test_library_missing(self):
         """Without libzip or expat, an error message names the package; other formats still work."""
@@ -255,6 +295,120 @@ class Read(ThreeMF):
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn(f"needs {library}, which is not installed (Debian's package {debian})", done.stderr)
             self.assertEqual(subprocess.run([*box_words, "info", "cube.obj"], capture_output=True).returncode, 0)
+
+
+SLIC3R = 'xmlns:slic3rpe="http://schemas.slic3r.org/3mf/2017/06"'
+RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
+COLORS = {"Metadata__Slic3r_PE_dot_config": '; generated\n; extruder_colour = "";#00FF00;""\n; filament_colour = #FF0000;#123456;#0000FF\n'}
+PROJECT = {"Metadata__project_settings_dot_config": '{"other": [1], "filament_colour": ["#FF0000", "#00FF00FF", "#0000FF"]}'}
+
+
+def boxes(*origins, painted=""):
+    """One <mesh> of unit boxes; `painted` is an attribute of the first box's two front triangles."""
+    corners = [(x + a, y + b, z + c) for x, y, z in origins for a, b, c in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))]
+    faces = [[8 * i + v for v in face] for i in range(len(origins)) for face in FACES]
+    return ("<mesh><vertices>" + "".join('<vertex x="%s" y="%s" z="%s"/>' % corner for corner in corners) + "</vertices><triangles>" + "".join(
+        '<triangle v1="%d" v2="%d" v3="%d"%s/>' % (*face, f" {painted}" if i in (4, 5) else "") for i, face in enumerate(faces)) + "</triangles></mesh>")
+
+
+def prusa(*volumes, extruder=1):
+    rows = "".join(f'<volume firstid="{first}" lastid="{last}">' + "".join(f'<metadata type="volume" key="{key}" value="{value}"/>' for key, value in keys) +
+                   "</volume>" for first, last, *keys in volumes)
+    return {"Metadata__Slic3r_PE_model_dot_config": f'<?xml version="1.0"?>\n<config><object id="1" instances_count="1">{rows}'
+            f'<metadata type="object" key="extruder" value="{extruder}"/></object></config>'}
+
+
+def bambu(objects):
+    text = "".join(f'<object id="{number}"><metadata key="extruder" value="{extruder}"/>' + "".join(
+        f'<part id="{part}" subtype="{kind}"><metadata key="extruder" value="{own}"/></part>' for part, kind, own in parts) + "</object>"
+        for number, extruder, parts in objects)
+    return {"Metadata__model_settings_dot_config": f"<config>{text}<plate/></config>"}
+
+
+class Slicers(ThreeMF):
+    """Projects of PrusaSlicer, Bambu Studio and OrcaSlicer: the parts that print, in the colours of their filaments."""
+
+    def front(self, name, *places):
+        return self.pixels(name, "front", *places)
+
+    def test_prusa(self):
+        mesh = boxes((0, 0, 0), (2, 0, 0), (4, 0, 0), (6, 0, 0), (8, 0, 0), (10, 0, 0))
+        kinds = ("ModelPart", "NegativeVolume", "ParameterModifier", "SupportEnforcer", "SupportBlocker", "ModelPart")
+        volumes = [(12 * i, 12 * i + 11, ("volume_type", kind)) for i, kind in enumerate(kinds)]
+        volumes[5] += (("extruder", 3),)
+        for order in (volumes, volumes[::-1]):
+            name = self.save("a.3mf", model(f'<object id="1">{mesh}</object>', spaces=f"{CORE} {SLIC3R}"), **COLORS, **prusa(*order, extruder=2))
+            row = self.info(name)
+            self.assertEqual((row["size"], row["measure"]["closed"], row["measure"]["volume"], row["counts"]["triangles"]), ([11, 1, 1], True, 2, 24))
+            self.assertEqual(row["warnings"], [f"{name}: not drawn, because they do not print: modifiers (1), support enforcers (1), support blockers (1), negative volumes (1)"])
+            self.assertEqual(self.front(name, (0.05, 0.5), (0.95, 0.5)), [GREEN, BLUE])
+        old = self.save("b.3mf", model(f'<object id="1">{boxes((0, 0, 0), (2, 0, 0))}</object>'), **prusa((0, 11), (12, 23, ("modifier", 1))))
+        self.assertEqual(self.info(old)["measure"]["volume"], 1)
+        odd = self.save("c.3mf", model(f'<object id="1">{boxes((0, 0, 0))}</object>'), **prusa((0, 11, ("volume_type", "Ghost"), ("extruder", 2))))
+        self.assertEqual(len(self.info(odd)["warnings"]), 2)
+        self.assertIn('unknown kind "Ghost", drawn as one that prints', self.info(odd)["warnings"][0])
+
+    def test_bambu(self):
+        leaves = "".join(f'<object id="{i}" type="{kind}">{boxes((2 * i, 0, 0))}</object>' for i, kind in ((1, "model"), (2, "other"), (3, "other"), (4, "model")))
+        components = [f'<component p:path="/3D/Objects/o.model" objectid="{i}"/>' for i in range(1, 5)]
+        root = model(f'<object id="7"><components>{"".join(components)}</components></object><object id="8"><components>{components[0]}</components></object>',
+                     '<item objectid="7"/><item objectid="8" transform="1 0 0 0 1 0 0 0 1 0 0 2"/><item objectid="8" printable="0"/>', 'requiredextensions="p"', f"{CORE} {PRODUCTION}")
+        config = bambu([(7, 1, [(1, "normal_part", 0), (2, "negative_part", 0), (3, "modifier_part", 0), (4, "normal_part", 3)]), (8, 2, [(1, "normal_part", 0)])])
+        name = self.save("a.3mf", root, **{"3D__Objects__o_dot_model": model(leaves, "")}, **PROJECT, **config)
+        row = self.info(name)
+        self.assertEqual((row["counts"]["objects"], row["counts"]["meshes"], row["measure"]["volume"]), (3, 3, 3))
+        self.assertEqual(row["warnings"], [f'{name}: not drawn, because they do not print: modifiers (1), negative volumes (1), items with printable="0" (1)'])
+        # The object 1 twice, above with the filament of another object; the object 4 on the right.
+        self.assertEqual(self.front(name, (0.05, 0.7), (0.05, 0.3), (0.95, 0.7)), [RED, GREEN, BLUE])
+        # Without the configuration, the type "other" still says that an object does not print.
+        self.assertEqual(self.info(self.save("b.3mf", root, **{"3D__Objects__o_dot_model": model(leaves, "")}))["counts"]["objects"], 3)
+
+    def test_paintings(self):
+        """Painted triangles, whole and subdivided. Neighbours are cut too, so the mesh stays closed."""
+        corner, middle, far = (0.9, 0.9), (0.6, 0.65), (0.3, 0.95)  # of the lower right triangle of the front
+        for i, (painting, colors, triangles) in enumerate((("4", (RED, RED, RED), 12), ("8", (GREEN, GREEN, GREEN), 12), ("0C", (BLUE, BLUE, BLUE), 12), ("", (RED, RED, RED), 12),
+                                            ("00083", (RED, GREEN, RED), 22), ("8000083", (RED, GREEN, RED), 22), ("0C0043", None, 22), ("845", None, 16),
+                                            ("8481", None, 16), ("484856", None, 24), ("zz", (RED, RED, RED), 12), ("3", None, 22), ("9C", (RED, RED, RED), 12))):
+            attribute, settings = ((f'slic3rpe:mmu_segmentation="{painting}"', COLORS), (f'paint_color="{painting}"', PROJECT))[i % 2]
+            name = self.save("a.3mf", model(f'<object id="1">{boxes((0, 0, 0), painted=attribute)}</object>', spaces=f"{CORE} {SLIC3R}"), **settings)
+            row = self.info(name)
+            measure = row["measure"]
+            self.assertEqual((measure["closed"], round(measure["volume"], 6), round(measure["area"], 6)), (True, 1, 6), painting)
+            self.assertEqual(row["counts"]["triangles"], triangles, painting)
+            self.assertEqual(bool(row["warnings"]), painting in ("8000083", "zz", "3", "9C", "8481"), (painting, row["warnings"]))
+            if colors:
+                self.assertEqual(tuple(self.front(name, corner, middle, far)), colors, painting)
+        # A split side: the half at the first corner is painted with the filament 1, the other half with 2.
+        name = self.save("a.3mf", model('<object id="1">' + boxes((0, 0, 0), painted='paint_color="845"') + "</object>"), **PROJECT)
+        self.assertEqual(self.front(name, (0.5, 0.9), (0.9, 0.5)), [RED, GREEN])
+        plain = self.info(self.save("b.3mf", model('<object id="1">' + boxes((0, 0, 0), painted='paint_color="8"') + "</object>")))
+        self.assertIn("names no colours for the filaments", plain["warnings"][0])
+
+    def test_damaged_configurations(self):
+        """A configuration that cannot be read costs a warning, not the model."""
+        root = model(f'<object id="1">{boxes((0, 0, 0))}</object>')
+        for part, text in (("model_settings", "<config><object id='1'>"), ("model_settings", "<!DOCTYPE a><config/>"), ("model_settings", b"\0" * 40_000_000),
+                           ("model_settings", "<config>" + " " * 40_000_000), ("Slic3r_PE_model", "<config><object/></config>"), ("Slic3r_PE", b"\n" * 40_000_000),
+                           ("Slic3r_PE_model", '<config><object id="1"><volume firstid="-1"/></object></config>'), ("project_settings", "{"), ("project_settings", ""),
+                           ("project_settings", '{"filament_colour": ["#FF0000"'), ("project_settings", "[" * 100000), ("project_settings", b'"' + b"a" * 40_000_000)):
+            name = self.save("a.3mf", root, **{f"Metadata__{part}_dot_config": text})
+            row = self.info(name)
+            self.assertEqual((len(row["warnings"]), row["counts"]["triangles"]), (1, 12), (part, text[:30], row["warnings"]))
+            self.assertIn(f"Metadata/{part}.config", row["warnings"][0])
+        for text in ('{"filament_colour": 7}', '{"filament_colour": [7, null, "red", "#12"]}', "[]"):
+            self.assertEqual(self.info(self.save("a.3mf", root, Metadata__project_settings_dot_config=text))["warnings"], [], text)
+
+    def test_nothing_prints(self):
+        """A sliced file, or one of modifiers alone: the sentence names the slicer."""
+        made = '<metadata name="Application">BambuStudio-01.10</metadata><resources/>'
+        empty = model("", "")
+        sliced = {"Metadata__plate_1_dot_gcode": "G1", "Metadata__plate_1_dot_png": "x", "Metadata__plate_1_small_dot_png": "x"}
+        says = ("is a sliced file", "G-code for a printer (Metadata/plate_1.gcode) and no model", "its picture is the part Metadata/plate_1.png")
+        self.bad(3, "info", self.save("a.3mf", empty, **sliced), says=("Bambu Studio or OrcaSlicer", *says))
+        self.bad(3, "info", self.save("b.3mf", empty.replace("<resources></resources>", made), **sliced), says=("written by BambuStudio-01.10", *says))
+        only = self.save("c.3mf", model(f'<object id="1">{boxes((0, 0, 0))}</object>').replace("<resources>", made[:-12] + "<resources>"),
+                         **prusa((0, 11, ("volume_type", "NegativeVolume"))))
+        self.bad(2, "info", only, says=("contains nothing that prints, only negative volumes (1)", "written by BambuStudio-01.10"))
 
 
 class Faults(ThreeMF):
@@ -272,7 +426,6 @@ class Faults(ThreeMF):
                 (lambda m: m.replace('objectid="1"', 'objectid="1" transform="1 2 3"'), 'found transform="1 2 3", expected 12 finite numbers'),
                 (lambda m: m.replace("<model", '<model unit="parsec"'), 'found unit="parsec"'),
                 (lambda m: m.replace("</resources>", good + "</resources>"), "the id 1 is used twice"),
-                (lambda m: m.replace('<object id="1">', '<object id="1" pid="7" pindex="0">'), "found properties with the id 7"),
                 (lambda m: m.replace('<item objectid="1"/>', ""), "its build contains no items"),
                 (lambda m: m.replace(box(), ""), "have no triangles"),
                 (lambda m: m.replace("</build>", ""), "not well-formed XML: mismatched tag"),
@@ -327,6 +480,18 @@ class Hostile(ThreeMF):
         self.refused(self.save("a.3mf", model(objects, '<item objectid="41"/>')), 4, "--object-limit")
         empty = objects.replace(box(), "")
         self.refused(self.save("b.3mf", model(empty, '<item objectid="41"/>')), 4, "--object-limit")
+
+    def test_paintings(self):
+        """A digit of a painting becomes a triangle; a painted side cuts every triangle at it."""
+        tree = "0"
+        for _ in range(9):
+            tree = 4 * tree + "3"
+        triangle = '<triangle v1="0" v2="1" v3="2"%s/>'
+        corners = '<vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices>'
+        for painting, count, plain in ((tree, 1, 100000), (tree, 20, 0), ("3" * 1_000_000, 40, 0)):
+            triangles = triangle % f' paint_color="{painting}"' * count + triangle % "" * plain
+            root = model(f'<object id="1"><mesh>{corners}<triangles>{triangles}</triangles></mesh></object>')
+            self.refused(self.save("a.3mf", root, **PROJECT), 4, "--expansion-limit")
 
     def test_deep(self):
         objects = f'<object id="1">{box()}</object>' + "".join(

@@ -3,8 +3,10 @@
 
 #include "fail.h"
 #include "remedy.h"
+#include "shown_name.h"
 #include "threemf_xml.h"
 
+#include <stdio.h>
 #include <string.h>
 
 // Recognises a ZIP archive that contains a model part and the relationships that refer to this part. File names in a
@@ -61,17 +63,61 @@ static const char *find_model(struct threemf *file)
 
 // --- loading
 
-static bool report_skipped(struct threemf *file, const struct threemf_part *root)
+// Lists the kinds of volumes and objects that were left out, as "modifiers (2), negative volumes (1)".
+static void list_left_out(const struct threemf *file, char *out, size_t size)
 {
-    const char *name = file->source->name;
+    static const char *const names[ROLES] = {[MODIFIER] = "modifiers",
+                                             [SUPPORT_ENFORCER] = "support enforcers",
+                                             [SUPPORT_BLOCKER] = "support blockers",
+                                             [NEGATIVE] = "negative volumes",
+                                             [OTHER] = "objects of the type \"other\"",
+                                             [SWITCHED_OFF] = "items with printable=\"0\""};
+    *out = 0;
+    for (int i = MODIFIER; i < ROLES; i++)
+        if (file->left_out[i])
+            snprintf(out + strlen(out), size - strlen(out), "%s%s (%zu)", *out ? ", " : "", names[i],
+                     file->left_out[i]);
+}
+
+// Fails because there is nothing to draw. The sentence names the program that wrote the file.
+static bool fail_empty(struct threemf *file, const struct threemf_part *root, const char *left_out)
+{
+    const char *name = file->source->name, *writer = file->scene->file.generator;
+    const char *code = threemf_package_find(file, ".gcode"), *picture = threemf_package_find(file, ".png");
+    char shown[3][SHOWN_NAME_SIZE], by[SHOWN_NAME_SIZE + 16] = "";
+    if (writer)
+        snprintf(by, sizeof by, " (written by %s)", shown_name(writer, shown[0]));
+    else if (code && strncmp(code, "Metadata/plate_", 15) == 0) // only these two programs name G-code so
+        snprintf(by, sizeof by, " (written by Bambu Studio or OrcaSlicer)");
+    if (code)
+        return fail(file->error, LAM_UNSUPPORTED,
+                    "%s: is a sliced file%s: it contains G-code for a printer (%s) and no model%s%s", name, by,
+                    shown_name(code, shown[1]), picture ? "; its picture is the part " : "",
+                    picture ? shown_name(picture, shown[2]) : "");
+    if (*left_out)
+        return fail(file->error, LAM_CANNOT_READ, "%s: contains nothing that prints, only %s%s", name, left_out, by);
     if (!root->items.count)
-        return fail(file->error, LAM_CANNOT_READ, "%s: its build contains no items, so there is nothing to draw", name);
-    if (!file->scene->objects.count && file->beams)
+        return fail(file->error, LAM_CANNOT_READ, "%s: its build contains no items, so there is nothing to draw%s",
+                    name, by);
+    if (file->beams)
         return fail(file->error, LAM_UNSUPPORTED,
                     "%s: its objects contain only beams (%zu) and no triangles; lambent does not draw beams", name,
                     file->beams);
+    return fail(file->error, LAM_CANNOT_READ, "%s: the objects of its build have no triangles%s", name, by);
+}
+
+static bool report_skipped(struct threemf *file, const struct threemf_part *root)
+{
+    const char *name = file->source->name;
+    char left_out[400];
+    list_left_out(file, left_out, sizeof left_out);
     if (!file->scene->objects.count)
-        return fail(file->error, LAM_CANNOT_READ, "%s: the objects of its build have no triangles", name);
+        return fail_empty(file, root, left_out);
+    if (*left_out)
+        scene_warn(file->scene, "%s: not drawn, because they do not print: %s", name, left_out);
+    if (file->uncolored)
+        scene_warn(file->scene, "%s: names no colours for the filaments that it uses; drawn in the default colour",
+                   name);
     if (file->flattened)
         scene_warn(file->scene, "%s: not drawn: objects whose transform has no volume (%zu)", name, file->flattened);
     if (file->beams)
@@ -94,7 +140,9 @@ static bool read_all(struct threemf *file)
     if (!threemf_package_open(file) || !threemf_xml_open(file))
         return false;
     const char *path = find_model(file);
-    struct threemf_part *root = path ? threemf_part_at(file, path) : NULL;
+    if (!path || !threemf_slicer_read(file))
+        return false;
+    struct threemf_part *root = threemf_part_at(file, path);
     if (!root || !threemf_build(file, root) || !report_skipped(file, root))
         return false;
     file->scene->file.unit_m = root->unit_m;
@@ -121,6 +169,8 @@ static bool threemf_load(const struct import_source *source, struct lam_scene *s
             threemf_rows_free(&file, lists[k]);
     }
     threemf_rows_free(&file, &file.parts);
+    threemf_rows_free(&file, &file.volumes);
+    threemf_rows_free(&file, &file.filaments);
     threemf_package_close(&file);
     threemf_xml_close(&file);
     arena_free(&scratch);

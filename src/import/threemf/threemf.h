@@ -1,9 +1,10 @@
 // threemf.h: internals of the 3MF importer.
 //
 // A 3MF file is a ZIP archive with model parts in XML. threemf_package.c opens the archive (libzip), and threemf_xml.c
-// parses a part (expat). threemf_model.c reads the part's elements, with threemf_properties.c, threemf_layers.c and
-// threemf_display.c. threemf_mesh.c converts the part's objects to meshes, and threemf_build.c places the objects of
-// the build items, and the components of these objects.
+// parses a part (expat). threemf_slicer.c reads the configurations of slicers. threemf_model.c reads the elements of the
+// model parts, with threemf_properties.c, threemf_layers.c, threemf_display.c and threemf_paint.c. threemf_mesh.c
+// converts the part's objects to meshes, and threemf_build.c places the objects of the build items, and the components
+// of these objects.
 #ifndef THREEMF_H
 #define THREEMF_H
 
@@ -69,9 +70,27 @@ struct threemf_component {
     int32_t id;
     lam_mat4 transform;
     size_t line;
+    bool off; // printable="0"
 };
 
-// A triangle's property group (an id, or 0) and the index of each corner in the group.
+// The role of a volume or an object. Only ROLE_PRINTS is drawn.
+enum threemf_role { ROLE_PRINTS, MODIFIER, SUPPORT_ENFORCER, SUPPORT_BLOCKER, NEGATIVE, OTHER, SWITCHED_OFF, ROLES };
+
+// A row of a slicer's configuration: an object (`part` is WHOLE_OBJECT), triangles of an object (TRIANGLE_RANGE), or the
+// component of an object whose id is `part`.
+enum { WHOLE_OBJECT = -1, TRIANGLE_RANGE = 0 };
+struct threemf_volume {
+    int32_t object, part;
+    uint32_t first, last; // triangles
+    enum threemf_role role;
+    uint32_t extruder; // counted from 1; 0 means the extruder of the object
+};
+
+// The group of a triangle without standard properties. index[0] is the number of its filament, counted from 1; 0 means
+// the filament of the object.
+enum { FILAMENT = 0 };
+
+// A triangle's property group (an id, or FILAMENT) and the index of each corner in the group.
 struct threemf_property {
     int32_t group;
     uint32_t index[3];
@@ -89,8 +108,8 @@ struct threemf_object {
     uint32_t vertex_count, triangle_count;
     struct threemf_component *components;
     size_t component_count;
-    int mesh;      // index in the scene; −1 if not created yet, or if the object has no triangles
-    bool made;     // whether `mesh` has been set
+    enum threemf_role role;
+    int *meshes;   // per filament of the object: 1 + index in the scene, or 0; NULL if none has been created yet
     bool visiting; // the object is being placed; a component that refers to such an object would form a cycle
 };
 
@@ -119,12 +138,18 @@ struct threemf {
     struct zip_library *zip;
     struct expat_library *expat;
     struct name_table part_names;
-    struct threemf_rows parts; // struct threemf_part *
-    uint64_t expanded;         // total size of all parts in bytes
-    uint64_t placed;           // number of components and items that were followed
-    size_t flattened;          // number of instances whose transform is singular
-    size_t multiplied_layers;  // number of multiproperties that are drawn as the product of their layers
-    size_t beams, sliced;      // number of beams, and of objects with slices
+    struct threemf_rows parts;              // struct threemf_part *
+    uint64_t expanded;                      // total size of all parts in bytes
+    uint64_t part_limit;                    // largest size of one part; 0 means no limit
+    uint64_t placed;                        // number of components and items that were followed
+    size_t flattened;                       // number of instances whose transform is singular
+    size_t multiplied_layers;               // number of multiproperties that are drawn as the product of their layers
+    size_t beams, sliced;                   // number of beams, and of objects with slices
+    struct threemf_rows volumes, filaments; // threemf_slicer.c
+    size_t left_out[ROLES];
+    bool uncolored; // whether paintings or volumes use filaments without a colour
+    bool unknown;   // whether a warning names the first unknown property
+    bool damaged;   // whether a warning names the first damaged painting
 };
 
 // Reserves space for `count` rows of `size` bytes each. Returns false and fills the error if memory runs out.
@@ -143,6 +168,8 @@ void threemf_package_close(struct threemf *file);
 // Reads a part of the archive in chunks. `name` may begin with '/'.
 typedef bool threemf_chunk_fn(void *user, const void *bytes, size_t size, bool last);
 bool threemf_package_read(struct threemf *file, const char *name, threemf_chunk_fn *take, void *user);
+// Returns the first name in alphabetical order that ends with `ending`, or NULL.
+const char *threemf_package_find(const struct threemf *file, const char *ending);
 // Reads a whole part into memory allocated from the scratch arena.
 bool threemf_package_read_whole(struct threemf *file, const char *name, const uint8_t **bytes, size_t *size);
 
@@ -156,8 +183,20 @@ struct threemf_resource *threemf_resource_at(const struct threemf_part *part, in
 // threemf_properties.c: returns the linear colour of an element of a group.
 const float *threemf_color(const struct threemf_part *part, const struct threemf_resource *group, uint32_t index);
 
-// threemf_mesh.c: adds an object's triangles to the scene as a mesh (object->mesh).
-bool threemf_mesh_make(struct threemf *file, struct threemf_part *part, struct threemf_object *object);
+// threemf_slicer.c: reads the configurations of PrusaSlicer, Bambu Studio and OrcaSlicer. Damaged configurations cause
+// warnings.
+bool threemf_slicer_read(struct threemf *file);
+// Returns the row of an object of the root part, or NULL. `triangle` is used for TRIANGLE_RANGE.
+const struct threemf_volume *threemf_volume_at(const struct threemf *file, const struct threemf_part *from,
+                                               int32_t object, int32_t part, uint32_t triangle);
+// Returns the index of the filament, counted from 1, that an extruder uses, or 0 if the file names no filaments.
+uint32_t threemf_filament(const struct threemf *file, uint32_t extruder);
+// Returns the material of a filament, or −1 if the file does not specify its colour.
+int threemf_filament_material(const struct threemf *file, uint32_t filament);
+
+// threemf_mesh.c: adds an object's triangles to the scene as a mesh. *mesh is its index, or −1 if there are none.
+bool threemf_mesh_make(struct threemf *file, struct threemf_part *part, struct threemf_object *object,
+                       uint32_t extruder, int *mesh);
 // threemf_build.c: adds an object to the scene for each instance.
 bool threemf_build(struct threemf *file, struct threemf_part *root);
 

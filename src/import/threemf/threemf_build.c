@@ -15,6 +15,7 @@ struct instance {
     struct threemf_object *object;
     lam_mat4 transform;
     int depth;
+    uint32_t extruder;
 };
 
 static bool fail_reference(struct threemf *file, const struct threemf_part *part,
@@ -54,15 +55,14 @@ static bool add_object(struct threemf *file, const struct instance *instance)
 {
     lam_object object = lam_object_default();
     double determinant = mat4_determinant3(&instance->transform);
-    if (!threemf_mesh_make(file, instance->part, instance->object))
+    if (!threemf_mesh_make(file, instance->part, instance->object, instance->extruder, &object.mesh))
         return false;
-    if (instance->object->mesh < 0)
+    if (object.mesh < 0)
         return true;
     if (determinant == 0 || !math_finite(determinant)) {
         file->flattened++;
         return true;
     }
-    object.mesh = instance->object->mesh;
     object.name = instance->object->name;
     object.transform = instance->transform;
     return scene_adopt_object(file->scene, &object, file->error) >= 0;
@@ -78,6 +78,14 @@ static bool place(struct threemf *file, const struct instance *instance)
         const struct threemf_component *component = &object->components[i];
         struct instance below = {.depth = instance->depth + 1};
         ok = check_limits(file) && find(file, instance->part, component, &below);
+        const struct threemf_volume *volume =
+            ok ? threemf_volume_at(file, instance->part, object->id, component->id, 0) : NULL;
+        enum threemf_role role = volume ? volume->role : ok ? below.object->role : ROLE_PRINTS;
+        below.extruder = volume && volume->extruder ? volume->extruder : instance->extruder;
+        if (role != ROLE_PRINTS) {
+            file->left_out[role]++;
+            continue;
+        }
         if (ok && below.object->visiting)
             ok = fail_reference(file, instance->part, component, "an object that contains this one");
         if (ok && below.depth > DEPTH_MAX)
@@ -96,7 +104,13 @@ bool threemf_build(struct threemf *file, struct threemf_part *root)
     const struct threemf_component *items = root->items.items;
     for (size_t i = 0; i < root->items.count; i++) {
         struct instance instance = {.depth = 0};
-        if (!check_limits(file) || !find(file, root, &items[i], &instance) || !place(file, &instance))
+        if (!check_limits(file) || !find(file, root, &items[i], &instance))
+            return false;
+        const struct threemf_volume *whole = threemf_volume_at(file, root, items[i].id, WHOLE_OBJECT, 0);
+        enum threemf_role role = items[i].off ? SWITCHED_OFF : instance.object->role;
+        instance.extruder = whole ? whole->extruder : 0;
+        file->left_out[role]++;
+        if (role == ROLE_PRINTS && !place(file, &instance))
             return false;
     }
     return true;

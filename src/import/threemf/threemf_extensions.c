@@ -21,6 +21,8 @@ static const struct known {
     {MICROSOFT "production/2015/06", LAM_EXTENSION_READ},
     {CONSORTIUM "trianglesets/2021/07", LAM_EXTENSION_NO_EFFECT},
     {MICROSOFT "trianglesets/2021/07", LAM_EXTENSION_NO_EFFECT},
+    {"http://schemas.slic3r.org/3mf/2017/06", LAM_EXTENSION_READ},
+    {"http://schemas.bambulab.com/package/2021", LAM_EXTENSION_NO_EFFECT}, // names of metadata
     // The triangles of the objects are drawn; slices, beams and displacements are ignored.
     {MICROSOFT "slice/2015/07", LAM_EXTENSION_IGNORED},
     {MICROSOFT "beamlattice/2017/02", LAM_EXTENSION_IGNORED},

@@ -27,15 +27,8 @@ struct mesh_maker {
     int *materials;               // per triangle
     uint32_t *colors, *texcoords; // 3 per triangle
     bool colored, textured;
+    uint32_t filament; // of the object
 };
-
-static bool fail_object(const struct mesh_maker *maker, const char *what, uint32_t number)
-{
-    char shown[SHOWN_NAME_SIZE];
-    return fail(maker->file->error, LAM_CANNOT_READ,
-                "%s: %s:%zu: object %d: found %s %u, expected one that the part has", maker->file->source->name,
-                shown_name(maker->part->path, shown), maker->object->line, maker->object->id, what, number);
-}
 
 static bool is_group(const struct threemf_resource *resource)
 {
@@ -43,20 +36,37 @@ static bool is_group(const struct threemf_resource *resource)
            resource->kind != RESOURCE_DISPLAY;
 }
 
-static bool resolve(const struct mesh_maker *maker, const struct threemf_property *property, struct surface *out)
+// A triangle without standard properties has the colour of a filament if the file names filaments.
+static void resolve_plain(const struct mesh_maker *maker, uint32_t filament, struct surface *out)
 {
+    *out = (struct surface){.material = threemf_filament_material(maker->file, filament ? filament : maker->filament)};
+    for (int i = 0; i < 3 && out->material < 0; i++)
+        out->colors[i] = NEUTRAL;
+}
+
+static void resolve(const struct mesh_maker *maker, const struct threemf_property *property, struct surface *out)
+{
+    struct threemf *file = maker->file;
     const struct threemf_resource *group = threemf_resource_at(maker->part, property->group);
-    *out = (struct surface){.material = PLAIN};
-    if (!property->group || (group && group->faulty)) {
-        out->colors[0] = out->colors[1] = out->colors[2] = NEUTRAL;
-        return true;
+    bool plain = property->group == FILAMENT, known = is_group(group);
+    for (int i = 0; known && i < 3; i++)
+        known = property->index[i] < group->count;
+    if (plain || !known || group->faulty) {
+        char shown[SHOWN_NAME_SIZE];
+        if (!plain && !known && !(group && group->faulty) && !file->unknown) {
+            scene_warn(file->scene,
+                       "%s: %s:%zu: object %d: found an unknown property (pid=\"%d\", p1=\"%u\"); drawn without such "
+                       "properties",
+                       file->source->name, shown_name(maker->part->path, shown), maker->object->line, maker->object->id,
+                       property->group, property->index[0]);
+            file->unknown = true;
+        }
+        resolve_plain(maker, plain ? property->index[0] : 0, out);
+        return;
     }
-    if (!is_group(group))
-        return fail_object(maker, "properties with the id", (uint32_t)property->group);
+    *out = (struct surface){.material = PLAIN};
     for (int i = 0; i < 3; i++) {
         uint32_t index = property->index[i];
-        if (index >= group->count)
-            return fail_object(maker, "the property", index);
         if (group->kind == RESOURCE_COLORS) {
             out->colors[i] = group->first + index;
         } else if (group->kind == RESOURCE_TEXCOORDS) {
@@ -71,7 +81,6 @@ static bool resolve(const struct mesh_maker *maker, const struct threemf_propert
     out->material = group->kind == RESOURCE_BASE ? group->material + (int)property->index[0] : group->material;
     out->colored = group->kind == RESOURCE_COLORS || group->kind == RESOURCE_MULTI;
     out->textured = group->material >= 0 && (group->kind == RESOURCE_TEXCOORDS || group->kind == RESOURCE_MULTI);
-    return true;
 }
 
 // Finds the surface of each triangle. If a triangle has the same properties as the previous triangle, the properties
@@ -86,8 +95,8 @@ static bool resolve_all(struct mesh_maker *maker)
         const struct threemf_property *property = object->properties ? &object->properties[t] : &whole;
         if (t % 65536 == 0 && !call_should_continue(maker->file->source->call))
             return call_error(maker->file->source->call, maker->file->error);
-        if ((!before || memcmp(before, property, sizeof *property) != 0) && !resolve(maker, property, &surface))
-            return false;
+        if (!before || memcmp(before, property, sizeof *property) != 0)
+            resolve(maker, property, &surface);
         before = property;
         maker->materials[t] = surface.material;
         memcpy(maker->colors + 3 * (size_t)t, surface.colors, sizeof surface.colors);
@@ -121,19 +130,20 @@ static uint64_t *order_triangles(const struct mesh_maker *maker, size_t count, s
     return order;
 }
 
-// Reorders a list of three numbers per triangle.
-static bool move_triangles(const struct mesh_maker *maker, const uint64_t *order, size_t count, uint32_t *list)
+// Copies a list of three numbers per triangle to the scene's arena in a new order. Other meshes of the object may use
+// the old list.
+static bool move_triangles(const struct mesh_maker *maker, const uint64_t *order, size_t count, const uint32_t **list)
 {
-    uint32_t *old = arena_array(maker->scratch, 3 * count, sizeof *old);
-    if (!old)
-        return threemf_no_memory(maker->file, 3 * count * sizeof *old);
-    memcpy(old, list, 3 * count * sizeof *old);
+    uint32_t *moved = arena_array(&maker->file->scene->arena, 3 * count, sizeof *moved);
+    if (!moved)
+        return threemf_no_memory(maker->file, 3 * count * sizeof *moved);
     for (size_t t = 0; t < count; t++)
-        memcpy(list + 3 * t, old + 3 * (uint32_t)order[t], 3 * sizeof *old);
+        memcpy(moved + 3 * t, *list + 3 * (uint32_t)order[t], 3 * sizeof *moved);
+    *list = moved;
     return true;
 }
 
-// Sorts the triangles by material, and lists the parts.
+// Sorts the triangles by material, lists the parts, and copies the lists that the mesh keeps.
 static bool sort_parts(const struct mesh_maker *maker, lam_mesh *mesh)
 {
     size_t count = maker->object->triangle_count, materials;
@@ -151,22 +161,21 @@ static bool sort_parts(const struct mesh_maker *maker, lam_mesh *mesh)
                                  .triangle_count = (uint32_t)(t - first),
                                  .material = (int32_t)(order[first] >> 32) - 1};
     }
-    return materials == 1 || (move_triangles(maker, order, count, maker->object->indices) &&
-                              move_triangles(maker, order, count, maker->colors) &&
-                              move_triangles(maker, order, count, maker->texcoords));
+    return (materials == 1 || move_triangles(maker, order, count, &mesh->indices)) &&
+           (!maker->colored || move_triangles(maker, order, count, &mesh->color_indices)) &&
+           (!maker->textured || move_triangles(maker, order, count, &mesh->texcoord_indices));
 }
 
 static bool take_properties(struct mesh_maker *maker, lam_mesh *mesh)
 {
     const struct threemf_part *part = maker->part;
-    struct arena *arena = &maker->file->scene->arena;
     size_t count = maker->object->triangle_count;
     maker->materials = arena_array(maker->scratch, count, sizeof *maker->materials);
-    maker->colors = arena_array(arena, 3 * count, sizeof *maker->colors);
-    maker->texcoords = arena_array(arena, 3 * count, sizeof *maker->texcoords);
+    maker->colors = arena_array(maker->scratch, 3 * count, sizeof *maker->colors);
+    maker->texcoords = arena_array(maker->scratch, 3 * count, sizeof *maker->texcoords);
     if (!maker->materials || !maker->colors || !maker->texcoords)
         return threemf_no_memory(maker->file, count * 28);
-    if (!resolve_all(maker) || !sort_parts(maker, mesh))
+    if (!resolve_all(maker))
         return false;
     if (maker->colored) {
         mesh->colors = part->scene_colors;
@@ -179,32 +188,40 @@ static bool take_properties(struct mesh_maker *maker, lam_mesh *mesh)
         mesh->texcoord_count = (uint32_t)part->texcoords.count;
         mesh->texcoord_indices = maker->texcoords;
     }
-    return true;
+    return sort_parts(maker, mesh);
 }
 
-bool threemf_mesh_make(struct threemf *file, struct threemf_part *part, struct threemf_object *object)
+bool threemf_mesh_make(struct threemf *file, struct threemf_part *part, struct threemf_object *object,
+                       uint32_t extruder, int *out)
 {
-    if (object->made)
-        return true;
-    object->made = true;
+    uint32_t filament = threemf_filament(file, extruder);
+    *out = -1;
     if (!object->triangle_count)
+        return true;
+    if (!object->meshes)
+        object->meshes = arena_alloc_zeroed(file->scratch, (file->filaments.count + 1) * sizeof *object->meshes);
+    if (!object->meshes)
+        return threemf_no_memory(file, file->filaments.count * sizeof *object->meshes);
+    if ((*out = object->meshes[filament] - 1) >= 0)
         return true;
     lam_mesh mesh = {.name = object->name,
                      .positions = object->positions,
                      .vertex_count = object->vertex_count,
                      .indices = object->indices,
                      .triangle_count = object->triangle_count};
-    if (object->properties || object->group) {
+    if (object->properties || object->group || filament) {
         struct arena scratch;
         arena_start(&scratch, file->source->call);
-        struct mesh_maker maker = {.file = file, .part = part, .object = object, .scratch = &scratch};
+        struct mesh_maker maker = {
+            .file = file, .part = part, .object = object, .scratch = &scratch, .filament = filament};
         bool ok = take_properties(&maker, &mesh);
         arena_free(&scratch);
         if (!ok)
             return false;
     }
-    object->mesh = scene_adopt_mesh(file->scene, &mesh, file->error);
-    return object->mesh >= 0;
+    *out = scene_adopt_mesh(file->scene, &mesh, file->error);
+    object->meshes[filament] = *out + 1;
+    return *out >= 0;
 }
 
 #endif

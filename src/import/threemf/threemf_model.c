@@ -69,7 +69,8 @@ static bool begin_object(struct threemf_xml *xml, const char *const *attributes)
     if (!object)
         return threemf_no_memory(reader->file, sizeof *object);
     resource->object = reader->object = object;
-    object->mesh = -1;
+    const char *type = threemf_attribute(attributes, "type");
+    object->role = type && strcmp(type, "other") == 0 ? OTHER : ROLE_PRINTS; // objects of this type never print
     object->line = threemf_xml_line(xml);
     object->name = name && *name ? arena_string(&reader->file->scene->arena, name) : NULL;
     if (name && *name && !object->name)
@@ -85,6 +86,9 @@ static bool begin_object(struct threemf_xml *xml, const char *const *attributes)
     object->group = has_group ? (int32_t)group : 0;
     reader->positions.count = reader->indices.count = reader->properties.count = reader->components.count = 0;
     reader->has_properties = false;
+    reader->triangle = 0;
+    reader->midpoint_slots = 0;
+    threemf_rows_free(reader->file, &reader->midpoints);
     return true;
 }
 
@@ -112,26 +116,54 @@ static bool take_property(struct threemf_xml *xml, const char *const *attributes
         !threemf_take_number(xml, attributes, "p3", &property->index[2], &has_third))
         return false;
     property->group = has_group ? (int32_t)group : object->group;
+    if (property->group == FILAMENT)
+        return true;
     if (!has_first)
         property->index[0] = object->index;
     if (!has_second)
         property->index[1] = property->index[0];
     if (!has_third)
         property->index[2] = property->index[0];
-    reader->has_properties |= has_group || has_first;
     return true;
+}
+
+bool model_add_triangle(struct model_reader *reader, const uint32_t corners[3], const struct threemf_property *property)
+{
+    struct threemf *file = reader->file;
+    uint32_t *row = threemf_add(file, &reader->indices, 3 * sizeof *row);
+    struct threemf_property *kept = row ? threemf_add(file, &reader->properties, sizeof *kept) : NULL;
+    if (!kept ||
+        !call_check_triangles(file->source->call, file->source->name, reader->indices.count, "triangles",
+                              file->error) ||
+        (reader->indices.count % 65536 == 0 && !call_should_continue(file->source->call) &&
+         !call_error(file->source->call, file->error)))
+        return false;
+    memcpy(row, corners, 3 * sizeof *row);
+    *kept = *property;
+    reader->has_properties |= property->group != reader->object->group || property->index[0] != reader->object->index ||
+                              property->index[1] != property->index[0] || property->index[2] != property->index[0];
+    return true;
+}
+
+// Returns the painting of a triangle with filaments, as PrusaSlicer or Bambu Studio and OrcaSlicer write it, or NULL.
+static const char *painting_of(struct threemf_xml *xml, const char *const *attributes)
+{
+    const char *painting = threemf_attribute(attributes, "paint_color");
+    if (!painting)
+        painting = threemf_attribute_of(xml, attributes, NS_SLIC3R, "mmu_segmentation");
+    painting = painting && *painting ? painting : NULL;
+    xml->file->uncolored |= painting && !xml->file->filaments.count;
+    return xml->file->filaments.count ? painting : NULL;
 }
 
 static bool begin_triangle(struct threemf_xml *xml, const char *const *attributes)
 {
     static const char *const names[3] = {"v1", "v2", "v3"};
     struct model_reader *reader = reader_of(xml);
-    struct threemf *file = reader->file;
-    uint32_t *corners = threemf_add(file, &reader->indices, 3 * sizeof *corners);
-    struct threemf_property *property = corners ? threemf_add(file, &reader->properties, sizeof *property) : NULL;
-    if (!property ||
-        !call_check_triangles(file->source->call, file->source->name, reader->indices.count, "triangles", file->error))
-        return false;
+    uint32_t corners[3];
+    struct threemf_property property = {0};
+    const struct threemf_volume *volume =
+        threemf_volume_at(reader->file, reader->part, reader->object->id, TRIANGLE_RANGE, reader->triangle++);
     for (int i = 0; i < 3; i++) {
         if (!threemf_take_number(xml, attributes, names[i], &corners[i], NULL))
             return false;
@@ -139,7 +171,17 @@ static bool begin_triangle(struct threemf_xml *xml, const char *const *attribute
             return threemf_xml_fail(xml, "found %s=\"%u\", expected a vertex below %zu", names[i], corners[i],
                                     reader->positions.count);
     }
-    return take_property(xml, attributes, property);
+    if (!take_property(xml, attributes, &property))
+        return false;
+    if (volume && volume->role != ROLE_PRINTS) {
+        reader->file->left_out[volume->role] += volume->first == reader->triangle - 1;
+        return true;
+    }
+    if (volume && property.group == FILAMENT)
+        property.index[0] = volume->extruder;
+    const char *painting = painting_of(xml, attributes);
+    return painting ? paint_triangle(reader, painting, corners, &property)
+                    : model_add_triangle(reader, corners, &property);
 }
 
 // Copies rows into an arena. Returns NULL if there are no rows, or if memory runs out (*ok becomes false).
@@ -160,7 +202,7 @@ static bool end_object(struct threemf_xml *xml)
     struct model_reader *reader = reader_of(xml);
     struct threemf_object *object = reader->object;
     struct arena *kept = &reader->file->scene->arena, *scratch = reader->file->scratch;
-    bool ok = true;
+    bool ok = paint_finish(reader);
     object->vertex_count = (uint32_t)reader->positions.count;
     object->triangle_count = (uint32_t)reader->indices.count;
     object->component_count = reader->components.count;
@@ -207,6 +249,8 @@ static bool add_component(struct threemf_xml *xml, const char *const *attributes
         !take_transform(xml, attributes, &component->transform))
         return false;
     component->id = (int32_t)id;
+    const char *printable = threemf_attribute(attributes, "printable");
+    component->off = printable && strcmp(printable, "0") == 0;
     component->line = threemf_xml_line(xml);
     component->path = path ? arena_string(reader->file->scratch, path) : NULL;
     return component->path || !path || threemf_no_memory(reader->file, strlen(path));
@@ -295,6 +339,7 @@ static bool read_part(struct threemf *file, struct threemf_part *part)
     threemf_rows_free(file, &reader.indices);
     threemf_rows_free(file, &reader.properties);
     threemf_rows_free(file, &reader.components);
+    threemf_rows_free(file, &reader.midpoints);
     threemf_rows_free(file, &reader.text);
     threemf_rows_free(file, &reader.spaces);
     threemf_rows_free(file, &reader.wishes);

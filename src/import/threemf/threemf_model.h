@@ -52,6 +52,9 @@ struct model_reader {
     struct threemf_object *object;
     struct threemf_rows positions, indices, properties, components;
     bool has_properties;
+    uint32_t triangle;             // number of triangles read, also those that are left out
+    struct threemf_rows midpoints; // of the sides that paintings subdivide (threemf_paint.c)
+    size_t midpoint_slots;
     // The current property group, or −1.
     int32_t group;
     uint32_t bases[LAYERS_MAX]; // composite materials: the indices of the mixed base materials
@@ -100,6 +103,14 @@ bool properties_take_color(struct threemf_xml *xml, const char *const *attribute
 // threemf_layers.c: multiproperties.
 threemf_begin_fn begin_multis, begin_multi;
 threemf_end_fn end_multis;
+// threemf_model.c: adds a triangle to the current object.
+bool model_add_triangle(struct model_reader *reader, const uint32_t corners[3],
+                        const struct threemf_property *property);
+// threemf_paint.c: adds the triangles into which a painting of filaments subdivides a triangle. `property` applies to
+// unpainted ones. paint_finish cuts other triangles at the vertices that subdivisions place on their sides.
+bool paint_triangle(struct model_reader *reader, const char *painting, const uint32_t corners[3],
+                    const struct threemf_property *property);
+bool paint_finish(struct model_reader *reader);
 // threemf_display.c: display properties. display_finish applies these properties at the end of the part, because they
 // may come after the materials in the file.
 threemf_begin_fn begin_display, begin_metallic, begin_specular;

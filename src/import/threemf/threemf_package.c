@@ -19,7 +19,7 @@
     each(zip_source_buffer_create) each(zip_source_free) each(zip_open_from_source) each(zip_discard)                  \
         each(zip_error_init) each(zip_error_fini) each(zip_error_strerror) each(zip_error_code_zip)                    \
             each(zip_name_locate) each(zip_fopen_index) each(zip_fread) each(zip_fclose) each(zip_get_error)           \
-                each(zip_file_get_error) each(zip_stat_index)
+                each(zip_file_get_error) each(zip_get_num_entries) each(zip_get_name)
 
 struct zip_library {
     void *handle;
@@ -53,7 +53,7 @@ static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
     if (at > size || size - at < END64_BYTES || memcmp(bytes + at, "PK\6\6", 4) != 0)
         return count;
     uint64_t large = little(bytes + at + 32, 8);
-    return large > count ? large : count;
+    return count == 0xffff || large > count ? large : count; // 0xffff means that the ZIP64 record has the number
 }
 
 // Finds the largest number of entries that any end record declares, because libzip may use any of these records.
@@ -170,12 +170,27 @@ static zip_int64_t locate(const struct zip_library *zip, const char *name)
                : index;
 }
 
+const char *threemf_package_find(const struct threemf *file, const char *ending)
+{
+    zip_t *archive = file->zip->archive;
+    const char *found = NULL;
+    size_t tail = strlen(ending);
+    for (zip_int64_t i = file->zip->zip_get_num_entries(archive, 0); i-- > 0;) {
+        const char *name = file->zip->zip_get_name(archive, (zip_uint64_t)i, ZIP_FL_ENC_GUESS);
+        size_t length = name ? strlen(name) : 0;
+        if (length >= tail && strcmp(name + length - tail, ending) == 0 && (!found || strcmp(name, found) < 0))
+            found = name;
+    }
+    return found;
+}
+
 static bool read_chunks(struct threemf *file, const char *name, zip_file_t *part, threemf_chunk_fn *take, void *user)
 {
     enum { CHUNK = 128 << 10 };
     const struct zip_library *zip = file->zip;
     struct call_control *call = file->source->call;
     uint8_t *chunk = arena_alloc(file->scratch, CHUNK);
+    uint64_t size = 0;
     char shown[SHOWN_NAME_SIZE];
     if (!chunk)
         return threemf_no_memory(file, CHUNK);
@@ -185,6 +200,10 @@ static bool read_chunks(struct threemf *file, const char *name, zip_file_t *part
             return fail(file->error, LAM_CANNOT_READ, "%s: its part %s is damaged: %s", file->source->name,
                         shown_name(name, shown), zip->zip_error_strerror(zip->zip_file_get_error(part)));
         file->expanded += (uint64_t)got;
+        size += (uint64_t)got;
+        if (file->part_limit && size > file->part_limit)
+            return fail(file->error, LAM_CANNOT_READ, "%s: its part %s has more than %llu bytes", file->source->name,
+                        shown_name(name, shown), (unsigned long long)file->part_limit);
         if (!call_check_expanded(call, file->source->name, file->expanded, file->error) ||
             (!call_should_continue(call) && !call_error(call, file->error)) ||
             !take(user, chunk, (size_t)got, got == 0))

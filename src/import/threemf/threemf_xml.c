@@ -61,6 +61,7 @@ static const char *const uris[] = {
     [NS_RELATIONSHIPS] = "http://schemas.openxmlformats.org/package/2006/relationships",
     [NS_BEAMS] = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02",
     [NS_SLICES] = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07",
+    [NS_SLIC3R] = "http://schemas.slic3r.org/3mf/2017/06",
 };
 
 // --- expat's memory counts towards the memory limit of the parsing thread's call

@@ -12,6 +12,7 @@ enum threemf_namespace {
     NS_RELATIONSHIPS,
     NS_BEAMS,
     NS_SLICES,
+    NS_SLIC3R,
     NS_UNKNOWN
 };
 

@@ -65,6 +65,13 @@ void export_lose_surroundings(struct exporting *e, bool has_lights_and_cameras);
 // objects and drops the names of parts. `reason` is appended to the message.
 void export_lose_objects(struct exporting *e, const char *reason);
 
+// Records a loss if the coordinates are far from zero, for formats that store them as floats.
+void export_lose_digits(struct exporting *e, const lam_mesh *mesh);
+
+// Returns whether the normals are the smooth ones that readers compute for files without normals: whether the model was
+// read from such a file, with the default crease angle.
+bool export_has_usual_normals(const struct exporting *e);
+
 // Adds a file beside the model, and takes ownership of the file's bytes, which malloc allocated. The file's name is the
 // model's name without its extension, followed by `ending`, such as "-0.png". If `beside` is set, other files refer to
 // this file by name, so characters that OBJ and MTL do not allow in file names become _. Fails with LAM_LIMIT.
@@ -123,6 +130,10 @@ double export_encoded(float light);
 // store the picture exactly (floats). Fills the error and returns false if memory runs out.
 bool export_texture(struct exporting *e, const lam_texture *texture, lam_bytes *png);
 
+// Returns whether a material is the white one that loading adds for colours without a material (scene_colors.c).
+bool export_is_white(const lam_material *material);
+// Returns the number of the scene's other materials.
+int export_material_count(const struct exporting *e);
 // Returns the material of a part, or the scene's default material.
 const lam_material *export_material(const struct exporting *e, int index);
 

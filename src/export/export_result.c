@@ -101,6 +101,22 @@ void export_lose_objects(struct exporting *e, const char *reason)
         export_lose(e, "names of parts are omitted (%d): %s", names, reason);
 }
 
+void export_lose_digits(struct exporting *e, const lam_mesh *mesh)
+{
+    if (mesh->origin[0] != 0 || mesh->origin[1] != 0 || mesh->origin[2] != 0)
+        export_lose(e, "coordinates far from zero are rounded to floats");
+}
+
+bool export_has_usual_normals(const struct exporting *e)
+{
+    const struct scene_origin *origins = e->scene->origins.items;
+    const char *format = e->scene->format;
+    bool usual = format && (strcmp(format, "stl") == 0 || strcmp(format, "3mf") == 0);
+    for (int i = 0; i < e->scene->origins.count; i++)
+        usual &= origins[i].normals != LAM_NORMALS_FACET && origins[i].crease_angle_rad == 0;
+    return usual;
+}
+
 // --- files
 
 // OBJ and MTL files name other files without quotes. A name must not begin with a space or a '-', and must not contain
@@ -169,6 +185,21 @@ void lam_export_free(lam_export *result)
         lam_bytes_free(&((struct export_file *)result->files.items)[i].bytes);
     struct arena arena = result->arena; // a copy, because the arena contains `result` itself
     arena_free(&arena);
+}
+
+bool export_is_white(const lam_material *m)
+{
+    const lam_rgb e = m->emission;
+    return !m->name && !m->physical && !m->unlit && m->diffuse.r == 1 && m->diffuse.g == 1 && m->diffuse.b == 1 &&
+           m->diffuse.a == 1 && e.r == 0 && e.g == 0 && e.b == 0 && !m->maps[LAM_MAP_DIFFUSE];
+}
+
+int export_material_count(const struct exporting *e)
+{
+    int count = 0;
+    for (int i = 0; i < e->scene->materials.count; i++)
+        count += !export_is_white(export_material(e, i));
+    return count;
 }
 
 const lam_material *export_material(const struct exporting *e, int index)

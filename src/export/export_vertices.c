@@ -16,7 +16,8 @@ struct corner {
 
 uint32_t export_color_element(const lam_mesh *m, size_t corner)
 {
-    return m->colors_rate == LAM_PER_TRIANGLE ? (uint32_t)(corner / 3) : mesh_element(m->color_indices, m, corner);
+    return m->colors_rate == LAM_PER_TRIANGLE ? (uint32_t)(corner / (mesh_corners(m) / mesh_items(m)))
+                                              : mesh_element(m->color_indices, m, corner);
 }
 
 static struct corner corner_of(const lam_mesh *m, size_t c)

@@ -178,6 +178,8 @@ static void lose_sides(struct exporting *e, const lam_object *object)
         export_lose(e, "materials of back faces are omitted: the format does not support them");
     if (object->one_sided)
         export_lose(e, "back faces are no longer lit like front faces: the format does not support this");
+    if (object->cull != LAM_CULL_NONE)
+        export_lose(e, "culled faces become visible: the format cannot cull faces");
 }
 
 static bool flatten(struct exporting *e, enum export_kind kind)

@@ -193,13 +193,19 @@ static const char *name_of(struct exporting *e, const char *const *names, int in
 static int find_used(struct exporting *e, bool *used, bool *flips)
 {
     int count = 0, materials = e->scene->materials.count;
+    bool grey = false; // whether lines or points have no material, or the default material of glTF
     for (int k = 0; k < EXPORT_KINDS; k++)
         for (uint32_t i = 0; i < e->flat[k].part_count && mesh_items(&e->flat[k]); i++) {
             int material = e->flat[k].parts[i].material;
             material = material >= 0 && material < materials ? material : materials;
             count += !used[material];
             used[material] = true;
+            const lam_material *m = export_material(e, material);
+            grey |= k != EXPORT_TRIANGLES && !e->flat[k].colors &&
+                    (material == materials || (!m->name && m->physical && m->metallic == 1 && m->roughness == 1));
         }
+    if (grey && count > used[materials])
+        export_lose(e, "lines and points without a material are no longer grey: MTL cannot remove a material");
     for (int i = 0; i <= materials; i++)
         for (int k = 0; used[i] && k < LAM_MAP_COUNT; k++) {
             const lam_texture_map *map = export_material(e, i)->maps[k];

@@ -17,48 +17,38 @@ static void put_vector(struct text *text, const char *word, lam_vec3 p)
     export_line(text, word, (double[3]){p.x, p.y, p.z}, 3);
 }
 
-// Collects the colour of each vertex; *out is NULL if the mesh has no colours. OBJ stores one colour per position, so a
-// vertex whose corners have different colours is written without a colour.
-static bool find_colors(struct exporting *e, const lam_mesh *m, uint32_t **out)
+// OBJ stores a colour with each position, so a vertex whose corners have different colours is written several times.
+// *out has no vertices if the mesh has no colours.
+static bool split_colors(struct exporting *e, const lam_mesh *m, struct export_vertices *out)
 {
-    *out = NULL;
+    lam_mesh colored = *m;
+    bool opaque = true;
+    *out = (struct export_vertices){0};
     if (!m->colors)
         return true;
-    uint32_t *elements = arena_array(e->arena, m->vertex_count, sizeof *elements);
-    if (!elements)
-        return export_no_memory(e, (size_t)m->vertex_count * sizeof *elements);
-    memset(elements, 0xff, (size_t)m->vertex_count * sizeof *elements);
-    for (size_t c = 0; c < mesh_corners(m) && export_continues(e, c); c++) {
-        uint32_t *own = &elements[mesh_element(NULL, m, c)], element = export_color_element(m, c);
-        const float *colors = m->colors, *other = colors + 4 * (size_t)*own;
-        if (*own == UINT32_MAX)
-            *own = element;
-        else if (memcmp(other, colors + 4 * (size_t)element, 3 * sizeof *colors) != 0) {
-            export_lose(e, "colours are omitted: OBJ supports one colour per vertex, and triangles that share a vertex "
-                           "have different colours");
-            return true;
-        }
-        if (colors[4 * (size_t)element + 3] < 1)
-            export_lose(e, "the opacity of vertices is omitted: OBJ does not support it");
-    }
-    *out = elements;
-    return export_is_whole(e);
+    colored.normals = colored.texcoords = colored.second_texcoords = colored.tangents = NULL;
+    if (!export_share_vertices(e, &colored, out))
+        return false;
+    for (uint32_t i = 0; i < out->count; i++)
+        opaque &= ((const float *)m->colors)[4 * (size_t)export_color_element(m, out->corners[i]) + 3] >= 1;
+    if (!opaque)
+        export_lose(e, "the opacity of vertices is omitted: OBJ does not support it");
+    return true;
 }
 
-static void put_position(struct exporting *e, const lam_mesh *m, uint32_t vertex, const uint32_t *colors)
-{
-    lam_vec3 p = export_position(e, m, vertex);
-    double numbers[6] = {p.x, p.y, p.z, 1, 1, 1};
-    for (int k = 0; colors && colors[vertex] != UINT32_MAX && k < 3; k++)
-        numbers[3 + k] = export_encoded(((const float *)m->colors)[4 * (size_t)colors[vertex] + (size_t)k]);
-    export_line(&e->text, "v", numbers, colors ? 6 : 3);
-}
-
-static void put_arrays(struct exporting *e, const lam_mesh *m, const uint32_t *colors, bool flips)
+static void put_arrays(struct exporting *e, const lam_mesh *m, const struct export_vertices *colored, bool flips)
 {
     struct text *text = &e->text;
-    for (uint32_t i = 0; i < m->vertex_count && !text->failed; i++)
-        put_position(e, m, i, colors);
+    for (uint32_t i = 0; !m->colors && i < m->vertex_count && !text->failed; i++)
+        put_vector(text, "v", export_position(e, m, i));
+    for (uint32_t i = 0; i < colored->count && !text->failed; i++) {
+        uint32_t c = colored->corners[i];
+        lam_vec3 p = export_position(e, m, mesh_element(NULL, m, c));
+        const float *color = (const float *)m->colors + 4 * (size_t)export_color_element(m, c);
+        double numbers[6] = {
+            p.x, p.y, p.z, export_encoded(color[0]), export_encoded(color[1]), export_encoded(color[2])};
+        export_line(text, "v", numbers, 6);
+    }
     for (uint32_t i = 0; m->texcoords && i < m->texcoord_count && !text->failed; i++) {
         double s = (double)m->texcoords[2 * (size_t)i], t = (double)m->texcoords[2 * (size_t)i + 1];
         export_line(text, "vt", (double[2]){s, flips ? 1 - t : t}, 2);
@@ -67,27 +57,29 @@ static void put_arrays(struct exporting *e, const lam_mesh *m, const uint32_t *c
         put_vector(text, "vn", export_normal(e, m, i));
 }
 
-static void put_corner(struct text *text, const lam_mesh *m, size_t c, struct firsts first)
+static void put_corner(struct text *text, const lam_mesh *m, size_t c, unsigned long vertex, struct firsts first)
 {
-    text_print(text, " %lu", mesh_element(NULL, m, c) + first.position);
+    text_print(text, " %lu", vertex);
     if (m->texcoords)
         text_print(text, "/%lu", mesh_element(m->texcoord_indices, m, c) + first.texcoord);
     if (m->normals)
         text_print(text, m->texcoords ? "/%lu" : "//%lu", mesh_element(m->normal_indices, m, c) + first.normal);
 }
 
-static void put_items(struct exporting *e, const lam_mesh *m, const lam_part *part, int size, struct firsts first)
+static void put_items(struct exporting *e, const lam_mesh *m, const uint32_t *numbers, const lam_part *part, int size,
+                      struct firsts first)
 {
     static const char *const words[] = {"p", "l", "f"};
     size_t begin = (size_t)part->first_triangle * (size_t)size,
            end = begin + (size_t)part->triangle_count * (size_t)size;
     for (size_t c = begin; c < end && !e->text.failed; c++) {
+        unsigned long vertex = (numbers ? numbers[c] : mesh_element(NULL, m, c)) + first.position;
         if (c % (size_t)size == 0)
             text_add(&e->text, words[size - 1]);
         if (size == 3)
-            put_corner(&e->text, m, c, first);
+            put_corner(&e->text, m, c, vertex, first);
         else
-            text_print(&e->text, " %lu", mesh_element(NULL, m, c) + first.position);
+            text_print(&e->text, " %lu", vertex);
         if (c % (size_t)size == (size_t)size - 1)
             text_add(&e->text, "\n");
     }
@@ -132,13 +124,15 @@ static bool put_kind(struct exporting *e, const struct mtl_names *materials, con
                      struct firsts *first)
 {
     lam_part whole = {.triangle_count = mesh_items(m)};
-    uint32_t *colors;
+    struct export_vertices colored;
     const char *name = NULL, *material = NULL;
-    if (!find_colors(e, m, &colors))
+    if (!split_colors(e, m, &colored))
         return false;
+    if (size < 3 && (m->normals || m->texcoords))
+        export_lose(e, "normals and texture coordinates of lines and points are omitted: OBJ does not support them");
     if (m->name)
         put_name(&e->text, "o", m->name);
-    put_arrays(e, m, colors, materials->flips);
+    put_arrays(e, m, &colored, materials->flips);
     for (uint32_t i = 0; i < (m->parts ? m->part_count : 1); i++) {
         const lam_part *part = m->parts ? &m->parts[i] : &whole;
         const char *own = m->parts ? mtl_name(materials, part->material) : NULL;
@@ -148,9 +142,9 @@ static bool put_kind(struct exporting *e, const struct mtl_names *materials, con
             put_name(&e->text, "usemtl", own);
         name = part->name;
         material = own;
-        put_items(e, m, part, size, *first);
+        put_items(e, m, colored.numbers, part, size, *first);
     }
-    first->position += m->vertex_count;
+    first->position += m->colors ? colored.count : m->vertex_count;
     first->texcoord += m->texcoords ? m->texcoord_count : 0;
     first->normal += m->normals ? m->normal_count : 0;
     return true;

@@ -18,11 +18,12 @@ static void put_vertex(struct exporting *e, const lam_mesh *m, size_t c)
     }
 }
 
-static void lose(struct exporting *e, bool points)
+static void lose(struct exporting *e, const lam_mesh *m, bool points)
 {
     export_lose_objects(e, "PLY does not support them");
-    if (e->scene->materials.count)
-        export_lose(e, "materials are omitted (%d): PLY does not support them", e->scene->materials.count);
+    export_lose_digits(e, m);
+    if (export_material_count(e))
+        export_lose(e, "materials are omitted (%d): PLY does not support them", export_material_count(e));
     if (e->flat[EXPORT_LINES].line_count)
         export_lose(e, "lines are omitted: most PLY readers do not support them");
     if (!points && e->flat[EXPORT_POINTS].point_count)
@@ -60,7 +61,7 @@ static bool write(struct exporting *e)
         export_word(text, vertices.numbers[c]);
     }
     if (e->scene)
-        lose(e, points);
+        lose(e, m, points);
     return true;
 }
 

@@ -31,14 +31,16 @@ static bool write(struct exporting *e)
     }
     if (!e->scene)
         return true;
-    export_lose(e, "normals are omitted: STL has one per triangle, and most readers compute smooth normals");
+    if (m->normals && !export_has_usual_normals(e))
+        export_lose(e, "normals are omitted: STL has one per triangle, and most readers compute smooth normals");
     export_lose_objects(e, "STL does not support them");
+    export_lose_digits(e, m);
     if (m->colors)
         export_lose(e, "colours are omitted: programs disagree on how STL stores them");
     if (m->texcoords)
         export_lose(e, "texture coordinates are omitted: STL does not support them");
-    if (e->scene->materials.count)
-        export_lose(e, "materials are omitted (%d): STL does not support them", e->scene->materials.count);
+    if (export_material_count(e))
+        export_lose(e, "materials are omitted (%d): STL does not support them", export_material_count(e));
     if (e->flat[EXPORT_LINES].line_count || e->flat[EXPORT_POINTS].point_count)
         export_lose(e, "lines and points are omitted: STL does not support them");
     export_lose_surroundings(e, false);

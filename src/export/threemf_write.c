@@ -77,17 +77,18 @@ static void mean_color(const lam_material *material, float color[4])
 }
 
 // Adds the materials of the parts in the order of their first use; `numbers` receives the index of each material.
-static bool add_materials(struct exporting *e, struct text *text, const lam_mesh *m, int *numbers)
+static void add_materials(struct exporting *e, struct text *text, const lam_mesh *m, int *numbers)
 {
     int count = 0, materials = e->scene->materials.count;
     for (int i = 0; i <= materials; i++)
         numbers[i] = -1;
-    text_add(text, "<basematerials id=\"1\">\n");
     for (uint32_t i = 0; i < m->part_count; i++) {
         int index = m->parts[i].material;
-        index = index >= 0 && index < materials ? index : materials;
-        if (numbers[index] >= 0)
+        if (index < 0 || index >= materials || numbers[index] >= 0 ||
+            (m->colors && export_is_white(export_material(e, index))))
             continue;
+        if (!count)
+            text_add(text, "<basematerials id=\"1\">\n");
         numbers[index] = count++;
         const lam_material *material = export_material(e, index);
         float color[4];
@@ -103,8 +104,37 @@ static bool add_materials(struct exporting *e, struct text *text, const lam_mesh
                 export_lose(e, "textures become their mean colour: lambent writes only colours to 3MF");
         export_lose(e, "only the diffuse colour of materials is kept: base materials of 3MF support nothing else");
     }
-    text_add(text, "</basematerials>\n");
-    return true;
+    if (count)
+        text_add(text, "</basematerials>\n");
+}
+
+// Adds the colours of corners, for triangles without a material.
+static void add_colors(struct text *text, const lam_mesh *m)
+{
+    text_add(text, "<m:colorgroup id=\"3\">\n");
+    for (size_t i = 0; i < m->color_count && !text->failed; i++) {
+        uint8_t bytes[4];
+        export_color_bytes(m, i, bytes);
+        text_print(text, "<m:color color=\"#%02X%02X%02X%02X\"/>\n", bytes[0], bytes[1], bytes[2], bytes[3]);
+    }
+    text_add(text, "</m:colorgroup>\n");
+}
+
+// Adds the property attributes of a triangle, whose base material is `number` (or −1).
+static void add_properties(struct exporting *e, struct text *text, const lam_mesh *m, size_t triangle, int number)
+{
+    static const float white[3] = {1, 1, 1};
+    if (number >= 0)
+        text_print(text, " pid=\"1\" p1=\"%d\"", number);
+    else if (m->colors)
+        text_add(text, " pid=\"3\"");
+    for (size_t k = 0; m->colors && k < 3; k++) {
+        uint32_t element = export_color_element(m, 3 * triangle + k);
+        if (number < 0)
+            text_print(text, " p%u=\"%lu\"", (unsigned)k + 1, element + 0UL);
+        else if (memcmp((const float *)m->colors + 4 * (size_t)element, white, sizeof white) != 0)
+            export_lose(e, "colours of vertices with a material are omitted: lambent does not multiply them in 3MF");
+    }
 }
 
 static void add_mesh(struct exporting *e, struct text *text, const lam_mesh *m, const int *numbers)
@@ -123,13 +153,14 @@ static void add_mesh(struct exporting *e, struct text *text, const lam_mesh *m, 
     text_add(text, "</vertices><triangles>\n");
     for (uint32_t i = 0; i < m->part_count; i++) {
         const lam_part *part = &m->parts[i];
-        int index = part->material >= 0 && part->material < e->scene->materials.count ? part->material
-                                                                                      : e->scene->materials.count;
+        int number = part->material >= 0 && part->material < e->scene->materials.count ? numbers[part->material] : -1;
         for (size_t t = part->first_triangle; t < (size_t)part->first_triangle + part->triangle_count && !text->failed;
-             t++)
-            text_print(text, "<triangle v1=\"%lu\" v2=\"%lu\" v3=\"%lu\" pid=\"1\" p1=\"%d\"/>\n",
-                       mesh_element(NULL, m, 3 * t) + 0UL, mesh_element(NULL, m, 3 * t + 1) + 0UL,
-                       mesh_element(NULL, m, 3 * t + 2) + 0UL, numbers[index]);
+             t++) {
+            text_print(text, "<triangle v1=\"%lu\" v2=\"%lu\" v3=\"%lu\"", mesh_element(NULL, m, 3 * t) + 0UL,
+                       mesh_element(NULL, m, 3 * t + 1) + 0UL, mesh_element(NULL, m, 3 * t + 2) + 0UL);
+            add_properties(e, text, m, t, number);
+            text_add(text, "/>\n");
+        }
     }
     text_add(text, "</triangles></mesh></object>\n");
 }
@@ -142,10 +173,13 @@ static bool make_model(struct exporting *e, struct text *text)
         return export_no_memory(e, (size_t)e->scene->materials.count * sizeof *numbers);
     text_print(text,
                "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"%s\" "
-               "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+               "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
+               "xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\">\n"
                "<metadata name=\"Application\">lambent %s</metadata>\n<resources>\n",
                unit_of(e), lam_version());
     add_materials(e, text, m, numbers);
+    if (m->colors)
+        add_colors(text, m);
     add_mesh(e, text, m, numbers);
     text_add(text, "</resources>\n<build><item objectid=\"2\"/></build>\n</model>\n");
     return export_text_is_whole(e, text);
@@ -221,12 +255,12 @@ static bool pack(struct exporting *e, const struct library *zip, const struct te
 static void lose(struct exporting *e)
 {
     const lam_mesh *m = &e->flat[EXPORT_TRIANGLES];
-    export_lose(e, "normals are omitted: 3MF does not support them, and most readers compute smooth normals");
+    if (m->normals && !export_has_usual_normals(e))
+        export_lose(e, "normals are omitted: 3MF does not support them, and most readers compute smooth normals");
     export_lose_objects(e, "lambent writes one object to 3MF");
+    export_lose_digits(e, m);
     if (m->texcoords)
         export_lose(e, "texture coordinates are omitted: lambent writes only colours to 3MF");
-    if (m->colors)
-        export_lose(e, "colours of vertices are omitted: lambent writes only the colours of materials to 3MF");
     if (e->flat[EXPORT_LINES].line_count || e->flat[EXPORT_POINTS].point_count)
         export_lose(e, "lines and points are omitted: 3MF does not support them");
     export_lose_surroundings(e, false);

@@ -19,7 +19,8 @@ struct import_source {
     const char *name;     // for messages: the path as the user wrote it
     const char *path;     // the file's path; NULL if the file is in memory or is standard input
     const uint8_t *bytes; // FILE_PADDING zero bytes follow the last byte
-    size_t size;          // the size of the file in bytes
+    size_t size;          // the number of bytes at `bytes`
+    size_t file_size;     // the size of the file; larger than `size` if the file is read in parts
     // Set for a large file that is read in parts (importer.in_parts); `bytes` then contains only the file's first
     // FILE_HEAD bytes. NULL if `bytes` contains the whole file. The functions of parallel_rows.h support both cases.
     const struct file_parts *parts;
@@ -47,8 +48,9 @@ struct importer {
     bool is_scene_file;
     bool flat_normals; // the format requires flat normals for meshes without normals
     // Returns how certain it is that the bytes are in this format: 0 (no), 1 (possibly; the file's extension decides)
-    // or 2 (certainly).
-    int (*probe)(const uint8_t *bytes, size_t size);
+    // or 2 (certainly). `size` is the number of bytes in memory, which may be only the first of a file of `file_size`
+    // bytes.
+    int (*probe)(const uint8_t *bytes, size_t size, size_t file_size);
     // Fills an empty scene with meshes, materials, and one object per mesh. On failure, the caller frees the scene.
     bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
     // Optional. Returns whether `load` reads this large file in parts (import_source.parts).
@@ -57,12 +59,6 @@ struct importer {
     // Returns false for other files and on errors. The caller then runs `load` with an empty scene and the whole file.
     bool (*load_stream)(const struct import_source *source, struct lam_scene *scene);
 };
-
-// Returns the number of bytes at source->bytes.
-static inline size_t import_held(const struct import_source *source)
-{
-    return source->parts ? FILE_HEAD : source->size;
-}
 
 // The formats, in the order of the lists that users see. tests/fuzz/meson.build reads these names too.
 #define IMPORTERS(X) X(obj) X(stl) X(ply) X(gltf) X(3mf) X(scene)

@@ -94,7 +94,7 @@ struct rest {
     uint8_t *to;
 };
 
-enum { REST_CHUNK = 1 << 20 }; // bytes
+enum { REST_CHUNK = THRESHOLD(1 << 20, 512) }; // bytes
 
 static bool rest_chunk(void *user, size_t index, lam_error *error)
 {
@@ -108,7 +108,7 @@ const uint8_t *parallel_rows_rest(const struct import_source *source, size_t off
 {
     if (!source->parts)
         return source->bytes + offset;
-    struct rest rest = {source, offset, source->size - offset, arena_alloc(arena, source->size - offset)};
+    struct rest rest = {source, offset, source->file_size - offset, arena_alloc(arena, source->file_size - offset)};
     if (!rest.to)
         return call_memory_error(source->call, rest.size, error), NULL;
     size_t chunks = (rest.size + REST_CHUNK - 1) / REST_CHUNK;

@@ -6,7 +6,7 @@
 #include "importer.h"
 
 // Rows (facets, vertices, faces) per chunk. In the usual formats, a chunk fits into the second-level cache.
-enum { PARALLEL_ROWS = 4096 };
+enum { PARALLEL_ROWS = THRESHOLD(4096, 16) };
 
 static inline size_t parallel_rows_count(size_t rows) { return rows / PARALLEL_ROWS + (rows % PARALLEL_ROWS != 0); }
 

@@ -53,6 +53,25 @@ static bool has_ending(const struct importer *importer, const char *ending)
     return false;
 }
 
+// Asks each importer about the first `size` bytes of a file. Returns the highest certainty (importer.probe).
+static int probe_all(const char *ending, const uint8_t *bytes, size_t size, size_t file_size,
+                     const struct importer **by_content, const struct importer **by_ending)
+{
+    int best = 0;
+    *by_content = *by_ending = NULL;
+    for (int i = 0; i < COUNT; i++) {
+        int sure = importers[i]->probe(bytes, size, file_size);
+        bool named = has_ending(importers[i], ending);
+        if (named)
+            *by_ending = importers[i];
+        if (sure > best || (sure == best && sure > 0 && named)) {
+            best = sure;
+            *by_content = importers[i];
+        }
+    }
+    return best;
+}
+
 // The content of the file selects the importer. If the content is ambiguous, the extension of the file's name selects
 // the importer.
 const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
@@ -71,19 +90,8 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
     if (file->size == 0)
         return fail(error, LAM_CANNOT_READ, "%s: the file is empty", name), NULL;
     const char *ending = path_ending(name);
-    const struct importer *by_content = NULL, *by_ending = NULL;
-    int best = 0;
-    for (int i = 0; i < COUNT; i++) {
-        int sure = importers[i]->probe(file->data, file->size);
-        bool named = has_ending(importers[i], ending);
-        if (named)
-            by_ending = importers[i];
-        if (sure > best || (sure == best && sure > 0 && named)) {
-            best = sure;
-            by_content = importers[i];
-        }
-    }
-    if (best == 2)
+    const struct importer *by_content, *by_ending;
+    if (probe_all(ending, file->data, file->size, file->size, &by_content, &by_ending) == 2)
         return by_content;
     // The importer that matches the name reports the clearest error.
     if (by_content && by_content == by_ending)
@@ -116,9 +124,7 @@ const struct importer *importer_for_parts(const char *name, const uint8_t *head,
         const struct importer *importer = importer_for(name, NULL, wanted, NULL);
         return importer && reads_parts(importer) ? importer : NULL;
     }
-    // importers that read files in parts examine only the head, so passing the size of the whole file is safe
-    for (int i = 0; i < COUNT; i++)
-        if (importers[i]->probe(head, reads_parts(importers[i]) ? size : FILE_HEAD) == 2)
-            return reads_parts(importers[i]) ? importers[i] : NULL;
-    return NULL;
+    const struct importer *importer, *by_ending;
+    bool sure = probe_all(path_ending(name), head, FILE_HEAD, size, &importer, &by_ending) == 2;
+    return sure && reads_parts(importer) ? importer : NULL;
 }

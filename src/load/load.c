@@ -126,7 +126,8 @@ static bool load_in_parts(struct import_source *source, const struct importer **
     bool in_parts = false, done = false;
     if (head && source->path && file_open_parts(source->path, head, &file)) {
         source->bytes = head;
-        source->size = file.size;
+        source->size = FILE_HEAD;
+        source->file_size = file.size;
         source->parts = &file;
         call_add_input(source->call, file.size);
         // If the file is too large, `load` reports this error after this function returns.
@@ -145,7 +146,7 @@ static bool load_in_parts(struct import_source *source, const struct importer **
             call_add_input(source->call, 0 - file.size);
         file_close_parts(&file);
         source->bytes = NULL;
-        source->size = 0;
+        source->size = source->file_size = 0;
         source->parts = NULL;
     }
     free(head);
@@ -164,7 +165,7 @@ static bool load_whole(struct import_source *source, const char *path, const voi
         return false;
     }
     source->bytes = file->data;
-    source->size = file->size;
+    source->size = source->file_size = file->size;
     source->file = file;
     call_progress(source->call, 0.05, "read");
     *importer = importer_for(source->name, file, source->params->format, error);

@@ -14,11 +14,12 @@ enum { FORMULA_OPERATIONS = 200000000 };
 
 // --- recognising scene files
 
-// Recognises a JSON object whose first 64 kilobytes contain the key "lambent".
-static int scene_probe(const uint8_t *bytes, size_t size)
+// Recognises a JSON object whose first FILE_HEAD bytes contain the key "lambent".
+static int scene_probe(const uint8_t *bytes, size_t size, size_t file_size)
 {
+    (void)file_size;
     static const char key[] = "\"lambent\"";
-    size_t at = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, end = size < 65536 ? size : 65536;
+    size_t at = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, end = size < FILE_HEAD ? size : FILE_HEAD;
     while (at < end && (bytes[at] == ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n'))
         at++;
     if (at >= end || bytes[at] != '{')

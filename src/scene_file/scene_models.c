@@ -81,7 +81,7 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     source.name = file->shown;
     source.path = file->path;
     source.bytes = file->file.data;
-    source.size = file->file.size;
+    source.size = source.file_size = file->file.size;
     source.file = &file->file;
     source.params = &params;
     source.open_state = &companions;

@@ -46,7 +46,7 @@ static bool load_both(const char *format)
 {
     bool loaded = false;
     write_file();
-    assert_true(size > FILE_LARGE);
+    assert_true(size >= FILE_LARGE - 1);
     for (int threads = 1; threads <= 3; threads += 2) {
         lam_error errors[2] = {0};
         lam_load_params params = {.threads = threads, .format = format};
@@ -312,6 +312,105 @@ static void ply_errors(void **state)
     assert_false(load_both(NULL));
 }
 
+// Inserts `count` bytes at an offset.
+static void insert(size_t at, int byte, size_t count)
+{
+    assert_true(size + count <= ROOM);
+    memmove(text + at + count, text + at, size - at);
+    memset(text + at, byte, count);
+    size += count;
+}
+
+// The header ends before, at and after the end of the bytes that are read first. Such a file is read in parts or as a
+// whole, with the same result.
+static void ply_headers(void **state)
+{
+    (void)state;
+    const struct layout layouts[] = {{0}, {.format = "binary_big_endian", .mixed = true}};
+    for (size_t i = 0; i < 2; i++)
+        for (int past = -13; past <= 3; past++) {
+            make_ply(layouts[i]);
+            size_t header = (size_t)(strstr(text, "end_header\n") + 11 - text);
+            const size_t line = (size_t)(FILE_HEAD + past) - header;
+            insert(4, 'c', line);
+            memcpy(text + 4, "comment ", 8);
+            text[4 + line - 1] = '\n';
+            assert_true(load_both(NULL));
+        }
+}
+
+// Headers without an end, and long headers of text files, of sizes at which the reader's method changes.
+static void ply_long_headers(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *first, *last; // around the filled bytes
+        int fill;
+        bool loads;
+    } rows[] = {
+        {"ply\n", "", 0, false},
+        {"ply\n", "", 'c', false},
+        {"ply\r", "", '\r', false},
+        {"ply\n", "", '\n', false},
+        {"ply\nformat binary_little_endian 1.0\ncomment ", "", 'c', false},
+        {"ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n", "end_header", ' ', false},
+        {"ply\ncomment ", "\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n", 'c', false},
+        {"ply\ncomment ",
+         "\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+         "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+         'c', true},
+        {"ply\rcomment ",
+         "\rformat ascii 1.0\relement vertex 3\rproperty float x\rproperty float y\rproperty float z\rend_header\r"
+         "0 0 0\r1 0 0\r0 1 0\r",
+         '\n', true},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (size_t total = FILE_LARGE - 1; total <= FILE_LARGE + 1; total++) {
+            size = 0;
+            add_text(rows[i].first);
+            insert(size, rows[i].fill, total - size - strlen(rows[i].last));
+            add_text(rows[i].last);
+            assert_int_equal(load_both(NULL), rows[i].loads);
+        }
+}
+
+// Every format is recognised from the first bytes of a large file as from the whole file.
+static void beginnings(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *first, *last;
+        char fill;
+        bool loads;
+    } rows[] = {
+        {"# a comment\n#", "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 'c', false}, // looks like a comment only
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\n#", "\nf 1 2 3\n", 'c', true},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "f 1 2 3\n", '\n', true},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "", 0, false},
+        {"solid a\nfacet normal 0 0 1\nouter loop\n",
+         "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n", ' ', true},
+        {"solid ", "\nendsolid\n", 's', false},
+        {"", "{\"asset\":{\"version\":\"2.0\"}}", ' ', false},
+        {"{", "\"asset\":{\"version\":\"2.0\"}}", ' ', false},
+        {"glTF\2", "", 7, false},
+        {"{\"lambent\":1,", "\"objects\":[{\"shape\":\"cube\"}]}", ' ', true},
+        {"{", "\"lambent\":1,\"objects\":[{\"shape\":\"cube\"}]}", ' ', false},
+        {"PK\3\4", "_rels/.rels 3D/a.model", 'k', false},
+        {"", "", 0, false},
+        {"", "", 'x', false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (size_t total = FILE_LARGE - 1; total <= FILE_LARGE + 1; total++) {
+            size = 0;
+            add_text(rows[i].first);
+            insert(size, rows[i].fill, total - size - strlen(rows[i].last));
+            add_text(rows[i].last);
+            bool loads = load_both(NULL);
+            if (loads != rows[i].loads)
+                fail_msg("row %zu, %zu bytes: %s", i, total, loads ? "a scene" : "an error");
+        }
+}
+
 static void can_be_stopped(void **state)
 {
     (void)state;
@@ -349,8 +448,9 @@ static void memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stl_files), cmocka_unit_test(stl_vertices), cmocka_unit_test(stl_errors),
-        cmocka_unit_test(ply_files), cmocka_unit_test(ply_errors),   cmocka_unit_test(can_be_stopped),
+        cmocka_unit_test(stl_files),   cmocka_unit_test(stl_vertices),     cmocka_unit_test(stl_errors),
+        cmocka_unit_test(ply_files),   cmocka_unit_test(ply_errors),       cmocka_unit_test(can_be_stopped),
+        cmocka_unit_test(ply_headers), cmocka_unit_test(ply_long_headers), cmocka_unit_test(beginnings),
         cmocka_unit_test(memory),
     };
     return cmocka_run_group_tests_name("large files", tests, start, stop);

@@ -676,6 +676,7 @@ static struct lam_scene *load_chunked(const char *text, size_t size, size_t chun
     struct import_source source = {.name = "t.obj",
                                    .bytes = file.data,
                                    .size = file.size,
+                                   .file_size = file.size,
                                    .params = &params,
                                    .pool = pool,
                                    .call = &call,

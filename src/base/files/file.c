@@ -84,7 +84,7 @@ bool file_copy(const void *bytes, size_t size, struct call_control *call, struct
 }
 
 // The size of one chunk of a parallel read.
-enum { CHUNK = 1 << 20 };
+enum { CHUNK = THRESHOLD(1 << 20, 1 << 10) };
 struct parallel_read {
     int file;
     uint8_t *to;
@@ -187,7 +187,7 @@ static bool read_stream(int file, const char *path, bool fresh, struct call_cont
                         lam_error *error)
 {
     size_t used = 0, max = pages_of_machine() / 4;
-    bool ok = file_hold(1 << 20, call, out, error), ended = false;
+    bool ok = file_hold(CHUNK, call, out, error), ended = false;
     while (ok && !ended) {
         if (used == out->size)
             ok = used >= max

@@ -44,8 +44,16 @@ bool file_check_regular(const char *path, lam_error *error);
 // result, including the final '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
 
+// A size at which a reader changes its method: `usual`, or `small` in the fuzzing build (-Dfuzz=true), so that its inputs
+// of a few kilobytes reach both methods.
+#ifdef SMALL_THRESHOLDS
+#define THRESHOLD(usual, small) (small)
+#else
+#define THRESHOLD(usual, small) (usual)
+#endif
+
 // A large open file. Any thread may read sections of the file.
-enum { FILE_HEAD = 64 << 10, FILE_LARGE = 1 << 20 };
+enum { FILE_HEAD = THRESHOLD(64 << 10, 2 << 10), FILE_LARGE = THRESHOLD(1 << 20, 4 << 10) };
 struct file_parts {
     int file;
     size_t size;

@@ -22,8 +22,9 @@
 #include <string.h>
 
 // Recognises a binary file, or a JSON object with the key "asset".
-static int gltf_probe(const uint8_t *bytes, size_t size)
+static int gltf_probe(const uint8_t *bytes, size_t size, size_t file_size)
 {
+    (void)file_size;
     static const char key[] = "\"asset\"";
     size_t at = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     if (gltf_is_binary(bytes, size))

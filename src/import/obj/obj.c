@@ -20,10 +20,11 @@ static bool first_word_known(const uint8_t *at, const uint8_t *end)
 }
 
 // The format is certain if all of the first statements are known and one of them occurs in no other format.
-static int obj_probe(const uint8_t *bytes, size_t size)
+static int obj_probe(const uint8_t *bytes, size_t size, size_t file_size)
 {
-    enum { SAMPLE = 64 << 10, STATEMENTS = 32 };
-    const uint8_t *at = bytes, *end = bytes + (size < SAMPLE ? size : SAMPLE);
+    (void)file_size;
+    enum { STATEMENTS = 32 };
+    const uint8_t *at = bytes, *end = bytes + (size < FILE_HEAD ? size : FILE_HEAD);
     if (memchr(bytes, 0, (size_t)(end - bytes)))
         return 0;
     if (end - at >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0) // a byte order mark

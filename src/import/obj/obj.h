@@ -22,9 +22,9 @@
 #include "mtl.h"
 
 enum {
-    OBJ_CHUNK = 256 << 10,    // bytes: about a hundred microseconds of work
-    OBJ_MISSING = UINT32_MAX, // a corner without this attribute
-    OBJ_LIBRARIES_MAX = 256,  // the maximum number of material files that are opened
+    OBJ_CHUNK = THRESHOLD(256 << 10, 1 << 10), // bytes: about a hundred microseconds of work
+    OBJ_MISSING = UINT32_MAX,                  // a corner without this attribute
+    OBJ_LIBRARIES_MAX = 256,                   // the maximum number of material files that are opened
 };
 
 // Kinds of statements.

@@ -16,10 +16,11 @@
 #include <string.h>
 
 enum {
-    TAIL = 16 << 10,            // bytes read after a chunk, for its last line
-    STATEMENTS = 4096,          // the maximum number of statements per chunk
-    COUNT_MAX = UINT32_MAX - 1, // the maximum number of elements of a kind
-    SMALL_FILE = 16 << 20,      // smaller files use small pages, because their arrays fill few huge pages
+    TAIL = THRESHOLD(16 << 10, 256),  // bytes read after a chunk, for its last line
+    STATEMENTS = THRESHOLD(4096, 16), // the maximum number of statements per chunk
+    COUNT_MAX = UINT32_MAX - 1,       // the maximum number of elements of a kind
+    SMALL_FILE =
+        THRESHOLD(16 << 20, 8 << 10), // smaller files use small pages, because their arrays fill few huge pages
 };
 
 enum array { POSITIONS, TEXCOORDS, NORMALS, CORNERS, CORNER_TEXCOORDS, CORNER_NORMALS, POLYGONS, ARRAYS };

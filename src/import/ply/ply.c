@@ -6,8 +6,9 @@
 
 #include <string.h>
 
-static int ply_probe(const uint8_t *bytes, size_t size)
+static int ply_probe(const uint8_t *bytes, size_t size, size_t file_size)
 {
+    (void)file_size;
     return size >= 4 && memcmp(bytes, "ply", 3) == 0 && text_white(bytes[3]) ? 2 : 0;
 }
 
@@ -193,7 +194,7 @@ static bool build(struct ply_import *reader, lam_error *error)
     struct lam_scene *scene = reader->scene;
     char found[TEXT_FOUND_SIZE];
     // the text lacks the first line of PLY, but the caller or the file's extension selected this importer
-    if (ply_probe(source->bytes, source->size) == 0)
+    if (ply_probe(source->bytes, source->size, source->file_size) == 0)
         return fail_line(error, source, 1, "found %s, expected \"ply\"",
                          text_found(source->bytes, source->bytes + source->size, found));
     if (!ply_read_header(source, reader->scratch, &reader->header, error) || !choose_elements(reader, error) ||
@@ -238,14 +239,15 @@ static bool ply_load(const struct import_source *source, struct lam_scene *scene
     return done;
 }
 
-// Only binary files can be read in parts, because rows of text differ in size. The header must be within the bytes in
-// memory.
+// Only binary files can be read in parts, because rows of text differ in size. The whole header must be in memory. If
+// the body begins at the end of these bytes, the line "end_header" may be truncated.
 static bool ply_in_parts(const struct import_source *source)
 {
     struct arena scratch;
     struct ply_header header;
     arena_start(&scratch, source->call);
-    bool binary = ply_read_header(source, &scratch, &header, NULL) && header.format != PLY_ASCII;
+    bool binary =
+        ply_read_header(source, &scratch, &header, NULL) && header.format != PLY_ASCII && header.body < source->size;
     arena_free(&scratch);
     return binary;
 }

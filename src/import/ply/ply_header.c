@@ -177,7 +177,7 @@ static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
 static struct lines start(const struct import_source *source, struct arena *arena)
 {
     struct lines lines = {.source = source, .arena = arena, .next = source->bytes, .ending = '\n'};
-    const uint8_t *end = source->bytes + import_held(source), *line_end = text_line_end(source->bytes, end);
+    const uint8_t *end = source->bytes + source->size, *line_end = text_line_end(source->bytes, end);
     if (line_end + 1 < end && line_end[0] == '\r' && line_end[1] != '\n')
         lines.ending = '\r';
     next_line(&lines);
@@ -254,8 +254,8 @@ void ply_warn_header(const struct import_source *source, struct lam_scene *scene
 {
     char found[TEXT_FOUND_SIZE];
     if (header->unknown_count)
-        scene_warn(
-            scene, "%s:%zu: found %s, expected format, comment, element, property or end_header; the line is ignored%s",
-            source->name, header->unknown_line, text_found(header->unknown, source->bytes + import_held(source), found),
-            header->unknown_count > 1 ? ", and others" : "");
+        scene_warn(scene,
+                   "%s:%zu: found %s, expected format, comment, element, property or end_header; the line is ignored%s",
+                   source->name, header->unknown_line, text_found(header->unknown, source->bytes + source->size, found),
+                   header->unknown_count > 1 ? ", and others" : "");
 }

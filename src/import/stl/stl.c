@@ -40,20 +40,20 @@ static bool looks_ascii(const uint8_t *bytes, size_t size)
 
 // Tests the size first. A text file cannot have the size 84 + 50 · count by chance, because four characters, read as a
 // binary count, give a count above 10⁸.
-static enum kind detect_kind(const uint8_t *bytes, size_t size)
+static enum kind detect_kind(const uint8_t *bytes, size_t size, size_t file_size)
 {
     bool has_header = size >= STL_FACETS;
     uint64_t expected = has_header ? STL_FACETS + (uint64_t)STL_FACET * declared_facets(bytes) : 0;
-    if (has_header && size == expected)
+    if (has_header && file_size == expected)
         return BINARY_EXACT;
     if (looks_ascii(bytes, size))
         return ASCII;
     return has_header && has_zero(bytes, size) ? BINARY_LOOSE : NEITHER;
 }
 
-static int stl_probe(const uint8_t *bytes, size_t size)
+static int stl_probe(const uint8_t *bytes, size_t size, size_t file_size)
 {
-    switch (detect_kind(bytes, size)) {
+    switch (detect_kind(bytes, size, file_size)) {
     case BINARY_EXACT:
     case ASCII:
         return 2;
@@ -67,7 +67,7 @@ static int stl_probe(const uint8_t *bytes, size_t size)
 
 static bool stl_in_parts(const struct import_source *source)
 {
-    enum kind kind = detect_kind(source->bytes, source->size);
+    enum kind kind = detect_kind(source->bytes, source->size, source->file_size);
     return kind == BINARY_EXACT || kind == BINARY_LOOSE;
 }
 
@@ -75,7 +75,7 @@ static bool stl_load(const struct import_source *source, struct lam_scene *scene
 {
     char found[TEXT_FOUND_SIZE];
     lam_mesh mesh = {0};
-    switch (detect_kind(source->bytes, source->size)) {
+    switch (detect_kind(source->bytes, source->size, source->file_size)) {
     case ASCII:
         if (!stl_load_ascii(source, scene, &mesh, error))
             return false;
@@ -84,7 +84,7 @@ static bool stl_load(const struct import_source *source, struct lam_scene *scene
         return fail(error, LAM_CANNOT_READ,
                     "%s: not an STL file: found %s at its start and %zu bytes, expected \"solid\" and facets, or a "
                     "binary header of %d bytes and facets",
-                    source->name, text_found(source->bytes, source->bytes + source->size, found), source->size,
+                    source->name, text_found(source->bytes, source->bytes + source->size, found), source->file_size,
                     STL_FACETS);
     default:
         if (!stl_load_binary(source, scene, &mesh, error))

@@ -21,9 +21,9 @@ enum {
     // With few windows, more facets share vertices. With many windows, more threads are busy.
     WINDOWS = 16,     // number of windows, if each window contains at most WINDOW_CHUNKS chunks
     WINDOWS_MAX = 32, // the maximum number of windows
-    WINDOW_CHUNKS = 16,
-    FACETS_MIN = 1 << 16, // smaller files gain little
-    TABLE_BITS = 14,      // the table has 2^TABLE_BITS pairs of vertices: 512 KiB
+    WINDOW_CHUNKS = THRESHOLD(16, 1),
+    FACETS_MIN = THRESHOLD(1 << 16, 24), // smaller files gain little
+    TABLE_BITS = THRESHOLD(14, 6),       // the table has 2^TABLE_BITS pairs of vertices: 512 KiB
 };
 
 struct recent_vertex {

@@ -11,8 +11,9 @@
 
 // Recognises a ZIP archive that contains a model part and the relationships that refer to this part. File names in a
 // ZIP archive are not compressed.
-static int threemf_probe(const uint8_t *bytes, size_t size)
+static int threemf_probe(const uint8_t *bytes, size_t size, size_t file_size)
 {
+    (void)file_size;
     static const char relationships[] = "_rels/.rels", model[] = ".model";
     bool found = size > 4 && memcmp(bytes, "PK\3\4", 4) == 0 &&
                  memmem(bytes, size, relationships, sizeof relationships - 1) &&

@@ -186,7 +186,7 @@ const char *threemf_package_find(const struct threemf *file, const char *ending)
 
 static bool read_chunks(struct threemf *file, const char *name, zip_file_t *part, threemf_chunk_fn *take, void *user)
 {
-    enum { CHUNK = 128 << 10 };
+    enum { CHUNK = THRESHOLD(128 << 10, 256) };
     const struct zip_library *zip = file->zip;
     struct call_control *call = file->source->call;
     uint8_t *chunk = arena_alloc(file->scratch, CHUNK);

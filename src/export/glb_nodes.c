@@ -177,16 +177,22 @@ static void add_camera(struct glb *glb, const lam_camera *c, const char *name)
         m.m[0][0] = x.x, m.m[1][0] = x.y, m.m[2][0] = x.z;
         m.m[0][1] = y.x, m.m[1][1] = y.y, m.m[2][1] = y.z;
     }
-    if (!(near_plane > 0) && !(far_plane > 0)) { // Lambent would fit these planes to the scene, but glTF needs numbers
+    // Lambent would fit a plane of 0 to the scene, but glTF requires numbers, except for the far plane of a perspective.
+    const bool parallel = c->ortho_half_height > 0, near_missing = !(near_plane > 0) && (!parallel || !(far_plane > 0));
+    if (near_missing || (parallel && !(far_plane > near_plane))) {
         lam_vec3 centre;
         double radius;
         lam_scene_sphere(glb->e->scene, -1, &centre, &radius);
-        far_plane = v3_length(v3_sub(centre, c->eye)) + 2 * radius + 1e-3;
-        near_plane = far_plane / 10000;
+        far_plane = far_plane > near_plane ? far_plane : v3_length(v3_sub(centre, c->eye)) + 2 * radius + 1e-3;
+        near_plane = near_missing || near_plane >= far_plane ? far_plane / 10000 : near_plane;
         export_lose(glb->e, "cameras are written with fixed near and far planes: glTF requires numbers");
     }
+    if (!(near_plane <= 1e30 && far_plane <= 1e30)) { // the reader's limits, which keep products of such numbers finite
+        export_lose(glb->e, "cameras with planes beyond 1e30 units are left out");
+        return;
+    }
     json_t *object, *numbers;
-    if (c->ortho_half_height > 0) {
+    if (parallel) {
         numbers = json_pack("{s:f, s:f, s:f, s:f}", "xmag", c->ortho_half_height, "ymag", c->ortho_half_height, "znear",
                             near_plane > 0 ? near_plane : 0.0, "zfar", far_plane);
         object = json_pack("{s:s, s:o}", "type", "orthographic", "orthographic", numbers);

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""fuzz.py [time=SECONDS] [runs=N] [jobs=N] [TARGET …]: builds the fuzz targets with libFuzzer and sanitizers, and runs them one after another, for a
-minute each by default.
+"""fuzz.py [time=SECONDS] [runs=N] [jobs=N] [coverage] [TARGET …]: builds the fuzz targets with libFuzzer and sanitizers, and runs them one after
+another, for a minute each by default.
+
+With `coverage`, nothing is fuzzed: a build in build-fuzz/coverage runs the seeds and the inputs found so far, and the table shows the lines of
+each reader that they reach (clang's source coverage).
 
 Inputs that reach new code are kept in build-fuzz/corpus/TARGET, so that the next run continues from there; failing inputs are written to
 build-fuzz/finds, and their names are printed. One line for each target: executions, coverage at the
 beginning and at the end, finds. The exit code is 1 if there is a find.
 """
 import glob
+import json
 import os
 import re
 import shutil
@@ -26,7 +30,10 @@ SEEDS = {
     "gltf": [("MODELS/gltf-tests", ".gltf"), ("MODELS/gltf", ".gltf")],
     "glb": [("MODELS/glb", ".glb"), ("MODELS/gltf-tests", ".glb")],
     "scene": [("tests/models", ".json"), ("tools/help", ".json"), ("examples", ".json")],
+    "settings": [], "hash": [], "journal": [], "request": [], "shader": [("tests/check", ".frag")],
 }
+# These inputs begin with 24 bytes of options. Every model and scene file is also an input, after zeros.
+WITH_OPTIONS = ("render", "library", "file")
 SEED_BYTES = 16384
 
 # The words of a format are the string literals of the files that read it, by default the files in its folder in src/import; other dictionaries are in
@@ -36,8 +43,22 @@ WORDS = {
     "3mf": ["src/import/threemf"],
     "scene": ["src/scene_file", "src/scene", "src/words"],
     "render": ["src/import/obj", "src/import/ply", "src/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/words"], "formula": ["src/shapes/formula_parse.c"],
+    "library": ["src/import/obj", "src/import/ply", "src/import/gltf"], "file": ["src/import"],
+    "settings": ["tools/options", "src/scene/fields", "src/words"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal", "tools/many/unit"],
+    "request": ["tools/view", "tools/options"], "shader": ["classroom/check/text", "classroom/check/contract"],
 }
-NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", "job", "formula")
+NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", "library", "file", "job", "formula", "settings", "shader")
+
+# The sources of each reader, for `coverage`: a target's own folder in src/import by default.
+READERS = {
+    "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
+    "3mf": ["src/import/threemf"], "scene": ["src/scene_file", "src/json"], "png": ["src/image/png/png_read.c", "src/image/png/png_whole.c"],
+    "file": ["src/load", "src/import", "src/base/files/file.c"], "formula": ["src/shapes"], "job": ["tools/many/jobs"],
+    "settings": ["tools/options/settings_file.c"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal/journal.c", "tools/many/journal/journal_sum.c"],
+    "request": ["tools/view/view_routes.c", "tools/view/view_answer.c", "tools/view/view_events.c", "tools/view/drawing/view_words.c", "tools/view/drawing/view_files.c"],
+    "shader": ["classroom/check/text", "classroom/check/contract"],
+    "library": ["src/export", "src/glsl", "src/device"], "render": ["src/frame", "src/cpu"], "picture": ["src/frame", "src/cpu"],
+}
 
 # A slow input also counts as a find: SECONDS on a busy machine, with sanitizers, for an input of at most
 # 16 KB.
@@ -50,18 +71,27 @@ ENVIRONMENT = {
 }
 
 
-def build(jobs):
-    if not os.path.exists(os.path.join(OUT, "build.ninja")):
-        subprocess.run(["meson", "setup", OUT, ROOT, "-Dfuzz=true", "-Dtests=false", "-Doptimization=1", "-Ddebug=true",
-                        "-Db_sanitize=address,undefined", "-Db_lundef=false", "-Dc_args=-fsanitize=fuzzer-no-link"],
-                       check=True, env={**os.environ, "CC": "clang"}, stdout=subprocess.DEVNULL)
-    listed = subprocess.run(["ninja", "-C", OUT, "-t", "targets", "all"], check=True, capture_output=True, text=True).stdout
+SANITIZED = ["-Doptimization=1", "-Ddebug=true", "-Db_sanitize=address,undefined", "-Db_lundef=false", "-Dc_args=-fsanitize=fuzzer-no-link"]
+COVERED = ["-Doptimization=0", "-Dc_args=-fprofile-instr-generate -fcoverage-mapping -fsanitize=fuzzer-no-link", "-Dc_link_args=-fprofile-instr-generate",
+           "-Db_lundef=false"]
+
+
+def build(out, options, jobs, wanted):
+    """Builds the wanted targets, all by default, in the folder `out`; returns their names."""
+    if not os.path.exists(os.path.join(out, "build.ninja")):
+        subprocess.run(["meson", "setup", out, ROOT, "-Dfuzz=true", "-Dtests=false"] + options, check=True,
+                       env={**os.environ, "CC": "clang"}, stdout=subprocess.DEVNULL)
+    listed = subprocess.run(["ninja", "-C", out, "-t", "targets", "all"], check=True, capture_output=True, text=True).stdout
     names = re.findall(r"^tests/fuzz/fuzz-([a-z0-9]+): ", listed, re.M)
     draco = ["lambent-draco.so"] if "\nlambent-draco.so: " in listed else []
-    subprocess.run(["ninja", "-C", OUT, "-j", str(jobs)] + ["tests/fuzz/fuzz-" + name for name in names] + draco, check=True,
+    unknown = sorted(set(wanted) - set(names))
+    if unknown:
+        sys.exit("fuzz.py: there is no target %s; there are %s" % (", ".join(unknown), " ".join(names)))
+    names = wanted or names
+    subprocess.run(["ninja", "-C", out, "-j", str(jobs)] + ["tests/fuzz/fuzz-" + name for name in names] + draco, check=True,
                    stdout=subprocess.DEVNULL)
     # The module is searched next to the program and in the parent folder.
-    link = os.path.join(OUT, "tests", "lambent-draco.so")
+    link = os.path.join(out, "tests", "lambent-draco.so")
     if draco and not os.path.lexists(link):
         os.symlink("../lambent-draco.so", link)
     return names
@@ -94,7 +124,7 @@ def seeds(target):
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     places = [(os.path.join("tests/fuzz/corpus", target), "")] + SEEDS.get(target, [("tests/models", "." + target), (os.path.join("tests/pictures", target), "")])
-    if target == "render": # every model and scene file, after options: zeros, and others
+    if target in WITH_OPTIONS:
         places += [(os.path.join("tests/fuzz/corpus", name), "") for name in ("obj", "ply", "stl", "gltf", "glb", "scene")]
     count = 0
     for place, ending in places:
@@ -105,7 +135,7 @@ def seeds(target):
                 path = os.path.join(parent, name)
                 if name.endswith(ending) and os.path.getsize(path) <= SEED_BYTES:
                     data = open(path, "rb").read()
-                    if target == "render" and not place.endswith("render"):
+                    if target in WITH_OPTIONS and not place.endswith(target):
                         data = bytes(24) + data
                     with open(os.path.join(folder, "%04d-%s" % (count, name)), "wb") as file:
                         file.write(data)
@@ -136,8 +166,29 @@ def fuzz(target, seconds, runs):
             int(features[-1]) if features else 0, new)
 
 
+def coverage(target):
+    """Runs the inputs of a target once. Returns the number of inputs, and the lines of its reader: all, and the reached ones."""
+    out = os.path.join(OUT, "coverage")
+    program, profile = os.path.join(out, "tests", "fuzz", "fuzz-" + target), os.path.join(out, target)
+    corpus = os.path.join(OUT, "corpus", target)
+    folders = [seeds(target)] + [corpus] * os.path.isdir(corpus)
+    run = subprocess.run([program, "-runs=0"] + LIMITS + folders, env={**os.environ, "LLVM_PROFILE_FILE": profile + ".profraw"}, capture_output=True,
+                         text=True, errors="replace")
+    if run.returncode:
+        sys.exit("fuzz.py: %s ends with %d:\n%s" % (target, run.returncode, run.stderr[-2000:]))
+    subprocess.run(["llvm-profdata", "merge", "-o", profile + ".profdata", profile + ".profraw"], check=True)
+    listed = subprocess.run(["llvm-cov", "export", "-summary-only", "-instr-profile", profile + ".profdata", program], check=True, capture_output=True, text=True)
+    lines = reached = 0
+    for file in json.loads(listed.stdout)["data"][0]["files"]:
+        name = os.path.relpath(os.path.realpath(os.path.join(out, file["filename"])), ROOT)
+        if any(name == place or name.startswith(place + "/") for place in READERS.get(target, ["src/import/" + target, "src/image/formats/%s.c" % target])):
+            lines += file["summary"]["lines"]["count"]
+            reached += file["summary"]["lines"]["covered"]
+    return sum(len(os.listdir(folder)) for folder in folders), lines, reached
+
+
 def main():
-    seconds, runs, jobs, wanted = 60, 0, os.cpu_count(), []
+    seconds, runs, jobs, covers, wanted = 60, 0, os.cpu_count(), False, []
     for word in " ".join(sys.argv[1:]).split():
         key, equals, value = word.partition("=")
         if equals and key == "time":
@@ -146,17 +197,21 @@ def main():
             runs = int(value)
         elif equals and key == "jobs":
             jobs = int(value)
+        elif word == "coverage":
+            covers = True
         elif equals:
             sys.exit("fuzz.py: %s is not known; expected time=SECONDS, runs=N, jobs=N, or names of targets" % word)
         else:
             wanted.append(word)
-    names = build(jobs)
-    unknown = sorted(set(wanted) - set(names))
-    if unknown:
-        sys.exit("fuzz.py: there is no target %s; there are %s" % (", ".join(unknown), " ".join(names)))
+    if covers:
+        print("%-8s %8s %8s %8s" % ("target", "inputs", "lines", "reached"), flush=True)
+        for name in build(os.path.join(OUT, "coverage"), COVERED, jobs, wanted):
+            inputs, lines, reached = coverage(name)
+            print("%-8s %8d %8d %7.1f %%" % (name, inputs, lines, 100 * reached / max(1, lines)), flush=True)
+        return 0
     failed = False
     print("%-8s %12s %10s %10s %10s" % ("target", "executions", "edges 0", "edges", "features"), flush=True)
-    for name in wanted or names:
+    for name in build(OUT, SANITIZED, jobs, wanted):
         executions, first, last, features, finds = fuzz(name, seconds, runs)
         print("%-8s %12d %10d %10d %10d  %s" % (name, executions, first, last, features, " ".join(finds)), flush=True)
         failed |= bool([find for find in finds if "-slow-unit-" not in find])

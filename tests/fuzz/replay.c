@@ -3,7 +3,7 @@
 // The target gets every file of the folder CORPUS unchanged, truncated after each of its bytes, and in CHANGES
 // mutations, the same in every run; a target with its own mutator (mutate.h) makes half of them. An input that crashes
 // the program is saved in the current folder as "fuzz-failure". A target may add a file of its own (fuzz_seed), and
-// then needs no folder.
+// then needs no folder. Called with a number, the program makes that many mutations of each file.
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -142,8 +142,9 @@ size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t capacity)
 
 static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
 
-int main(void)
+int main(int word_count, char **words)
 {
+    const long changes = word_count > 1 ? atol(words[1]) : CHANGES;
     struct dirent **names;
     int count = scandir(CORPUS, &names, NULL, by_name);
     for (int i = 0; i < count; i++) {
@@ -187,7 +188,7 @@ int main(void)
         for (size_t size = 0; size < seed->size; size += step, runs++)
             run(seed->bytes, size);
         run(seed->bytes, seed->size);
-        for (int c = 0; c < CHANGES; c++, runs++) {
+        for (long c = 0; c < changes; c++, runs++) {
             static struct seed changed;
             changed = *seed;
             for (uint32_t n = 1 + below(&random, 4); n > 0; n--) {

@@ -1,4 +1,5 @@
-// mutate_render.c: changes the options or the file of an input of target_render.c, without shifting one into the other.
+// mutate_options.c: changes the options or the file of an input that begins with 24 bytes of options, without shifting one
+// into the other.
 #include "mutate.h"
 
 enum { OPTIONS = 24 };

@@ -99,8 +99,43 @@ static void test_round_trips(void **state)
     }
 }
 
+// A camera that is written can be read again: planes that are missing are fitted to the scene, and a camera that is too
+// far away is left out, with a sentence.
+static void test_cameras(void **state)
+{
+    (void)state;
+    static const struct {
+        double near_plane, far_plane, ortho_half_height;
+        int cameras, losses;
+    } rows[] = {{0.5, 9, 0, 1, 0}, {0, 0, 0, 1, 1}, {0, 9, 0, 1, 1},       {0.5, 0, 0, 1, 0}, {0, 0, 2, 1, 1},
+                {0, 9, 2, 1, 0},   {9, 0, 2, 1, 1}, {1e31, 1e32, 0, 0, 1}, {1, 1e31, 2, 0, 1}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lam_error error = {0};
+        lam_scene *scene = quad(false);
+        lam_camera camera = lam_camera_default();
+        camera.near_plane = rows[i].near_plane;
+        camera.far_plane = rows[i].far_plane;
+        camera.ortho_half_height = rows[i].ortho_half_height;
+        lam_export *result = lam_scene_export(scene, "glb", &(lam_export_params){.camera = &camera}, &error);
+        assert_non_null(result);
+        int losses = 0;
+        for (int k = 0; lam_export_loss(result, k); k++)
+            losses += strstr(lam_export_loss(result, k), "cameras") != NULL;
+        assert_int_equal(losses, rows[i].losses);
+        lam_bytes bytes = lam_export_file(result, 0);
+        lam_scene *again = lam_scene_load_memory(bytes.data, bytes.size, "a.glb", NULL, NULL, &error);
+        if (!again)
+            fail_msg("row %zu: %s", i, error.text);
+        assert_int_equal(lam_scene_camera_count(again), rows[i].cameras);
+        lam_scene_free(again);
+        lam_export_free(result);
+        lam_scene_free(scene);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_arguments), cmocka_unit_test(test_round_trips)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cameras), cmocka_unit_test(test_arguments),
+                                       cmocka_unit_test(test_round_trips)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

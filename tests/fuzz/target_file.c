@@ -132,9 +132,11 @@ struct result {
 // A limit of memory or time may be reached on one way only.
 static void compare(const struct result *a, const struct result *b)
 {
-    bool limited = (!a->scene && a->error.code == LAM_LIMIT) || (!b->scene && b->error.code == LAM_LIMIT);
-    if (limited)
-        return;
+    for (int i = 0; i < 2; i++) {
+        const struct result *one = i ? b : a;
+        if (!one->scene && (one->error.code == LAM_LIMIT || one->error.code == LAM_MACHINE))
+            return;
+    }
     if (!a->scene != !b->scene || (a->scene && !same_scene(a->scene, b->scene)) ||
         (!a->scene && (a->error.code != b->error.code || strcmp(a->error.text, b->error.text) != 0))) {
         fprintf(stderr, "two ways, two results: \"%s\" and \"%s\"\n", a->scene ? "a scene" : a->error.text,

@@ -90,7 +90,7 @@ static void export_all(const lam_scene *scene, const lam_camera *camera, const s
             lam_bytes bytes = lam_export_file(result, 0);
             lam_scene *again =
                 lam_scene_load_memory(bytes.data, bytes.size, lam_export_file_name(result, 0), &load, &control, &error);
-            if (!again && error.code != LAM_LIMIT) {
+            if (!again && error.code != LAM_LIMIT && error.code != LAM_MACHINE) {
                 fprintf(stderr, "%s cannot be read again: %s\n", format, error.text);
                 abort();
             }

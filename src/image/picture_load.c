@@ -12,7 +12,7 @@
 // After an error that is_doubtful, tests whether memory can still be allocated. If the test fails, replaces the error.
 static bool blame_memory(lam_error *error)
 {
-    enum { SOME = 1 << 20 }; // more memory than these libraries request at once
+    enum { SOME = 1 << 20 };            // more memory than these libraries request at once
     void *volatile some = malloc(SOME); // volatile, so that the unused memory is really allocated
     if (!some)
         return fail_memory(error, SOME);

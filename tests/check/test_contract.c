@@ -211,7 +211,7 @@ static void test_damage(void **state)
         arena_fail_after(-1);
         failed = contract == NULL;
         if (failed)
-            assert_int_equal(error.code, LAM_LIMIT);
+            assert_int_equal(error.code, LAM_MACHINE);
         lam_check_contract_free(contract);
     }
 }

@@ -60,7 +60,7 @@ static inline bool open_small(void *user, const char *name, struct lam_bytes *by
         ok = give_bytes(numbers, sizeof numbers, bytes);
     }
     if (!ok)
-        *error = (lam_error){LAM_LIMIT, "out of memory"};
+        *error = (lam_error){LAM_MACHINE, "out of memory"};
     return ok;
 }
 

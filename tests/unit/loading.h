@@ -172,7 +172,7 @@ static inline void check_allocations(const void *bytes, size_t size, const char 
         lam_scene *scene = lam_scene_load_memory(bytes, size, name, &(lam_load_params){.threads = 1}, NULL, &error);
         arena_fail_after(-1);
         if (!scene)
-            assert_int_equal(error.code, LAM_LIMIT);
+            assert_int_equal(error.code, LAM_MACHINE);
         refused += !scene;
         in_a_row = scene ? in_a_row + 1 : 0;
         lam_scene_free(scene);

@@ -63,7 +63,7 @@ static void test_scene(void **state)
             lam_scene *scene = load_whole(&error);
             bool reached = countdown == (mode ? 0 : -1);
             countdown = -1;
-            if (!scene && error.code != LAM_LIMIT)
+            if (!scene && error.code != LAM_MACHINE)
                 fail_msg("allocation %ld, %s: %s", i, mode ? "for good" : "once", error.text);
             refused += !scene;
             lam_scene_free(scene);
@@ -94,7 +94,7 @@ static void test_save(void **state)
         bool ok = lam_scene_save(scene, NULL, path, &error);
         bool reached = countdown == (for_good ? 0 : -1);
         countdown = -1;
-        if (!ok && error.code != LAM_LIMIT)
+        if (!ok && error.code != LAM_MACHINE)
             fail_msg("allocation %ld: %s", i / 2, error.text);
         refused += !ok;
         if (!reached)

@@ -434,7 +434,7 @@ static void memory(void **state)
             lam_scene *scene = lam_scene_load(path, &(lam_load_params){.threads = 1}, NULL, &error);
             arena_fail_after(-1);
             if (!scene)
-                assert_int_equal(error.code, LAM_LIMIT);
+                assert_int_equal(error.code, LAM_MACHINE);
             refused += !scene;
             lam_scene_free(scene);
         }

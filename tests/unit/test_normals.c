@@ -46,7 +46,7 @@ static bool make_some(const lam_mesh *mesh, uint32_t first, uint32_t take, int l
         ok = visible->elements && visible->normals;
     }
     if (!ok) {
-        error->code = LAM_LIMIT;
+        error->code = LAM_MACHINE;
         return false;
     }
     memset(visible->elements, 0xff, (size_t)set->count * 12);
@@ -790,7 +790,7 @@ static void test_controls(void **state)
         arena_fail_after(k);
         done = normals_smooth(&copy, 0.7, &arena, NULL, NULL, &error);
         arena_fail_after(-1);
-        assert_true(done || error.code == LAM_LIMIT);
+        assert_true(done || error.code == LAM_MACHINE);
         arena_free(&arena);
     }
     done = false;
@@ -802,7 +802,7 @@ static void test_controls(void **state)
         arena_fail_after(k);
         done = make_some(&copy, 0, 2, 16, 0.7, &visible, &arena, NULL, &error);
         arena_fail_after(-1);
-        assert_true(done || error.code == LAM_LIMIT);
+        assert_true(done || error.code == LAM_MACHINE);
         arena_free(&arena);
     }
     lam_scene_free(scene);

@@ -776,7 +776,7 @@ static void test_memory(void **unused)
         lam_scene *scene = load_with(MIXED, (lam_load_params){0}, libraries, &error);
         arena_fail_after(-1);
         if (!scene) {
-            assert_int_equal(error.code, LAM_LIMIT);
+            assert_int_equal(error.code, LAM_MACHINE);
             continue;
         }
         // A warning may be lost if memory is insufficient; all other allocations must succeed.

@@ -692,7 +692,7 @@ static void survives_without_memory(void **state)
                 lam_bytes_free(&bytes);
                 break;
             }
-            assert_int_equal(error.code, LAM_LIMIT);
+            assert_int_equal(error.code, LAM_MACHINE);
             assert_null(bytes.data);
             failures++;
         }

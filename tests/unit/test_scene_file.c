@@ -373,7 +373,7 @@ static void test_memory(void **unused)
         lam_scene_free(scene);
         if (scene)
             break;
-        assert_int_equal(error.code, LAM_LIMIT);
+        assert_int_equal(error.code, LAM_MACHINE);
         assert_true(i < 10000);
     }
     lam_load_params params = {.threads = 1, .open = open_beside};

@@ -721,7 +721,7 @@ static void test_allocations_fail(void **state)
             arena_fail_after(-1);
             done = index >= 0;
             if (!done) {
-                assert_int_equal(error.code, LAM_LIMIT);
+                assert_int_equal(error.code, LAM_MACHINE);
                 assert_int_equal(lam_scene_mesh_count(scene), 0);
             }
             lam_scene_free(scene);

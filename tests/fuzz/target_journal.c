@@ -71,13 +71,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (!journal_add(journal, record, &error))
             abort();
         json_decref(record);
-        journal_close(journal, true, false);
+        journal_close(journal, true, 0, false);
         journal = journal_open(path, JOURNAL_SAME, &run, 2, &error);
         record = journal ? journal_find(journal, "out/\xc3\xa4.png") : NULL;
         if (!record)
             abort();
         json_decref(record);
-        journal_close(journal, true, false);
+        journal_close(journal, true, 0, false);
         sum(path, false);
     }
     empty_folder();

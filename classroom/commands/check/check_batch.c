@@ -110,7 +110,7 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
         lam_check_run(&params, &result->report, error);
         if (o->check.write_contract)
             write_contract(o->check.write_contract, &params, result);
-        if (error->code == LAM_BAD_ARGUMENT && !strstr(error->text, s->fragment)) {
+        if ((error->code == LAM_BAD_ARGUMENT || error->code == LAM_LIMIT) && !strstr(error->text, s->fragment)) {
             char text[sizeof error->text];
             snprintf(text, sizeof text, "%s", error->text);
             complain(error, error->code, "%s: %s", s->fragment, text);

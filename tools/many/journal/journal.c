@@ -343,10 +343,10 @@ json_t *journal_find(const struct journal *j, const char *output)
     return record;
 }
 
-const char *journal_value(const json_t *record, const char *key)
+struct foreign journal_value(const json_t *record, const char *key)
 {
     const char *text = json_string_value(json_object_get(record, key));
-    return text ? text : "";
+    return FOREIGN(text ? text : "");
 }
 
 void journal_set_text(json_t *record, const char *key, const char *text)

@@ -10,6 +10,8 @@
 
 #include <lambent/base.h>
 
+#include "foreign.h"
+
 struct journal;
 
 // How to open a journal. START renames an existing journal to FILE.before. RESUME and SAME read the existing journal
@@ -38,7 +40,7 @@ json_t *journal_find(const struct journal *journal, const char *output);
 bool journal_add(struct journal *journal, const json_t *record, lam_error *error);
 
 // Returns the string value of a key, or "" if the record contains no such string.
-const char *journal_value(const json_t *record, const char *key);
+struct foreign journal_value(const json_t *record, const char *key);
 
 // Sets a key of a record to `text` (journal_text), or to null if `text` is NULL.
 void journal_set_text(json_t *record, const char *key, const char *text);

@@ -138,7 +138,7 @@ class Journal(Batch):
             while not (self.folder / "out/lambent.jsonl").exists() and time.time() < until:
                 time.sleep(0.005)
             os.kill(first.pid, signal.SIGSTOP)
-            done = self.batch("in", "-o", "out/", code=1)
+            done = self.batch("in", "-o", "out/", code=5)
             self.assertIn("in use by another run", done.stderr.decode())
         finally:
             os.kill(first.pid, signal.SIGCONT)

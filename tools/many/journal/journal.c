@@ -276,7 +276,7 @@ static bool lock_running(struct journal *j, lam_error *error)
             return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
         if (!wait_for_lock(j->running, until_ms))
             return errno == EWOULDBLOCK
-                       ? complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path)
+                       ? complain(error, LAM_CANNOT_WRITE, "%s: the journal is in use by another run", j->path)
                        : complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));
         if (fstat(j->running, &about) != 0)
             return complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));

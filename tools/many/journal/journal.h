@@ -27,7 +27,7 @@ struct journal_run {
 };
 
 // Opens a journal. `slots` is the maximum number of models drawn at the same time. Fails with LAM_BAD_ARGUMENT (the
-// options differ, or another run uses the journal), LAM_CANNOT_READ, LAM_CANNOT_WRITE or LAM_LIMIT.
+// options differ), LAM_CANNOT_READ, LAM_CANNOT_WRITE (also if another run uses the journal) or LAM_LIMIT.
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 

@@ -1,9 +1,12 @@
 """batch_rows.py: rows of `lambent batch`: the processor time of a model among many, with its journal, against a process of F3D that draws the
 same, and against `lambent -j 1` for that model alone."""
 import functools
+import json
 import os
 import shutil
 import statistics
+import subprocess
+import time
 
 import measure
 import paths
@@ -64,6 +67,30 @@ def batch(label, options, size, models, isas, display, seconds=6):
             "ratio": factor, "cpu_ratio": factor,  # of processor time: one process of F3D uses other numbers of threads
             "alone_ratio": {isa: measure.ratio(ours[isa], single[isa]) for isa in isas},
             "busy": {isa: statistics.median(shares[isa]) for isa in isas}}
+
+
+def worker(jobs=100):
+    """Milliseconds per job of `batch --jobs - --isolate -j 1` for a small model, for each number of jobs in flight."""
+    model, out = os.path.join(paths.ROOT, "tests", "models", "cube.obj"), os.path.join(paths.PICTURES, "worker.png")
+    command = [paths.LAMBENT, "batch", "--jobs", "-", "--isolate", "-j", "1", "-q", "-s", "64", "--allow-path", paths.ROOT, "--allow-path", paths.PICTURES]
+
+    def run(in_flight):
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+            def send(job):
+                process.stdin.write(json.dumps({"id": job, "model": model, "output": out}).encode() + b"\n")
+                process.stdin.flush()
+            start, sent = 0, 0
+            for answered in range(-1, jobs):  # the first job warms up
+                while sent < jobs + 1 and sent - answered <= (in_flight if answered >= 0 else 1):
+                    send(sent)
+                    sent += 1
+                if json.loads(process.stdout.readline())["exit"]:
+                    raise RuntimeError("a job failed")
+                start = start or time.perf_counter()
+        return (time.perf_counter() - start) * 1e3 / jobs
+    taken = measure.in_turn({n: (lambda n=n: run(n)) for n in (1, 2, 4, 8, 16)}, 10)
+    ms = {"%d in flight" % n: measure.spread(t) for n, t in taken.items()}
+    return {"jobs": jobs, "ms": ms, "over_ms": max(ms.values(), key=lambda m: m["median"])}
 
 
 def rows(isas, display):

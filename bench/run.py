@@ -67,6 +67,12 @@ def row_list(isas, gl_device, display, full):
             return result
         yield name, "≥ %g × in CPU time, ≤ 1.1 of one alone, ≥ 95 %% busy" % target, judge
 
+    def judge_worker():
+        result = batch_rows.worker()
+        result["reached"] = result["over_ms"]["median"] <= 8
+        return result
+    yield "worker isolated", "≤ 8 ms a job with -j 1, 1 to 16 in flight", judge_worker
+
     def judge_prefilter():
         result = gltf_rows.prefilter()
         result["reached"] = result["over_ms"]["median"] <= 60

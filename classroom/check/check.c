@@ -86,16 +86,14 @@ static bool choose_contract(struct run *r, const struct contract **out, lam_erro
     const lam_check_params *p = r->params;
     *out = p->contract ? &p->contract->contract : NULL;
     return p->contract || (contracts_read(r->shipped, &r->shipped_count, error) &&
-                           contract_recognise(r->shipped, r->shipped_count, p->vertex, p->fragment, out, error));
+                           contract_recognise(r->shipped, r->shipped_count, &r->sources, out, error));
 }
 
-// Adds the lines that the contract's engine adds to shaders, and parses the shaders.
+// Makes the interface of the shaders with the lines that the contract's engine adds.
 static bool read_shaders(struct run *r, const struct contract *contract, lam_error *error)
 {
-    shader_interface_free(&r->interface);
-    prefix_free(&r->texts);
-    return prefix_complete(contract, r->params->vertex, r->params->fragment, &r->texts, error) &&
-           shader_interface_make(&r->interface, &r->texts, contract, error);
+    r->texts = prefix_texts(&r->sources, contract, error);
+    return r->texts && shader_interface_make(&r->interface, r->texts, contract, error);
 }
 
 static bool is_printed(const struct run *r) { return r->interface.printed_model != LAM_REFLECTION_AUTO; }
@@ -146,6 +144,44 @@ static bool prepare(struct run *r, const struct contract *contract, unsigned *sc
 
 // --- drawing
 
+bool check_read_texts(void *user, struct complete_texts *texts, lam_error *error)
+{
+    const lam_check_params *p = user;
+    if (!p->draw)
+        return prefix_read(NULL, texts, error);
+    struct draw_request request = {.contract = "",
+                                   .vertex = texts->vertex ? texts->vertex : "",
+                                   .fragment = texts->fragment,
+                                   .size = READ_ONLY,
+                                   .lines = {texts->lines[0], texts->lines[1]}};
+    lam_bytes bytes = {0}, answer = {0};
+    if (!draw_request_write(&request, &bytes, error))
+        return false;
+    lam_check_draw_status status = p->draw(p->user, &bytes, &answer, error);
+    const char *at = answer.data, *end = at + answer.size;
+    bool ok = status == LAM_CHECK_DRAW_DONE && declarations_unpack(&texts->sides[0], &at, end) &&
+              declarations_unpack(&texts->sides[1], &at, end);
+    if (!ok && status != LAM_CHECK_DRAW_FAILED)
+        fail(error, LAM_LIMIT, "no verdict: the process that reads the shaders %s",
+             status == LAM_CHECK_DRAW_TIMEOUT  ? "exceeded its time limit"
+             : status == LAM_CHECK_DRAW_MEMORY ? "exceeded its memory limit"
+                                               : "crashed");
+    lam_bytes_free(&bytes);
+    lam_bytes_free(&answer);
+    return ok;
+}
+
+// Explains that there is no verdict because a part of the shaders was not read. Returns false.
+static bool fail_cut(const struct run *r, lam_error *error)
+{
+    return fail(error, LAM_LIMIT,
+                "no verdict: the %s shader is too long to check; expected at most %d words after its macros are "
+                "expanded, and at most %d declared names",
+                r->sources.own.sides[0].cut ? "vertex" : "fragment", MAX_WORDS, MAX_DECLARATIONS);
+}
+
+static bool is_cut(const struct run *r) { return r->sources.own.sides[0].cut || r->sources.own.sides[1].cut; }
+
 static bool draw_here(struct run *r, const lam_bytes *request, lam_error *error)
 {
     return check_draw(request->data, request->size, &r->painter, &r->bytes, error);
@@ -160,8 +196,8 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
                                    .light_frame = p->light_frame,
                                    .size = r->size,
                                    .scenes = scenes,
-                                   .vertex = r->texts.vertex ? r->texts.vertex : r->vertex,
-                                   .fragment = r->texts.fragment};
+                                   .vertex = r->texts->vertex ? r->texts->vertex : r->vertex,
+                                   .fragment = r->texts->fragment};
     lam_bytes bytes = {0};
     if (!draw_request_write(&request, &bytes, error))
         return false;
@@ -200,6 +236,8 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     } else if (r->drawn.state != DRAWN_PICTURES) {
         r->report->verdict = LAM_CHECK_REFUSED;
         diagnostics_add_refusal(&r->diagnostics, &r->drawn, &r->interface, p);
+    } else if (is_cut(r)) {
+        return fail_cut(r, error);
     }
     return true;
 }
@@ -216,7 +254,7 @@ static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTI
 // to another course.
 static bool suits_contract(const struct run *r)
 {
-    bool drawn_here = !r->texts.vertex;
+    bool drawn_here = !r->texts->vertex;
     for (const char *const *word = r->interface.contract->built_ins; *word; word++)
         drawn_here = drawn_here || declarations_uses(&r->interface.vertex, *word);
     for (int i = 0; i < r->interface.vertex.count; i++) {
@@ -233,7 +271,7 @@ static bool suits_contract(const struct run *r)
     for (int i = 0; i < drawn->unknown_count; i++)
         misspelt +=
             contract_is_misspelt(interface->contract, &interface->vertex, &interface->fragment, drawn->unknown[i]);
-    bool lit = r->params->contract || !r->texts.vertex ||
+    bool lit = r->params->contract || !r->texts->vertex ||
                ((interface->declared | interface->constants) & ~matrices_and_zero) != 0 ||
                interface->defaults.has_direction;
     return misspelt == drawn->unknown_count && !drawn->types_count && lit && drawn_here;
@@ -316,10 +354,8 @@ static bool compile_alone(struct run *r, lam_error *error)
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
     const lam_check_params *p = r->params;
-    const struct contract *engine = r->texts.owned[1] ? nearest : NULL;
+    const struct contract *engine = nearest && r->texts->owned[1] ? nearest : NULL;
     char reason[400] = "", why[300];
-    struct complete_texts texts = {0};
-    struct declarations sides[2] = {{0}};
     int explained = -1, differs = -1;
     lam_error unread = {0};
     bool ok = p->vertex != NULL, done = false;
@@ -331,9 +367,7 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
         return fail_unknown(
             r, "the names match no known contract, and without a vertex shader, the roles of the inputs are unknown",
             error);
-    ok = (engine ? prefix_add(engine, p->vertex, p->fragment, &texts, error)
-                 : (texts = (struct complete_texts){.vertex = p->vertex, .fragment = p->fragment}, true)) &&
-         prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
+    const struct declarations *sides = engine ? r->texts->sides : r->sources.own.sides;
     for (int guess = 0; ok && !done; guess++) {
         bool again = false;
         char *text = contract_infer(&sides[0], &sides[1], engine, guess, false, why, sizeof why);
@@ -363,9 +397,6 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
         if (outcome == FIT_DIFFERS && differs < 0)
             differs = guess;
     }
-    declarations_free(&sides[0]);
-    declarations_free(&sides[1]);
-    prefix_free(&texts);
     return ok && (done || fail_unknown(r, reason, error));
 }
 
@@ -411,13 +442,18 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     bool readable = own_texts_make(params->vertex, params->fragment, &texts, error);
     own.vertex = texts.vertex;
     own.fragment = texts.fragment;
-    bool ok = readable && check_params(&r, error) && choose_contract(&r, &contract, error);
+    r.sources = (struct program_texts){
+        .own = {.vertex = own.vertex, .fragment = own.fragment}, .read = check_read_texts, .user = &own};
+    bool ok = readable && check_params(&r, error) && check_read_texts(&own, &r.sources.own, error) &&
+              choose_contract(&r, &contract, error);
     if (ok && contract)
         ok = prepare(&r, contract, &scenes, error) && draw(&r, scenes, error);
     if (ok && contract && (params->contract || suits_contract(&r)))
         ok = run_contract(&r, contract, scenes, error);
     else
         ok = ok && run_inferred(&r, contract, error);
+    if (!ok && is_cut(&r))
+        fail_cut(&r, error); // this is the cause of any other error
     if (ok) {
         report->contract = arena_string(r.arena, r.interface.contract->name);
         report->contract_text = arena_string(r.arena, r.interface.contract->text);
@@ -429,8 +465,8 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         ok = fail_memory(error, 1);
     report->diagnostics = r.diagnostics.items;
     report->diagnostic_count = r.diagnostics.count;
-    shader_interface_free(&r.interface);
-    prefix_free(&r.texts);
+    prefix_free(&r.sources.own);
+    prefix_free(&r.sources.completed);
     for (int i = 0; i < r.shipped_count; i++)
         lam_check_contract_free(r.shipped[i]);
     lam_check_contract_free(r.inferred);

@@ -18,7 +18,8 @@ struct run {
     lam_check_contract *shipped[MAX_CONTRACTS]; // the shipped contracts, read if no contract is given
     int shipped_count;
     lam_check_contract *inferred; // inferred from the shaders if no contract contains their names
-    struct complete_texts texts;
+    struct program_texts sources;
+    const struct complete_texts *texts; // part of `sources`: as the contract's engine compiles them
     struct shader_interface interface;
     int size;
     double tolerance;
@@ -33,6 +34,10 @@ struct run {
     float *numbers;              // scratch memory for the samples of a picture
     struct fault_shader *shader; // draws references that the CPU device cannot compute; NULL before its first use
 };
+
+// Reads the declarations of shaders, in the process of `draw` if the caller provides one. `user` points to the
+// lam_check_params.
+prefix_reader check_read_texts;
 
 // Draws the references of `scenes` for the first expectation that the pictures meet. If the pictures meet no
 // expectation, the closest expectation is used.

@@ -6,13 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "contract.h"
+#include "check_run.h"
 #include "fail.h"
 #include "fixed_state.h"
 #include "infer.h"
 #include "own_texts.h"
 #include "json_parse.h"
-#include "prefix.h"
 
 // The advice on how to correct an entry with this role. The advice is "" if only the role can be wrong.
 static const struct {
@@ -85,46 +84,17 @@ static json_t *lines_of(const char *const *lines, int count)
     return list;
 }
 
-struct text {
-    char *bytes;
-    size_t size, capacity;
-    bool failed;
-};
-
-static void put(struct text *t, const char *some, size_t size)
-{
-    if (t->size + size + 1 > t->capacity) {
-        size_t capacity = 2 * (t->size + size) + 1024;
-        char *bytes = realloc(t->bytes, capacity);
-        t->failed = t->failed || !bytes;
-        if (!bytes)
-            return;
-        t->bytes = bytes;
-        t->capacity = capacity;
-    }
-    memcpy(t->bytes + t->size, some, size);
-    t->size += size;
-}
-
-static int put_chunk(const char *bytes, size_t size, void *text)
-{
-    put(text, bytes, size);
-    return ((struct text *)text)->failed ? -1 : 0;
-}
-
 static void put_line(struct text *t, int indent, const char *key, const json_t *value, bool last)
 {
-    char head[120];
-    int length = snprintf(head, sizeof head, "%*s", indent, "");
-    put(t, head, (size_t)length);
+    text_print(t, "%*s", indent, "");
     if (key) {
         json_t *name = json_string(key);
-        json_dump_callback(name, put_chunk, t, JSON_ENCODE_ANY);
+        json_dump_callback(name, text_add_chunk, t, JSON_ENCODE_ANY);
         json_decref(name);
-        put(t, ": ", 2);
+        text_add(t, ": ");
     }
-    json_dump_callback(value, put_chunk, t, JSON_ENCODE_ANY | JSON_REAL_PRECISION(9));
-    put(t, last ? "\n" : ",\n", last ? 1 : 2);
+    json_dump_callback(value, text_add_chunk, t, JSON_ENCODE_ANY | JSON_REAL_PRECISION(9));
+    text_add(t, last ? "\n" : ",\n");
 }
 
 // Writes an object or an array on several lines, with one member per line.
@@ -132,17 +102,14 @@ static void put_members(struct text *t, const char *key, const json_t *value, bo
 {
     bool list = json_is_array(value);
     size_t count = list ? json_array_size(value) : json_object_size(value), i = 0;
-    char head[120];
-    int length = snprintf(head, sizeof head, "  \"%s\": %c\n", key, list ? '[' : '{');
-    put(t, head, (size_t)length);
+    text_print(t, "  \"%s\": %c\n", key, list ? '[' : '{');
     const char *name;
     json_t *member;
     if (list)
         json_array_foreach(value, i, member) put_line(t, 4, NULL, member, i + 1 == count);
     else
         json_object_foreach((json_t *)(uintptr_t)value, name, member) put_line(t, 4, name, member, ++i == count);
-    length = snprintf(head, sizeof head, "  %c%s\n", list ? ']' : '}', last ? "" : ",");
-    put(t, head, (size_t)length);
+    text_print(t, "  %c%s\n", list ? ']' : '}', last ? "" : ",");
 }
 
 static bool write_contract(const char *contract, const char *found, lam_bytes *out, lam_error *error)
@@ -171,7 +138,7 @@ static bool write_contract(const char *contract, const char *found, lam_bytes *o
             undeclared, "comment",
             json_string("values that a shader does not declare, because the exercise writes them as numbers"));
     size_t i = 0, count = json_object_size(root);
-    put(&t, "{\n", 2);
+    text_add(&t, "{\n");
     json_object_foreach(root, key, value)
     {
         bool is_wide = false;
@@ -182,14 +149,14 @@ static bool write_contract(const char *contract, const char *found, lam_bytes *o
         else
             put_line(&t, 2, key, value, ++i == count);
     }
-    put(&t, "}\n", 2);
+    text_add(&t, "}\n");
     json_decref(root);
     json_decref(from);
     if (t.failed) {
         free(t.bytes);
         return fail_memory(error, t.capacity);
     }
-    *out = (lam_bytes){(uint8_t *)t.bytes, t.size};
+    *out = (lam_bytes){(uint8_t *)t.bytes, t.length};
     return true;
 }
 
@@ -208,13 +175,11 @@ bool lam_check_contract_write(const lam_check_params *params, const lam_check_re
     char why[300] = "";
     bool ok = own_texts_make(params->vertex, params->fragment, &own, error);
     struct complete_texts texts = {.vertex = own.vertex, .fragment = own.fragment};
-    struct declarations sides[2] = {{0}};
-    ok = ok && prefix_read(&texts, true, &sides[0], error) && prefix_read(&texts, false, &sides[1], error);
-    char *text = ok ? contract_infer(&sides[0], &sides[1], NULL, 0, true, why, sizeof why) : NULL;
+    ok = ok && check_read_texts((void *)params, &texts, error);
+    char *text = ok ? contract_infer(&texts.sides[0], &texts.sides[1], NULL, 0, true, why, sizeof why) : NULL;
     ok = ok && (text ? write_contract(text, why, out, error) : fail(error, LAM_BAD_ARGUMENT, "no contract: %s", why));
     free(text);
     own_texts_free(&own);
-    declarations_free(&sides[0]);
-    declarations_free(&sides[1]);
+    prefix_free(&texts);
     return ok;
 }

@@ -40,6 +40,7 @@
 #include "scene_file.h"
 #include "settings.h"
 #include "shader.h"
+#include "text.h"
 #include "texture.h"
 #include "words.h"
 

@@ -72,12 +72,16 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
                      : v3_dot(v3_sub(camera->eye, ground->middle), ground->up) > 1e-6 * radius;
     if (!above)
         return;
-    ground->kind = params->ground;
     bool catcher = params->ground == LAM_GROUND_SHADOW;
     ground->whole = (catcher ? 0.5 * CATCHER_END : WHOLE) * radius;
     ground->end = (catcher ? CATCHER_END : END) * radius;
     ground->square = params->ground == LAM_GROUND_CHECKER ? round_number(0.5 * radius)
                                                           : (catcher ? CATCHER_SQUARE : PLAIN_SQUARE) * ground->end;
+    // A model so small or so large that doubles do not represent its ground has none.
+    double reach = v3_dot(ground->middle, ground->middle) + ground->end * ground->end;
+    if (!(ground->square > 0 && ground->end <= 1000 * ground->square && reach < 1e300))
+        return;
+    ground->kind = params->ground;
     lam_vec3 middle = mat4_point(view, ground->middle), up = mat4_vector(view, ground->up);
     ground->eye_up[0] = (float)up.x;
     ground->eye_up[1] = (float)up.y;

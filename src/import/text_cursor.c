@@ -2,6 +2,7 @@
 #include "text_cursor.h"
 
 #include <stdio.h>
+#include <string.h>
 
 bool text_is_word(const uint8_t *at, const uint8_t *end, const char *word)
 {
@@ -46,12 +47,15 @@ const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUN
 
 char *text_name(struct arena *arena, const uint8_t *at, size_t length)
 {
-    char *name = arena_string_of(arena, (const char *)at, length);
+    length = strnlen((const char *)at, length);
+    char *name = arena_alloc(arena, 3 * length + 1), *to = name;
     for (size_t i = 0; name && i < length;) {
-        int step = lam_utf8_length(name + i, length - i);
-        if (step == 0 || (unsigned char)name[i] < 0x20 || name[i] == 0x7f)
-            name[i] = '?';
+        int step = lam_utf8_length(at + i, length - i);
+        memcpy(to, step ? (const char *)at + i : "\xef\xbf\xbd", step ? (size_t)step : 3);
+        to += step ? step : 3;
         i += step ? (size_t)step : 1;
     }
+    if (name)
+        *to = 0;
     return name;
 }

@@ -50,7 +50,8 @@ size_t text_line(const uint8_t *bytes, const uint8_t *at);
 enum { TEXT_FOUND_SIZE = SHOWN_NAME_SIZE + 2 };
 const char *text_found(const uint8_t *at, const uint8_t *end, char out[TEXT_FOUND_SIZE]);
 
-// Copies a name to a UTF-8 string; invalid bytes and control characters become '?'. Returns NULL if memory runs out.
+// Copies a name to a UTF-8 string: invalid bytes become U+FFFD, and a zero byte ends the name. Returns NULL if memory runs
+// out.
 char *text_name(struct arena *arena, const uint8_t *at, size_t length);
 
 #endif

@@ -7,7 +7,9 @@
 #include "normals.h"
 
 #include <lambent/material.h>
+#include <lambent/text.h>
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -167,8 +169,11 @@ void scene_warn(struct lam_scene *scene, const char *format, ...)
     bool full = scene->warnings.count == SCENE_WARNINGS_MAX - 1;
     va_list arguments;
     va_start(arguments, format);
-    const char *text = full ? "further warnings are omitted" : arena_vformat(&scene->arena, format, arguments);
+    char sentence[2048], shown[2048];
+    vsnprintf(sentence, sizeof sentence, full ? "further warnings are omitted" : format, arguments);
     va_end(arguments);
+    lam_utf8_show(sentence, shown, sizeof shown);
+    const char *text = arena_string(&scene->arena, shown);
     if (text)
         scene_append(scene, &scene->warnings, &text, sizeof text,
                      NULL); // the call must succeed even if the warning is lost

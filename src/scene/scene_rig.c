@@ -8,6 +8,8 @@
 #include <lambent/device.h>
 #include <lambent/material.h>
 
+#include <float.h>
+
 // The smallest kd of a grey model that is lit for contrast, and the kd at which the brightest points are displayed
 // nearly white.
 #define GREY_MIN   0.3f
@@ -120,6 +122,13 @@ static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const str
     return 3;
 }
 
+// Divides; a quotient beyond the range of a float, for a tiny scene, becomes the largest float.
+static float divided(float number, double by)
+{
+    double quotient = (double)number / by;
+    return quotient < (double)FLT_MAX ? (float)quotient : FLT_MAX;
+}
+
 // Moves a light of a rig, which is defined for a scene of radius 1, to its position in this scene.
 static void place_rig_light(const lam_scene *scene, lam_light *light)
 {
@@ -138,8 +147,8 @@ static void place_rig_light(const lam_scene *scene, lam_light *light)
         light->position = from_y_up(lam_scene_up(scene), light->position);
     light->position = v3_add(centre, v3_scale(light->position, radius));
     light->radius = (float)((double)light->radius * radius);
-    light->attenuation.linear = (float)((double)light->attenuation.linear / radius);
-    light->attenuation.quadratic = (float)((double)light->attenuation.quadratic / (radius * radius));
+    light->attenuation.linear = divided(light->attenuation.linear, radius);
+    light->attenuation.quadratic = divided(light->attenuation.quadratic, radius * radius);
 }
 
 int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light lights[LAM_RIG_LIGHTS_MAX])

@@ -24,7 +24,15 @@ static int scene_probe(const uint8_t *bytes, size_t size, size_t file_size)
         at++;
     if (at >= end || bytes[at] != '{')
         return 0;
-    return memmem(bytes + at, end - at, key, sizeof key - 1) ? 2 : 0;
+    // A key: programs also write their name as a value, for example into a glTF file.
+    for (const uint8_t *found; (found = memmem(bytes + at, end - at, key, sizeof key - 1));) {
+        at = (size_t)(found - bytes) + sizeof key - 1;
+        while (at < end && (bytes[at] == ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n'))
+            at++;
+        if (at < end && bytes[at] == ':')
+            return 2;
+    }
+    return 0;
 }
 
 // --- the settings of the picture

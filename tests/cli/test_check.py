@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import struct
@@ -603,6 +604,40 @@ class Unruly(CheckTest):
         asker.send_signal(signal.SIGINT)
         self.assertEqual(asker.wait(), -signal.SIGINT)
         self.assertEqual(self.processes(), [])
+
+    # Texts that took minutes when the main process read them: reading is linear now, and the limits of `check` apply to it.
+    HUGE = {"calls": "#define F(a) a\nvoid main(){ " + "F(" * 440000,
+            "nested": "#define F(a) a a a a a a a a\nvoid main(){ float x=0.0; " + "F(" * 14 + "x+=1.0;" + ")" * 14 + " }",
+            "defines": "".join(f"#define Z{i}\n" for i in range(80000)),
+            "nots": "#if " + "!" * 900000 + "1\n#endif\n",
+            "conditions": "".join(f"#define A{i} (A{i + 1} + A{i + 1})\n" for i in range(60)) + "#if A0\n#endif\n",
+            "arrays": "uniform float " + ",".join(["a[n]"] * 200000) + ";\n",
+            "members": "struct S {" + "float m;" * 120 + "}; uniform S " + ",".join(["s"] * 300000) + ";\n"}
+
+    def test_huge_texts(self):
+        """A class with such submissions is checked as far as possible, and a signal ends the check at any time."""
+        for name, text in self.HUGE.items():
+            (self.folder / "class" / name).mkdir(parents=True)
+            (self.folder / "class" / name / "s.frag").write_text(edited("oregon-no-gate")["frag"].replace("void main", text + "void main", 1))
+        self.shader("pittsburgh")
+        (self.folder / "class" / "zoe").mkdir()
+        for ending in ("frag", "vert"):
+            shutil.copy(self.folder / f"s.{ending}", self.folder / "class" / "zoe")
+        started = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = self.run_program("check", "--class", "class", "-s", 32, "--scenes", "all", "--stop-after", 1, "--json", "--memory-limit", "300M")
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        reports = {report["submission"]: report for report in map(json.loads, done.stdout.splitlines())}
+        self.assertEqual(sorted(reports), sorted([*self.HUGE, "zoe"]))
+        self.assertEqual(reports["zoe"].get("verdict"), "passes", done.stderr)
+        for name in ("arrays", "members"):
+            self.assertIn("too long to check", reports[name]["error"])
+        if "LAMBENT_SANITIZED" not in os.environ:
+            self.assertLess(used.ru_utime - started.ru_utime, 5 * len(reports))
+        asker = subprocess.Popen([PROGRAM, "check", "--class", "class", "-s", "512", "--stop-after", "1e5"], cwd=self.folder,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.2)
+        asker.send_signal(signal.SIGTERM)
+        self.assertEqual(asker.wait(10), -signal.SIGTERM)
 
     @long
     def test_endless_and_left(self):

@@ -141,6 +141,19 @@ class Class(CheckTest):
         self.assertEqual(rows("--memory-limit", "8Mi", code=6)["ann"]["verdict"], "too much memory")
         self.assertEqual(rows("--memory-limit", "600M", code=0)["ann"]["verdict"], "passes")
 
+    def test_hostile_names(self):
+        """A folder's name prints no line of its own, and a spreadsheet evaluates no name."""
+        names = {"bob\nann passes": ("bob?ann passes", "bob?ann passes"), "c\x1b[2J\u202e": ("c?[2J<U+202E>", "c?[2J<U+202E>"),
+                 " =1+1": (" =1+1", "' =1+1"), "＝1+1": ("＝1+1", "'＝1+1")}
+        for name in names:
+            self.write(f"{name}/s", "pittsburgh")
+        done = self.grade("--scenes", "gate", code=0)
+        self.assertEqual({re.split(" {2,}", line)[0] for line in done.stdout.decode().split("\n")[:-2]}, {shown for shown, _ in names.values()})
+        self.assertEqual(set(self.grades()), {cell for _, cell in names.values()})
+        page = (self.folder / "sheets/index.html").read_text()
+        self.assertIn("Content-Security-Policy", page)
+        self.assertFalse(set(page) & set("\x1b\u202e"))
+
     def test_without_proc(self):
         """The test simulates a missing /proc, as in a bare chroot. (Sanitizers read /proc themselves.)"""
         if "LAMBENT_SANITIZED" in os.environ:

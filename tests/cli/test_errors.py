@@ -167,6 +167,20 @@ class Models(Case):
         self.bad(3, self.write("model.glb", glb), says="model.glb: byte 4: this is binary glTF of version 3")
         self.bad(3, self.write("model.fbx", b"Kaydara FBX Binary  \0"), says="model.fbx: this is an FBX file")
 
+    def test_causes(self):
+        """Each error names its own cause."""
+        json_chunk = b'{"assets":{"generator":"lambent"},"scenes":[]}  '
+        glb = struct.pack("<4sII", b"glTF", 2, 20 + len(json_chunk)) + struct.pack("<I4s", len(json_chunk), b"JSON") + json_chunk
+        for damaged, says in ((b"gl\0F" + glb[4:], "found no binary glTF file, which begins with 'glTF'"), (b"\0" * 4 + glb[4:], "begins with 'glTF'")):
+            self.bad(2, self.write("model.glb", damaged), says=says)
+        done = self.bad(2, self.write("model.glb", glb[20:]))
+        self.assertNotIn(b"unknown key", done.stderr)
+        done = self.run_program("-", "-o", "x.png", stdin=b"junk")
+        self.assertEqual(done.returncode, 2)
+        self.assertNotIn(b"no built-in shape", done.stderr)
+        self.write("tiny.obj", b"v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n")
+        self.assertNotIn(b"light", self.run_program("tiny.obj", "--turntable", 2, "-s", 8, "-o", "t.png").stderr)
+
     def test_bad_place_is_named(self):
         self.write("bad.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n")
         self.bad(2, "bad.obj", says="bad.obj:3")

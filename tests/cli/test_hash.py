@@ -275,7 +275,7 @@ class Hash(Case):
         self.write("-q")
         for name in ("a\n::error::x\t.stl", "b\x1b[2J\u009b\u202ey\\.stl"):
             shutil.copy(self.folder / "cube.stl", self.folder / "m" / name)
-        printed = ["new      m/a\\n::error::x?.stl", "new      m/b?[2J??y\\\\.stl"]
+        printed = ["new      m/a\\n::error::x?.stl", "new      m/b?[2J?<U+202E>y\\\\.stl"]
         self.assertEqual(self.check("m", "teapot", "-s", 64, "--check", "p.hash", code=6)[:2], printed)
         os.mkdir(self.folder / "empty")
         done = self.run_program("diff", "empty", "m", "-s", 16, "-o", "page.html")

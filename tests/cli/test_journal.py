@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import socket
@@ -17,6 +18,26 @@ KILLS = int(os.environ.get("LAMBENT_KILLS", "5"))  # of test_kill; `make test-lo
 
 
 class Journal(Batch):
+    def test_page_of_a_foreign_journal(self):
+        """Every value is text in the page, which names and reads only pictures below its folder."""
+        (self.folder / "page").mkdir()
+        self.cube("in/cube.stl")
+        self.batch("in", "-o", "page/out/")
+        shutil.copy(self.folder / "page/out/cube.png", self.folder / "secret.png")
+        [record] = self.journal("page/out/lambent.jsonl")
+        head = (self.folder / "page/out/lambent.jsonl").read_text().splitlines()[0]
+        script = "<script>document.title=1</script>"
+        outputs = ("page/out/cube.png", "//host/x.png", str(self.folder / "secret.png"), "page/../secret.png", "secret.png", "page//host/x.png",
+                   "page/javascript:x")
+        lines = [json.dumps({**record, "output": output, "view": script, "model": script + str(i), "warnings": [script]}) for i, output in enumerate(outputs)]
+        (self.folder / "foreign.jsonl").write_text("\n".join([head, *lines]) + "\n")
+        self.run_program("journal", "foreign.jsonl", "--report", "page/p.html")
+        page = (self.folder / "page/p.html").read_text()
+        self.assertNotIn("<script", page)
+        self.assertIn("Content-Security-Policy", page)
+        self.assertEqual(sorted(re.findall('href="([^"]*)"', page)), ["javascript%3Ax", "out/cube.png"])
+        self.assertEqual(len(os.listdir(self.folder / "page/p-files")), 1)
+
     def test_lines(self):
         self.cube("in/cube.obj", "cube.obj")
         self.cube("in/cube.mtl", "cube.mtl")
@@ -117,7 +138,7 @@ class Journal(Batch):
             while not (self.folder / "out/lambent.jsonl").exists() and time.time() < until:
                 time.sleep(0.005)
             os.kill(first.pid, signal.SIGSTOP)
-            done = self.batch("in", "-o", "out/", code=1)
+            done = self.batch("in", "-o", "out/", code=5)
             self.assertIn("in use by another run", done.stderr.decode())
         finally:
             os.kill(first.pid, signal.SIGCONT)

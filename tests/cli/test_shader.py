@@ -1,4 +1,5 @@
 # test_shader.py: the command `shader`: its outputs, its contract and its errors. tests/gl/contract.py draws with the shaders.
+import base64
 import ctypes
 import json
 import math
@@ -304,6 +305,24 @@ class Shader(Case):
         self.assertTrue((self.folder / "folder" / "cube.frag").exists())
         self.assertEqual(self.good("shader", "cube.obj", "-q", "-o", "again.frag").stdout, b"")
         self.assertTrue((self.folder / "again.vert").exists())
+
+    def test_names_are_comments(self):
+        """No name of a model ends the comment that contains it: not with a line end, a backslash, a trigraph or an end of a comment."""
+        names = ("a\nint owned;\n//", "a\r\nint owned;", "a\\", "a??/", "*/ int owned; /*", "a\u2028int owned;", "a\x1b[2J\u009b\u202e")
+        for name in names:
+            corner = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
+            (self.folder / "n.gltf").write_text(json.dumps({
+                "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": name}], "materials": [{"name": name}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+                "buffers": [{"uri": "data:application/octet-stream;base64," + corner, "byteLength": 36}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}]}))
+            text = self.good("shader", "n.gltf", "--host", "c").stdout.decode()
+            for line in text.splitlines():
+                if "owned" in line:
+                    self.assertTrue(line.startswith("//") and "*/" not in line, line)
+                self.assertFalse(line.endswith("\\") or "??/" in line, line)
+            self.assertFalse(set(text) & set("\x1b\u009b\u202e\u2028"), name)
 
     def test_host_code_says_which_pictures_it_leaves_out(self):
         (self.folder / "red.ppm").write_bytes(b"P6\n2 1\n255\nabcdef")

@@ -8,6 +8,7 @@ import random
 import shutil
 import signal
 import socket
+import statistics
 import struct
 import subprocess
 import threading
@@ -114,6 +115,22 @@ class Jobs(Case):
 
 
 class Answers(Jobs):
+    def test_no_pause_while_jobs_wait(self):
+        """With -j 1 and --isolate, each job takes as long if others wait as if it is alone: the worker does not pause."""
+        def gap(in_flight, count=16):
+            worker = self.start("--isolate", "-j", "1", "-s", "16", "--ao", "off")
+            worker.say({"id": "first", "model": "in/cube.obj"})
+            worker.answer("first")
+            times = [time.monotonic()]
+            for i in range(0, count, in_flight):
+                worker.say(*({"id": k, "model": "in/cube.obj"} for k in range(i, i + in_flight)))
+                for k in range(i, i + in_flight):
+                    worker.answer(k)
+                    times.append(time.monotonic())
+            self.assertEqual(worker.end(), 0, worker.err)
+            return statistics.median(b - a for a, b in zip(times, times[1:]))
+        self.assertLess(gap(16), max(0.05, 4 * gap(1)))
+
     def test_same_picture_as_alone(self):
         """Files and inline pictures have the same bytes as from `lambent`, with every form of options, and with --isolate."""
         ways = ({"size": 40, "color": "#f80", "two-sided": True, "wireframe": False, "light": ["point", "+spot"]},

@@ -1,11 +1,14 @@
 // test_base.c: small parts of the base: growing text, UTF-8, edit distance, libraries opened on first use.
 #include "call_control.h"
 #include "dynamic_library.h"
+#include "fail.h"
 #include "available_memory.h"
 #include "pool.h"
 #include "shown_name.h"
 #include "spelling.h"
 #include "text_builder.h"
+
+#include <lambent/text.h>
 
 #include <pthread.h>
 #include <sched.h>
@@ -121,6 +124,30 @@ static void test_shown_name(void **state)
     snprintf(longer, sizeof longer, "%s\xff", name32);
     assert_string_equal(shown_file(longer, out), "0123456789ab…defghijklmnopqrstuv?");
     assert_string_equal(shown_name_of("a\0b", 3, out), "a?b");
+}
+
+// Text for a terminal: controls are visible, and the text ends between characters.
+static void test_text_for_terminals(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *shown;
+    } rows[] = {
+        {"é\xf0\x9d\x84\x9e", "é\xf0\x9d\x84\x9e"},
+        {"a\x1b[31m\n\x7f\xc2\x9b\xff", "a?[31m????"},
+        {"\u2028\u2029\xc2\x85\u202e\u2066\u061c", "<U+2028><U+2029>?<U+202E><U+2066><U+061C>"},
+        {"0123456789012345678901234567890123456789012345678", "0123456789012345678901234567890123456789012345678"},
+        {"01234567890123456789012345678901234567890123456789", "0123456789012345678901234567890123456789012345…"},
+        {"0123456789012345678901234567890123456789012345é\u202e", "0123456789012345678901234567890123456789012345…"},
+    };
+    char out[50];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_int_equal(lam_utf8_show(rows[i].text, out, sizeof out), strlen(rows[i].shown));
+        assert_string_equal(out, rows[i].shown);
+    }
+    lam_error error;
+    (fail)(&error, LAM_CANNOT_READ, "%s", "x\u202e\xc2\x9b");
+    assert_string_equal(error.text, "x<U+202E>?");
 }
 
 // Typical spellings of a word of the interface.
@@ -325,6 +352,7 @@ int main(void)
         cmocka_unit_test(test_edit_distance),
         cmocka_unit_test(test_word_distance),
         cmocka_unit_test(test_shown_name),
+        cmocka_unit_test(test_text_for_terminals),
         cmocka_unit_test(test_libraries),
         cmocka_unit_test(test_stack_of_workers),
         cmocka_unit_test(test_memory_of_groups),

@@ -31,7 +31,8 @@ static void add(lam_scene *scene, const char *shape, lam_vec3 scale, lam_vec3 at
     o.transform.m[0][3] = at.x;
     o.transform.m[1][3] = at.y;
     o.transform.m[2][3] = at.z;
-    assert_true(lam_scene_add_object(scene, &o, &error) >= 0);
+    if (lam_scene_add_object(scene, &o, &error) < 0)
+        fail_msg("%s", error.text);
 }
 
 static lam_image draw(const lam_scene *scene, const lam_camera *camera, lam_draw_params params)
@@ -304,11 +305,38 @@ static void test_refused(void **state)
     lam_scene_free(empty);
 }
 
+// Sizes whose ground is not representable: the model is drawn without it. A light of an unknown type has no field.
+static void test_extreme_sizes(void **state)
+{
+    (void)state;
+    static const double sizes[][2] = {{1e-90, 0},    {1e-90, 1}, {1e-40, 1e30}, {1e90, 0},
+                                      {1e90, 1e100}, {1, 1e160}, {1, 1e300}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (int ground = LAM_GROUND_SHADOW; ground <= LAM_GROUND_CHECKER; ground++) {
+            lam_scene *scene = lam_scene_make(&error);
+            double s = sizes[i][0], at = sizes[i][1];
+            add(scene, "cube", (lam_vec3){s, s, s}, (lam_vec3){at, at, at});
+            add(scene, "cube", (lam_vec3){s, s, s}, (lam_vec3){-at, at, -at});
+            lam_camera camera = {
+                .eye = {0, 2 * at + 3 * s, at + 5 * s}, .target = {0, at, 0}, .up = {0, 1, 0}, .fovy_rad = 0.5};
+            lam_image image = {0};
+            assert_true(lam_image_make(&image, 16, 16, LAM_RGBA8, &error));
+            lam_draw_params params = {.ground = (lam_ground)ground};
+            lam_draw(device, scene, &camera, &params, &image, NULL,
+                     &error); // may fail, but without undefined behaviour
+            lam_image_free(&image);
+            lam_scene_free(scene);
+        }
+    lam_light light = lam_light_default((lam_light_type)1000);
+    assert_int_equal(light.type, 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shadow), cmocka_unit_test(test_contact),       cmocka_unit_test(test_height),
-        cmocka_unit_test(test_absent), cmocka_unit_test(test_premultiplied), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_shadow),        cmocka_unit_test(test_contact), cmocka_unit_test(test_height),
+        cmocka_unit_test(test_extreme_sizes), cmocka_unit_test(test_absent),  cmocka_unit_test(test_premultiplied),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests_name("ground", tests, set_up, tear_down);
 }

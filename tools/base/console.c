@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/text.h>
+
 #include "option_names.h"
 
 static bool terminal, colors;
@@ -28,69 +30,41 @@ void console_capture(FILE *stream) { captured = stream; }
 
 static FILE *stream_of(void) { return captured ? captured : stderr; }
 
-void say_error(const char *text)
+static void say(const char *color, const char *kind, const char *text)
 {
-    char shown[MESSAGE_SIZE];
-    fprintf(stream_of(), "%slambent:%s %s\n", colors ? "\033[1;31m" : "", colors ? "\033[0m" : "",
-            name_options(text, shown));
+    char named[MESSAGE_SIZE], shown[2 * MESSAGE_SIZE];
+    lam_utf8_show(name_options(text, named), shown, sizeof shown);
+    fprintf(stream_of(), "%slambent:%s%s %s\n", colors ? color : "", kind, colors ? "\033[0m" : "", shown);
 }
 
-void say_warning(const char *text)
-{
-    char shown[MESSAGE_SIZE];
-    fprintf(stream_of(), "%slambent: warning:%s %s\n", colors ? "\033[1;33m" : "", colors ? "\033[0m" : "",
-            name_options(text, shown));
-}
+void say_error(const char *text) { say("\033[1;31m", "", text); }
+void say_warning(const char *text) { say("\033[1;33m", " warning:", text); }
 
 void say_plain(const char *format, ...)
 {
+    char text[MESSAGE_SIZE], shown[2 * MESSAGE_SIZE];
+    size_t end = strlen(format);
     va_list arguments;
-    char *text;
     va_start(arguments, format);
-    int length = vasprintf(&text, format, arguments);
+    if (vsnprintf(text, sizeof text, format, arguments) < 0)
+        text[0] = 0;
     va_end(arguments);
-    if (length < 0)
-        return;
-    for (char *c = text; *c; c++) // file names may contain escape sequences
-        *c = ((unsigned char)*c < ' ' && *c != '\n' && *c != '\t') || *c == 0x7f ? '?' : *c;
-    fputs(text, stream_of());
-    free(text);
-}
-
-size_t text_hidden(const char *text)
-{
-    const unsigned char *c = (const unsigned char *)text;
-    if (c[0] == 0xc2 && c[1] >= 0x80 && c[1] <= 0x9f) // U+0080 to U+009F
-        return 2;
-    bool order = c[0] == 0xe2 && ((c[1] == 0x80 && (c[2] == 0x8e || c[2] == 0x8f || (c[2] >= 0xaa && c[2] <= 0xae))) ||
-                                  (c[1] == 0x81 && c[2] >= 0xa6 && c[2] <= 0xa9));
-    return order ? 3 : (c[0] < ' ' && c[0] && c[0] != '\n' && c[0] != '\r' && c[0] != '\t') || c[0] == 0x7f;
-}
-
-void print_name(FILE *out, const char *name)
-{
-    for (; *name; name++) {
-        size_t hidden = text_hidden(name);
-        if (hidden || *name == '\t')
-            putc('?', out);
-        else if (*name == '\\' || *name == '\n' || *name == '\r')
-            fprintf(out, "\\%c", *name == '\n' ? 'n' : *name == '\r' ? 'r' : '\\');
-        else
-            putc(*name, out);
-        name += hidden ? hidden - 1 : 0;
-    }
+    bool line = end && format[end - 1] == '\n';
+    text[line && *text ? strlen(text) - 1 : strlen(text)] = 0;
+    lam_utf8_show(text, shown, sizeof shown);
+    fprintf(stream_of(), "%s%s", shown, line ? "\n" : "");
 }
 
 bool complain(lam_error *error, lam_code code, const char *format, ...)
 {
+    char text[2 * sizeof error->text];
     error->code = code;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error->text, sizeof error->text, format, arguments);
+    if (vsnprintf(text, sizeof text, format, arguments) < 0)
+        text[0] = 0;
     va_end(arguments);
-    for (char *c = error->text; *c; c++) // file names may contain control codes
-        if ((unsigned char)*c < 0x20 || *c == 0x7F)
-            *c = '?';
+    lam_utf8_show(text, error->text, sizeof error->text);
     return false;
 }
 

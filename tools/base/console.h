@@ -18,17 +18,8 @@ void say_warning(const char *text);
 // Redirects the messages of this thread to `stream`, so that the caller can print them later, in order. NULL ends the
 // redirection.
 void console_capture(FILE *stream);
-// Prints text. Control characters, which file names may contain, become "?", except line endings and tabs.
+// Prints text as lam_utf8_show, except for a line ending at the end of `format`.
 void say_plain(const char *format, ...) __attribute__((format(printf, 1, 2)));
-
-// Returns the number of bytes of the character at `text` if the character is invisible, otherwise 0. A character is
-// invisible if it changes the direction of the text after it, or if it is a control character other than a line ending
-// or tab.
-size_t text_hidden(const char *text);
-
-// Prints a file's name on one line: "\\" for a backslash, "\n" for a line end, "\r" for a carriage return, and "?" for
-// an invisible character.
-void print_name(FILE *out, const char *name);
 
 // Stores a code and a message in an error. The message is formatted like printf. Returns false.
 bool complain(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));

@@ -7,27 +7,10 @@
 
 #include <string.h>
 
+#include "foreign.h"
 #include "option_names.h"
 
-static void quoted(FILE *file, const char *text)
-{
-    putc('"', file);
-    for (const unsigned char *s = (const unsigned char *)text; *s;) {
-        int length = lam_utf8_length(s, strnlen((const char *)s, 4));
-        if (length == 0) {
-            fputs("\\ufffd", file);
-            length = 1;
-        } else if (*s == '"' || *s == '\\') {
-            fprintf(file, "\\%c", *s);
-        } else if (*s < 0x20 || *s == 0x7F) {
-            fprintf(file, "\\u%04x", *s);
-        } else {
-            fwrite(s, 1, (size_t)length, file);
-        }
-        s += length;
-    }
-    putc('"', file);
-}
+static void quoted(FILE *file, const char *text) { print_foreign(file, FOREIGN_JSON, FOREIGN(text)); }
 
 static void before(struct json *json, const char *key)
 {

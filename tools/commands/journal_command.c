@@ -69,7 +69,7 @@ static bool sum_classes(const struct journal_sum *sum, struct batch_tally *tally
         if (sum->entries[i].ms > 0)
             continue;
         json_t *record = journal_sum_record(sum, i);
-        batch_count_class(tally, exit_code_name(journal_value(record, "class")));
+        batch_count_class(tally, exit_code_name(journal_value(record, "class").text));
         json_decref(record);
         if (!record)
             return complain(error, LAM_MACHINE, "out of memory");
@@ -109,7 +109,8 @@ static void print_failures(const struct journal_sum *sum)
     for (size_t i = 0; i < sum->count && count < LINES; i++) {
         json_t *record = sum->entries[i].ms > 0 ? NULL : journal_sum_record(sum, i);
         if (record) {
-            printf("%s\n", journal_value(record, "error"));
+            print_foreign(stdout, FOREIGN_TERMINAL, journal_value(record, "error"));
+            putchar('\n');
             count++;
         }
         json_decref(record);
@@ -129,9 +130,10 @@ static void print_sum(const struct journal_sum *sum, const struct batch_tally *t
     printf("%s; %d journal%s", tally->failed ? ")" : "", sum->part_count, sum->part_count == 1 ? "" : "s");
     if (times->longest) {
         json_t *record = journal_sum_record(sum, (size_t)(times->longest - sum->entries));
-        printf("; %.4g s of work; a picture: median %.4g ms, 90 %% below %.4g, 99 %% below %.4g, longest %.4g (%s)",
-               times->total_ms / 1e3, times->median_ms, times->percent_90_ms, times->percent_99_ms, times->longest_ms,
-               journal_value(record, "model"));
+        printf("; %.4g s of work; a picture: median %.4g ms, 90 %% below %.4g, 99 %% below %.4g, longest %.4g (",
+               times->total_ms / 1e3, times->median_ms, times->percent_90_ms, times->percent_99_ms, times->longest_ms);
+        print_foreign(stdout, FOREIGN_TERMINAL, journal_value(record, "model"));
+        putchar(')');
         json_decref(record);
     }
     printf("\n");
@@ -234,7 +236,7 @@ static bool write_page(struct journal_sum *sum, const struct batch_tally *tally,
 {
     for (size_t i = 0; i < sum->count; i++) {
         json_t *record = sum->entries[i].ms > 0 ? journal_sum_record(sum, i) : NULL;
-        char *output = record ? journal_path(journal_value(record, "output")) : NULL;
+        char *output = record ? batch_page_output(path, false, record) : NULL;
         if (output)
             batch_page_thumbnail(path, output, false);
         free(output);

@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "foreign.h"
 #include "interrupt.h"
 #include "job.h"
 #include "json.h"
@@ -59,10 +60,10 @@ static void shader_contract(FILE *file, const lam_shader *s)
                 s->textures[i].texels);
     for (int i = 0; i < s->draw_count; i++) {
         const lam_shader_draw *d = &s->draws[i];
-        fprintf(file, "// Uniforms of draw %d, object %d%s%s%s, triangles %u to %u, front %s%s%s:\n", i, d->object,
-                d->object_name ? " '" : "", d->object_name ? d->object_name : "", d->object_name ? "'" : "",
-                d->first_triangle, d->first_triangle + d->triangle_count - 1,
-                d->clockwise ? "clockwise" : "counter-clockwise",
+        fprintf(file, "// Uniforms of draw %d, object %d%s", i, d->object, d->object_name ? " '" : "");
+        print_foreign(file, FOREIGN_COMMENT, FOREIGN(d->object_name));
+        fprintf(file, "%s, triangles %u to %u, front %s%s%s:\n", d->object_name ? "'" : "", d->first_triangle,
+                d->first_triangle + d->triangle_count - 1, d->clockwise ? "clockwise" : "counter-clockwise",
                 d->cull == LAM_CULL_BACK    ? ", backs culled"
                 : d->cull == LAM_CULL_FRONT ? ", fronts culled"
                                             : "",

@@ -1,5 +1,6 @@
 // shader_host.c: prints the C code of `lambent shader --host c`: OpenGL calls that set every uniform to the scene's
 // value.
+#include "foreign.h"
 #include "json.h"
 #include "shader.h"
 
@@ -111,7 +112,7 @@ static bool is_map(const lam_shader_uniform *u)
            strcmp(u->name, "product_list") != 0 && strcmp(u->name, "environment_light") != 0;
 }
 
-// Prints a comment about the map's picture. In the picture's name, replaces characters that could end the comment.
+// Prints a comment about the map's picture.
 static void write_map(FILE *file, const lam_shader_uniform *u, int unit)
 {
     if (!u->map) {
@@ -121,8 +122,7 @@ static void write_map(FILE *file, const lam_shader_uniform *u, int unit)
     }
     const char *name = lam_texture_name(u->map->texture);
     fprintf(file, "    // LEFT OUT: %s is the picture ", u->name);
-    for (const char *c = name ? name : "in the model"; *c; c++)
-        fputc((unsigned char)*c < 32 || *c == 127 || *c == '\\' ? '?' : *c, file);
+    print_foreign(file, FOREIGN_COMMENT, FOREIGN(name ? name : "in the model"));
     fprintf(file, ", %dx%d, %s: bind it with glActiveTexture(GL_TEXTURE0 + %d)\n",
             lam_texture_width(u->map->texture, 0), lam_texture_height(u->map->texture, 0),
             lam_texture_values_of(u->map->texture) == LAM_TEXTURE_COLOR ? "sRGB colours, to be made linear" : "numbers",
@@ -226,6 +226,13 @@ static void write_lists(FILE *file, const lam_shader *s)
               file);
 }
 
+static void write_name(FILE *file, const char *before, const char *name)
+{
+    fputs(name ? before : "", file);
+    print_foreign(file, FOREIGN_COMMENT, FOREIGN(name));
+    fputs(name ? "'" : "", file);
+}
+
 // --- vertices and draws
 
 static void write_vertices(FILE *file, const lam_shader *s)
@@ -303,11 +310,9 @@ static bool uses_color(const lam_shader *s)
 static void write_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d, int number)
 {
     fprintf(file, "// Object %d", d->object);
-    if (d->object_name)
-        fprintf(file, ", '%s'", d->object_name);
+    write_name(file, ", '", d->object_name);
     fprintf(file, ": triangles %u to %u of its mesh", d->first_triangle, d->first_triangle + d->triangle_count - 1);
-    if (d->material_name)
-        fprintf(file, ", material '%s'", d->material_name);
+    write_name(file, ", material '", d->material_name);
     fprintf(file, ".\n");
     if (d->origin[0] != 0 || d->origin[1] != 0 || d->origin[2] != 0)
         fprintf(file, "// Pass `position` relative to (%.17g, %.17g, %.17g), subtracted in double.\n", d->origin[0],
@@ -330,8 +335,12 @@ static void write_draw(FILE *file, const lam_shader *s, const lam_shader_draw *d
 
 void shader_host(FILE *file, const lam_shader *s, const char *name, const char *model)
 {
+    fputs("// Sets the inputs of ", file);
+    print_foreign(file, FOREIGN_COMMENT, FOREIGN(name));
+    fputs(" (.vert and .frag) for the picture of ", file);
+    write_name(file, "'", model);
     fprintf(file,
-            "// Sets the inputs of %s.vert and %s.frag for the picture of '%s'. Made by lambent %s.\n"
+            ". Made by lambent %s.\n"
             "// Include it after the header that declares OpenGL's functions, and <stddef.h>. The program:\n"
             "//     program = make_program(vertex, fragment, log, sizeof log);  glUseProgram(program);\n"
             "//     set_frame(program);  glEnable(GL_DEPTH_TEST);\n"
@@ -339,13 +348,11 @@ void shader_host(FILE *file, const lam_shader *s, const char *name, const char *
             "//                      glDrawArrays(GL_TRIANGLES, 3 * draws[d].first, 3 * draws[d].count);\n"
             "// where the buffer holds three vertices for each triangle of the object's mesh, in the "
             "order of the file.\n\n",
-            name, name, model, lam_version());
+            lam_version());
     if (s->application)
-        fprintf(
-            file,
-            "// The colours of a vertex of draw d are computed by light_vertex(d, ...) of %s.application.c, which is\n"
-            "// compiled beside this program.\n\n",
-            name);
+        fputs("// The colours of a vertex of draw d are computed by light_vertex(d, ...) of the .application.c file of "
+              "that name,\n// which is compiled beside this program.\n\n",
+              file);
     bool maps = false;
     for (int i = 0; i < s->draw_count; i++)
         for (int k = 0; k < s->draws[i].uniform_count; k++)

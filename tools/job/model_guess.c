@@ -71,7 +71,7 @@ void model_guess(const char *model, const struct options *options, lam_error *er
     else if (error->code == LAM_CANNOT_READ && path_is_folder(model))
         snprintf(advice, sizeof advice, "; lambent batch %.200s draws all models in it, lambent view %.200s shows them",
                  model, model);
-    else if (error->code != LAM_CANNOT_READ || access(model, F_OK) == 0)
+    else if (error->code != LAM_CANNOT_READ || strcmp(model, "-") == 0 || access(model, F_OK) == 0)
         ;
     else if (strpbrk(model, "*?"))
         snprintf(advice, sizeof advice, "; no file matches this pattern");

@@ -300,7 +300,7 @@ void batch_isolate(struct batch *b)
     double since_ms = 0;
     for (bool more = units && processes; more || running;) {
         if (b->jobs)
-            batch_jobs_step(b->jobs, running ? 0 : 100);
+            batch_jobs_step(b->jobs, running || batch_jobs_waiting(b->jobs) ? 0 : 100);
         for (int i = 0; more && i < b->workers; i++)
             if (processes[i].child.pid == 0) {
                 more = fill_slot(b, &units[i], &processes[i], i);

@@ -402,6 +402,14 @@ bool batch_jobs_is_ready(const struct batch_jobs *jobs)
     return !jobs->closed && (jobs->held ? has_room(jobs) : line);
 }
 
+bool batch_jobs_waiting(struct batch_jobs *jobs)
+{
+    pthread_mutex_lock(&jobs->lock);
+    bool waiting = jobs->waiting.first != NULL;
+    pthread_mutex_unlock(&jobs->lock);
+    return waiting;
+}
+
 bool batch_jobs_over(struct batch_jobs *jobs)
 {
     pthread_mutex_lock(&jobs->lock);

@@ -28,6 +28,9 @@ int batch_jobs_wanted(const struct batch_jobs *jobs);
 // Returns whether batch_jobs_step can make progress without input.
 bool batch_jobs_is_ready(const struct batch_jobs *jobs);
 
+// Returns whether batch_jobs_take would return a job.
+bool batch_jobs_waiting(struct batch_jobs *jobs);
+
 // Returns whether no job is waiting and none will arrive.
 bool batch_jobs_over(struct batch_jobs *jobs);
 

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 
 #include "console.h"
-#include "html.h"
+#include "foreign.h"
 #include "journal.h"
 #include "output.h"
 #include "shrink.h"
@@ -100,8 +100,25 @@ bool batch_page_lacks(const struct batch *b, const struct batch_unit *u)
 
 // --- the page
 
+char *batch_page_output(const char *page, bool own, const json_t *record)
+{
+    char *path = journal_path(journal_value(record, "output").text), *at = path;
+    page += strncmp(page, "./", 2) == 0 ? 2 : 0;
+    at += at && strncmp(at, "./", 2) == 0 ? 2 : 0;
+    const char *slash = strrchr(page, '/');
+    size_t folder = slash ? (size_t)(slash - page) + 1 : 0;
+    bool below = at && strncmp(at, page, folder) == 0 && at[folder] != '/';
+    at += below ? folder : 0;
+    for (; below && at; at = strchr(at, '/') ? strchr(at, '/') + 1 : NULL)
+        below = strncmp(at, "..", 2) != 0 || (at[2] && at[2] != '/');
+    if (own || below)
+        return path;
+    free(path);
+    return NULL;
+}
+
 static const char head[] =
-    "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+    "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n" HTML_POLICY "<meta name=\"viewport\" "
     "content=\"width=device-width\">\n"
     "<title>%s</title>\n<style>\n"
     "body { font: 14px/1.4 system-ui, sans-serif; margin: 2em; color: #222; background: #fff }\n"
@@ -142,30 +159,35 @@ static void put_failure(FILE *out, const json_t *record)
     fputs("</li>\n", out);
 }
 
-static void put_picture(FILE *out, const char *page, const json_t *record)
+static void put_picture(FILE *out, const struct batch_page *page, const json_t *record)
 {
-    char *output = journal_path(journal_value(record, "output")),
-         *thumbnail = output ? thumbnail_path(page, output) : NULL;
+    char *output = batch_page_output(page->path, page->own, record),
+         *thumbnail = output ? thumbnail_path(page->path, output) : NULL;
+    fputs("<figure>", out);
     if (thumbnail) {
-        fputs("<figure><a class=\"thumb\" href=\"", out);
-        put_address(out, page, output);
+        fputs("<a class=\"thumb\" href=\"", out);
+        put_address(out, page->path, output);
         fputs("\"><img loading=\"lazy\" alt=\"\" src=\"", out);
-        put_address(out, page, thumbnail);
-        fputs("\"></a><figcaption>", out);
-        html_text(out, journal_value(record, "model"));
-        fprintf(out, "<br><small>%s, %lld triangles, %.1f ms</small>", journal_value(record, "view"),
-                json_integer_value(json_object_get(record, "triangles")),
-                json_number_value(json_object_get(json_object_get(record, "times_ms"), "total")));
-        const json_t *list = json_object_get(record, "warnings"), *warning;
-        size_t i;
-        json_array_foreach(list, i, warning)
-        {
-            fputs("<br><small class=\"bad\">", out);
-            html_text(out, json_string_value(warning));
-            fputs("</small>", out);
-        }
-        fputs("</figcaption></figure>\n", out);
+        put_address(out, page->path, thumbnail);
+        fputs("\"></a>", out);
+    } else {
+        fputs("<div class=\"thumb\">outside the page's folder</div>", out);
     }
+    fputs("<figcaption>", out);
+    html_text(out, journal_value(record, "model"));
+    fputs("<br><small>", out);
+    html_text(out, journal_value(record, "view"));
+    fprintf(out, ", %lld triangles, %.1f ms</small>", json_integer_value(json_object_get(record, "triangles")),
+            json_number_value(json_object_get(json_object_get(record, "times_ms"), "total")));
+    const json_t *list = json_object_get(record, "warnings"), *warning;
+    size_t i;
+    json_array_foreach(list, i, warning)
+    {
+        fputs("<br><small class=\"bad\">", out);
+        html_text(out, FOREIGN(json_string_value(warning)));
+        fputs("</small>", out);
+    }
+    fputs("</figcaption></figure>\n", out);
     free(output);
     free(thumbnail);
 }
@@ -175,11 +197,11 @@ static void put_records(FILE *out, const struct batch_page *page, bool failures)
 {
     for (size_t i = 0; i < page->record_count; i++) {
         json_t *record = page->record(page->user, i);
-        bool failed = record && strcmp(journal_value(record, "class"), "ok") != 0;
+        bool failed = record && strcmp(journal_value(record, "class").text, "ok") != 0;
         if (record && failed && failures)
             put_failure(out, record);
         else if (record && !failed && !failures)
-            put_picture(out, page->path, record);
+            put_picture(out, page, record);
         json_decref(record);
     }
 }

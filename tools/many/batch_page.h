@@ -14,6 +14,10 @@ bool batch_page_lacks(const struct batch *batch, const struct batch_unit *unit);
 // Makes the thumbnail of one picture if `is_new` is set or if no up-to-date thumbnail exists.
 void batch_page_thumbnail(const char *page, const char *output, bool is_new);
 
+// Returns the path of a record's picture, allocated with malloc. The path of a journal that others may have written
+// (`own` is false) must be below the folder of the page; otherwise the result is NULL.
+char *batch_page_output(const char *page, bool own, const json_t *record);
+
 // Returns whether a path may be a thumbnail of the page.
 bool batch_page_is_thumbnail(const char *page, const char *path);
 
@@ -23,6 +27,7 @@ struct batch_page {
     // returns a picture's journal line or NULL; the caller releases it
     json_t *(*record)(void *user, size_t index);
     void *user;
+    bool own; // the run itself made the records
     size_t record_count;
 };
 

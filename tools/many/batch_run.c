@@ -359,6 +359,7 @@ static void finish(struct batch *b)
                               .tally = &b->tally,
                               .record = record_of,
                               .user = b,
+                              .own = true,
                               .record_count = b->plan->count * (size_t)b->plan->view_count};
     if (page.path && !batch_page_write(&page, &error))
         batch_stop(b, &error);

@@ -8,7 +8,7 @@
 
 #include "console.h"
 #include "file_io.h"
-#include "html.h"
+#include "foreign.h"
 #include "environment_option.h"
 #include "json.h"
 #include "plan.h"

@@ -8,7 +8,7 @@
 
 #include "base64.h"
 #include "console.h"
-#include "html.h"
+#include "foreign.h"
 #include "output.h"
 #include "page_file.h"
 #include "page_model.h"
@@ -59,7 +59,7 @@ static bool put_file(FILE *out, const struct page_file *file, size_t *left, lam_
     if (!text)
         return complain(error, LAM_MACHINE, "out of memory");
     fputs("<script type=\"text/plain\" class=\"inside-file\" data-path=\"", out);
-    html_text(out, file->inside);
+    html_text(out, FOREIGN(file->inside));
     fputs("\">", out);
     fwrite(text, 1, length, out);
     fputs("</script>\n", out);

@@ -8,7 +8,7 @@
 
 #include "batch_sources.h"
 #include "console.h"
-#include "html.h"
+#include "foreign.h"
 #include "gallery.inc"
 
 const char *const view_gallery_style = text_gallery_css;
@@ -47,16 +47,16 @@ static void put_model(FILE *out, const struct view *view, const char *path, cons
     char *folder = strndup(path + 1, (size_t)(name - path - 1));
     fprintf(out, "<li data-size=\"%lld\" data-time=\"%lld\"><a data-name=\"", (long long)about->st_size,
             (long long)about->st_mtime);
-    html_text(out, path + 1);
+    html_text(out, FOREIGN(path + 1));
     fputs("\" href=\"page#", out);
     html_address(out, path);
     fputs(view->page.fragment, out);
     fputs("\"><img width=\"256\" height=\"256\" alt=\"\" data-thumb=\"thumb", out);
     html_address(out, path);
     fputs("\"><span><small>", out);
-    html_text(out, folder);
+    html_text(out, FOREIGN(folder));
     fputs("</small>", out);
-    html_text(out, name);
+    html_text(out, FOREIGN(name));
     fputs("</span></a></li>\n", out);
     free(folder);
 }
@@ -88,7 +88,7 @@ static void put_lines(FILE *out, const char *sentence)
             cut++;
         char *part = strndup(sentence, cut);
         fprintf(out, "<tspan x=\"12\" dy=\"%d\">", LINE_PX);
-        html_text(out, part);
+        html_text(out, FOREIGN(part));
         fputs("</tspan>", out);
         free(part);
         sentence += cut;
@@ -108,7 +108,7 @@ char *view_gallery_failed(const struct view *view, const char *sentence, size_t 
     fputs("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 256 256\" width=\"256\" height=\"256\">"
           "<title>",
           out);
-    html_text(out, sentence);
+    html_text(out, FOREIGN(sentence));
     fputs("</title><rect x=\"4\" y=\"4\" width=\"248\" height=\"248\" rx=\"8\" fill=\"#fdecea\" stroke=\"#b3261e\" "
           "stroke-width=\"2\"/>"
           "<text y=\"8\" font-family=\"sans-serif\" font-size=\"19\" fill=\"#8c1d18\">",
@@ -148,9 +148,9 @@ bool view_gallery_make(const struct view *view, char **text, size_t *size, lam_e
               "<link rel=\"stylesheet\" href=\"gallery.css\">\n<script type=\"module\" "
               "src=\"gallery.js\"></script>\n<title>",
               out);
-        html_text(out, view->folder);
+        html_text(out, FOREIGN(view->folder));
         fputs(" · Lambent</title>\n</head>\n<body>\n<header>\n<h1>", out);
-        html_text(out, view->folder);
+        html_text(out, FOREIGN(view->folder));
         fputs(gallery_bar, out);
         put_models(out, view, &plan);
         fputs("</main>\n</body>\n</html>\n", out);

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "console.h"
-#include "html.h"
+#include "foreign.h"
 #include "json.h"
 #include "page_file.h"
 #include "page_model.h"

@@ -328,15 +328,27 @@ bool check_draw(const void *request, size_t size, const lam_check_painter *paint
         return fail_memory(error, sizeof *run);
     bool ok = draw_request_read(request, size, &run->request, error);
     const char *text = run->request.contract;
-    lam_check_contract *contract = ok ? lam_check_contract_read(text, strlen(text), NULL, error) : NULL;
-    struct complete_texts texts = {.vertex = run->request.vertex, .fragment = run->request.fragment};
-    ok = contract && shader_interface_make(&run->interface, &texts, &contract->contract, error) &&
-         place_open(&run->place, painter, shader_dialect_language(&run->interface), run->request.size, error) &&
-         draw_all(run, out, error);
+    struct complete_texts texts = {.vertex = run->request.vertex,
+                                   .fragment = run->request.fragment,
+                                   .lines = {run->request.lines[0], run->request.lines[1]}};
+    struct text packed = {0};
+    lam_check_contract *contract = NULL;
+    ok = ok && prefix_read(NULL, &texts, error);
+    if (ok && run->request.size == READ_ONLY) {
+        declarations_pack(&texts.sides[0], &packed);
+        declarations_pack(&texts.sides[1], &packed);
+        *out = (lam_bytes){packed.bytes, packed.length};
+        ok = !packed.failed || fail_memory(error, packed.capacity);
+    } else if (ok) {
+        contract = lam_check_contract_read(text, strlen(text), NULL, error);
+        ok = contract && shader_interface_make(&run->interface, &texts, &contract->contract, error) &&
+             place_open(&run->place, painter, shader_dialect_language(&run->interface), run->request.size, error) &&
+             draw_all(run, out, error);
+    }
     if (run->place.place)
         run->place.painter.forget(run->place.place, &run->program);
     place_close(&run->place);
-    shader_interface_free(&run->interface);
+    prefix_free(&texts);
     lam_check_contract_free(contract);
     free(run->bindings);
     free(run->values);

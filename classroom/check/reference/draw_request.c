@@ -12,7 +12,7 @@ static const char request_magic[8] = "lamjob2", result_magic[8] = "lamdrn2";
 
 struct request_header {
     char magic[8];
-    int light_frame, size;
+    int light_frame, size, lines[2];
     unsigned scenes;
     // the sizes of the contract, the vertex and the fragment shader, including the terminating zeros
     size_t text_sizes[3];
@@ -29,6 +29,7 @@ bool draw_request_write(const struct draw_request *request, lam_bytes *out, lam_
     const char *const texts[] = {request->contract, request->vertex, request->fragment};
     struct request_header head = {
         .light_frame = request->light_frame, .size = request->size, .scenes = request->scenes};
+    memcpy(head.lines, request->lines, sizeof head.lines);
     memcpy(head.magic, request_magic, sizeof request_magic);
     out->size = sizeof head;
     for (int i = 0; i < 3; i++)
@@ -51,7 +52,8 @@ bool draw_request_read(const void *bytes, size_t size, struct draw_request *requ
         return fail(error, LAM_BAD_ARGUMENT, "check: the request is invalid: %zu bytes without its header", size);
     memcpy(&head, data, sizeof head);
     size_t at = sizeof head;
-    bool ok = head.size >= 32 && head.size <= 1024 && !(head.scenes >> reference_scene_count);
+    bool ok =
+        (head.size == READ_ONLY || (head.size >= 32 && head.size <= 1024)) && !(head.scenes >> reference_scene_count);
     for (int i = 0; ok && i < 3; at += head.text_sizes[i++]) {
         ok = head.text_sizes[i] >= 1 && head.text_sizes[i] <= size - at && !data[at + head.text_sizes[i] - 1];
         texts[i] = data + at;
@@ -64,7 +66,8 @@ bool draw_request_read(const void *bytes, size_t size, struct draw_request *requ
                                      .size = head.size,
                                      .scenes = head.scenes,
                                      .vertex = texts[1],
-                                     .fragment = texts[2]};
+                                     .fragment = texts[2],
+                                     .lines = {head.lines[0], head.lines[1]}};
     return true;
 }
 

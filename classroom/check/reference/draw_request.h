@@ -7,10 +7,13 @@
 struct draw_request {
     const char *contract; // the contents of the file
     int light_frame;      // the lam_light_frame of all lights; WORLD means the frame in the contract
-    int size;
-    unsigned scenes; // bit i: reference_scenes[i]
+    int size;             // of the pictures; READ_ONLY: the result is that of declarations_pack for both shaders
+    unsigned scenes;      // bit i: reference_scenes[i]
     const char *vertex, *fragment;
+    int lines[2]; // as in struct complete_texts
 };
+
+enum { READ_ONLY = 0 };
 
 enum draw_state { DRAWN_PICTURES, DRAWN_REFUSED, DRAWN_REFUSED_LINK, DRAWN_SLOW };
 

@@ -49,6 +49,23 @@ static void skip_to(struct declaration_parser *r, const char *open, const char *
         depth += next_is(r, open) - next_is(r, close);
 }
 
+// Returns the slot of a word or, if the word is new, the empty slot for it.
+static int *slot_of(const struct declarations *d, const char *text)
+{
+    for (uint32_t at = word_hash(text);; at++) {
+        int *slot = &d->slots[at & (uint32_t)(d->slot_count - 1)];
+        if (!*slot || strcmp(d->words[*slot - 1].text, text) == 0)
+            return slot;
+    }
+}
+
+// Returns the first word that equals a text, or NULL if there is none.
+static struct word *first_of(const struct declarations *d, const char *text)
+{
+    int index = *slot_of(d, text);
+    return index ? &d->words[index - 1] : NULL;
+}
+
 // Parses [N], [] or nothing. If the size is a name, `const int NAME = N` is looked up.
 static int read_count(struct declaration_parser *r)
 {
@@ -56,13 +73,11 @@ static int read_count(struct declaration_parser *r)
     while (take(r, "[")) {
         int n = -1;
         const char *size = word_at(r, 0);
+        const struct word *named = first_of(r->d, size);
         if (isdigit((unsigned char)size[0]) && strcmp(word_at(r, 1), "]") == 0)
             n = atoi(size);
-        else
-            for (int i = 1; i + 2 < r->d->word_count; i++)
-                if (strcmp(r->d->words[i].text, size) == 0 && strcmp(r->d->words[i + 1].text, "=") == 0 &&
-                    strcmp(r->d->words[i - 1].text, "int") == 0)
-                    n = atoi(r->d->words[i + 2].text);
+        else if (named && named->constant)
+            n = atoi(r->d->words[named->constant].text);
         skip_to(r, "[", "]");
         if (count == 0)
             count = n > 0 ? n : -1;
@@ -82,6 +97,10 @@ static bool is_qualifier(const char *w)
 
 static bool add_declaration(struct declarations *d, const struct declaration *item)
 {
+    if (d->count >= MAX_DECLARATIONS) {
+        d->cut = true;
+        return true;
+    }
     if ((d->count & (d->count - 1)) == 0) {
         size_t capacity = d->count ? 2 * (size_t)d->count : 1;
         struct declaration *items = realloc(d->items, capacity * sizeof *items);
@@ -228,26 +247,6 @@ static bool read_statement(struct declaration_parser *r)
     return true;
 }
 
-// Returns the slot of a word or, if the word is new, the empty slot for it.
-static int *slot_of(const struct declarations *d, const char *text)
-{
-    uint32_t hash = 2166136261u; // FNV-1a
-    for (const char *c = text; *c; c++)
-        hash = (hash ^ (unsigned char)*c) * 16777619u;
-    for (uint32_t at = hash;; at++) {
-        int *slot = &d->slots[at & (uint32_t)(d->slot_count - 1)];
-        if (!*slot || strcmp(d->words[*slot - 1].text, text) == 0)
-            return slot;
-    }
-}
-
-// Returns the first word that equals a text, or NULL if there is none.
-static struct word *first_of(const struct declarations *d, const char *text)
-{
-    int index = *slot_of(d, text);
-    return index ? &d->words[index - 1] : NULL;
-}
-
 // Counts equal words in advance, so that a source with many names does not take quadratic time.
 static bool count_words(struct declarations *d)
 {
@@ -258,10 +257,18 @@ static bool count_words(struct declarations *d)
     if (!d->slots)
         return false;
     for (int i = 0; i < d->word_count; i++) {
+        d->words[i].times = d->words[i].declared = d->words[i].constant = 0;
         int *slot = slot_of(d, d->words[i].text);
         *slot = *slot ? *slot : i + 1;
         d->words[*slot - 1].times++;
+        if (word_is(d, i - 1, "int") && word_is(d, i + 1, "=") && i + 2 < d->word_count)
+            d->words[*slot - 1].constant = i + 2;
     }
+    return true;
+}
+
+static bool count_declared(struct declarations *d)
+{
     for (int i = 0; i < d->count; i++) {
         struct word *first = first_of(d, d->items[i].name);
         if (first)
@@ -274,14 +281,14 @@ bool declarations_read(struct declarations *d, const char *text, bool vertex, la
 {
     *d = (struct declarations){0};
     struct declaration_parser *r = calloc(1, sizeof *r);
-    bool ok = r && preprocess(d, text);
+    bool ok = r && preprocess(d, text) && count_words(d);
     if (r) {
         r->d = d;
         r->vertex = vertex;
     }
     while (ok && r->at < d->word_count)
         ok = read_statement(r);
-    ok = ok && count_words(d);
+    ok = ok && count_declared(d);
     free(r);
     if (!ok) {
         declarations_free(d);
@@ -296,6 +303,45 @@ void declarations_free(struct declarations *d)
     free(d->words);
     free(d->slots);
     *d = (struct declarations){0};
+}
+
+void declarations_pack(const struct declarations *d, struct text *out)
+{
+    text_add_part(out, (const char *)d, sizeof *d);
+    text_add_part(out, (const char *)d->items, (size_t)d->count * sizeof *d->items);
+    text_add_part(out, (const char *)d->words, (size_t)d->word_count * sizeof *d->words);
+}
+
+// Returns a copy of the next `count` elements, or NULL if there are fewer or memory runs out.
+static void *unpack(const char **at, const char *end, int count, int limit, size_t size)
+{
+    size_t bytes = (size_t)count * size;
+    void *out = count >= 0 && count <= limit && bytes <= (size_t)(end - *at) ? malloc(bytes + 1) : NULL;
+    if (out)
+        memcpy(out, *at, bytes);
+    *at += out ? bytes : 0;
+    return out;
+}
+
+bool declarations_unpack(struct declarations *d, const char **at, const char *end)
+{
+    struct declarations *head = unpack(at, end, 1, 1, sizeof *head);
+    *d = (struct declarations){0};
+    if (!head)
+        return false;
+    d->version = head->version;
+    d->cut = head->cut;
+    snprintf(d->profile, sizeof d->profile, "%.15s", head->profile);
+    d->items = unpack(at, end, head->count, MAX_DECLARATIONS, sizeof *d->items);
+    d->words = unpack(at, end, head->word_count, MAX_WORDS, sizeof *d->words);
+    d->count = d->items ? head->count : 0;
+    d->word_count = d->words ? head->word_count : 0;
+    free(head);
+    for (int i = 0; i < d->count; i++)
+        d->items[i].type[sizeof d->items->type - 1] = d->items[i].name[sizeof d->items->name - 1] = 0;
+    for (int i = 0; i < d->word_count; i++)
+        d->words[i].text[sizeof d->words->text - 1] = 0;
+    return d->items && d->words && count_words(d) && count_declared(d);
 }
 
 bool declarations_uses(const struct declarations *d, const char *name)

@@ -10,6 +10,8 @@
 
 #include <lambent/base.h>
 
+#include "text_builder.h"
+
 enum declared { DECLARED_UNIFORM, DECLARED_INPUT, DECLARED_OUTPUT };
 
 // A declared name. Each member of a uniform struct has its own entry: "lights[].position".
@@ -31,11 +33,15 @@ struct word {
     // Used by declarations_uses. The first entry of each distinct word stores two counts: the word's occurrences,
     // and its occurrences as a declared name.
     int times, declared;
+    int constant; // likewise for the first entry: the index of the number after `int NAME =`, or 0
 };
+
+enum { MAX_WORDS = 1 << 16, MAX_DECLARATIONS = 2048 };
 
 struct declarations {
     int version;      // the value of #version, or 0
     char profile[16]; // "core", "compatibility", "es", or ""
+    bool cut;         // the source has more than MAX_WORDS or MAX_DECLARATIONS, and the rest was ignored
     struct declaration *items;
     int count;
     struct word *words; // the tokens of the whole source (preprocess.h)
@@ -49,6 +55,11 @@ struct declarations {
 bool declarations_read(struct declarations *d, const char *text, bool vertex, lam_error *error);
 void declarations_free(struct declarations *d);
 
+// Write and read declarations as bytes, for another process of the same program. declarations_unpack advances *at, and
+// returns false if the bytes are invalid or memory runs out. The caller frees `d` in any case.
+void declarations_pack(const struct declarations *d, struct text *out);
+bool declarations_unpack(struct declarations *d, const char **at, const char *end);
+
 // Returns whether an identifier occurs outside its own declaration.
 bool declarations_uses(const struct declarations *d, const char *name);
 
@@ -60,6 +71,15 @@ bool word_is(const struct declarations *d, int i, const char *text);
 // Parses the number at word *at, which may begin with a minus sign, and advances *at past the number. Returns false if
 // there is none.
 bool word_take_number(const struct declarations *d, int *at, double *out);
+
+// Returns a hash of a word (FNV-1a).
+static inline uint32_t word_hash(const char *text)
+{
+    uint32_t hash = 2166136261u;
+    for (; *text; text++)
+        hash = (hash ^ (unsigned char)*text) * 16777619u;
+    return hash;
+}
 
 // Returns whether a word is an identifier or a keyword.
 static inline bool word_is_name(const char *text) { return isalpha((unsigned char)text[0]) || text[0] == '_'; }

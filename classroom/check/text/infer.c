@@ -9,7 +9,7 @@
 
 enum { MAX_CHAIN = 8, MAX_DEPTH = 8, MAX_SPACES = 4 };
 // The time grows with the product of these numbers. Real shaders stay far below these limits.
-enum { MAX_WORDS = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
+enum { MAX_TEXT = 30000, MAX_DECLARED = 500, MAX_STEPS = 100000 };
 
 struct inference {
     const struct declarations *vertex, *fragment;
@@ -505,7 +505,7 @@ static bool infer(struct inference *f, int guess)
 {
     const char *spaces[MAX_SPACES][2];
     bool fixed = declarations_uses(f->vertex, "ftransform") || declarations_uses(f->vertex, "gl_Vertex");
-    if (f->vertex->word_count > MAX_WORDS || f->fragment->word_count > MAX_WORDS || f->vertex->count > MAX_DECLARED ||
+    if (f->vertex->word_count > MAX_TEXT || f->fragment->word_count > MAX_WORDS || f->vertex->count > MAX_DECLARED ||
         f->fragment->count > MAX_DECLARED)
         return cannot(f, "the %s are longer than the limit of the check%s", "texts", "");
     for (int i = 0; i + 1 < f->vertex->word_count; i++)

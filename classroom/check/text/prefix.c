@@ -30,17 +30,17 @@ static bool lacks_prefix(const char *prefix, const struct declarations *own, boo
     return true;
 }
 
-bool prefix_applies(const struct contract *contract, const struct declarations *vertex,
-                    const struct declarations *fragment, bool *applies, lam_error *error)
+// Determines whether a contract's engine completes these sources.
+static bool applies(const struct contract *contract, const struct complete_texts *own, bool *out, lam_error *error)
 {
     bool vertex_lacks = true, fragment_lacks = true;
-    *applies = false;
+    *out = false;
     if (!contract->prefix_vertex || !contract->prefix_fragment)
         return true;
-    if ((vertex && !lacks_prefix(contract->prefix_vertex, vertex, true, &vertex_lacks, error)) ||
-        !lacks_prefix(contract->prefix_fragment, fragment, false, &fragment_lacks, error))
+    if ((own->vertex && !lacks_prefix(contract->prefix_vertex, &own->sides[0], true, &vertex_lacks, error)) ||
+        !lacks_prefix(contract->prefix_fragment, &own->sides[1], false, &fragment_lacks, error))
         return false;
-    *applies = vertex_lacks && fragment_lacks;
+    *out = vertex_lacks && fragment_lacks;
     return true;
 }
 
@@ -68,68 +68,70 @@ static char *join(const char *prefix, const char *text)
 }
 
 // Returns whether a source reads a name that it does not declare.
-static bool lacks(const char *text, bool vertex, const char *name)
+static bool lacks(const struct declarations *d, const char *name)
 {
     static const char *const types[] = {"vec2", "vec3", "vec4", "float",     "int",
                                         "bool", "mat3", "mat4", "sampler2D", "define"};
-    struct declarations d = {0};
-    bool read = declarations_read(&d, text, vertex, NULL), declared = false;
-    for (int i = 1; i < d.word_count; i++)
-        for (size_t k = 0; k < sizeof types / sizeof *types && strcmp(d.words[i].text, name) == 0; k++)
-            declared = declared || strcmp(d.words[i - 1].text, types[k]) == 0 || strcmp(d.words[i - 1].text, ",") == 0;
-    bool out = read && !declared && declarations_uses(&d, name);
-    declarations_free(&d);
-    return out;
+    bool declared = false;
+    for (int i = 1; i < d->word_count; i++)
+        for (size_t k = 0; k < sizeof types / sizeof *types && word_is(d, i, name); k++)
+            declared = declared || word_is(d, i - 1, types[k]) || word_is(d, i - 1, ",");
+    return !declared && declarations_uses(d, name);
 }
 
-bool prefix_add(const struct contract *contract, const char *vertex, const char *fragment, struct complete_texts *out,
-                lam_error *error)
+static bool add_prefix(struct program_texts *t, const struct contract *contract, lam_error *error)
 {
-    *out = (struct complete_texts){.vertex = vertex, .fragment = fragment};
-    out->fragment = out->owned[1] = join(contract->prefix_fragment, fragment);
+    const struct complete_texts *own = &t->own;
+    struct complete_texts *out = &t->completed;
+    prefix_free(out);
+    out->fragment = out->owned[1] = join(contract->prefix_fragment, own->fragment);
     out->lines[1] = count_lines(contract->prefix_fragment) + 1;
-    if (vertex) {
+    if (own->vertex) {
         // three.js declares vertex colours for materials that use them.
         char prefix[4096];
         snprintf(prefix, sizeof prefix, "%s%s", contract->prefix_vertex,
-                 lacks(vertex, true, "color") ? "\nattribute vec3 color;" : "");
-        out->vertex = out->owned[0] = join(prefix, vertex);
+                 lacks(&own->sides[0], "color") ? "\nattribute vec3 color;" : "");
+        out->vertex = out->owned[0] = join(prefix, own->vertex);
         out->lines[0] = count_lines(prefix) + 1;
     }
-    return (out->fragment && (!vertex || out->vertex)) || fail_memory(error, strlen(fragment));
+    return (out->fragment && (!own->vertex || out->vertex)) ? t->read(t->user, out, error)
+                                                            : fail_memory(error, strlen(own->fragment));
 }
 
-bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
-                     struct complete_texts *out, lam_error *error)
+const struct complete_texts *prefix_texts(struct program_texts *t, const struct contract *contract, lam_error *error)
 {
-    *out = (struct complete_texts){.vertex = vertex, .fragment = fragment};
-    struct declarations sides[2] = {{0}};
-    bool applies = false, ok = true;
-    if (contract->prefix_fragment)
-        ok = declarations_read(&sides[0], vertex ? vertex : "", true, error) &&
-             declarations_read(&sides[1], fragment, false, error) &&
-             prefix_applies(contract, vertex ? &sides[0] : NULL, &sides[1], &applies, error);
-    declarations_free(&sides[0]);
-    declarations_free(&sides[1]);
-    return ok && (!applies || prefix_add(contract, vertex, fragment, out, error));
+    const char *prefix = contract->prefix_fragment;
+    bool needed = false;
+    if (!applies(contract, &t->own, &needed, error))
+        return NULL;
+    if (!needed)
+        return &t->own;
+    bool ready = t->completed.fragment && strncmp(t->completed.fragment, prefix, strlen(prefix)) == 0;
+    return ready || add_prefix(t, contract, error) ? &t->completed : NULL;
 }
 
 void prefix_free(struct complete_texts *texts)
 {
-    free(texts->owned[0]);
-    free(texts->owned[1]);
+    for (int i = 0; i < 2; i++) {
+        free(texts->owned[i]);
+        declarations_free(&texts->sides[i]);
+    }
     *texts = (struct complete_texts){0};
 }
 
-bool prefix_read(const struct complete_texts *texts, bool vertex, struct declarations *out, lam_error *error)
+bool prefix_read(void *user, struct complete_texts *texts, lam_error *error)
 {
-    const char *text = vertex ? texts->vertex : texts->fragment;
-    int lines = texts->lines[vertex ? 0 : 1];
-    if (!declarations_read(out, text ? text : "", vertex, error))
-        return false;
-    for (int i = 0; i < out->word_count; i++)
-        out->words[i].line = out->words[i].line > lines ? out->words[i].line - lines : 0;
-    for (int i = 0; i < out->count; i++)
-        out->items[i].line = out->items[i].line > lines ? out->items[i].line - lines : 0;
+    (void)user;
+    for (int s = 0; s < 2; s++) {
+        const char *text = s ? texts->fragment : texts->vertex;
+        struct declarations *d = &texts->sides[s];
+        if (!declarations_read(d, text ? text : "", s == 0, error))
+            return false;
+        int lines = texts->lines[s];
+        for (int i = 0; i < d->word_count; i++)
+            d->words[i].line = d->words[i].line > lines ? d->words[i].line - lines : 0;
+        for (int i = 0; i < d->count; i++)
+            d->items[i].line = d->items[i].line > lines ? d->items[i].line - lines : 0;
+    }
     return true;
 }

@@ -3,33 +3,34 @@
 #define PREFIX_H
 
 #include "contract.h"
+#include "declarations.h"
 
-// The shader sources of a program as the contract's engine compiles them.
+// The shader sources of a program as a compiler receives them, and their declarations.
 struct complete_texts {
     const char *vertex, *fragment; // `vertex` is NULL if it is not given
     char *owned[2];                // the allocated copies
     int lines[2];                  // the number of lines in the prefixes
+    // Of the vertex and the fragment shader. Lines are counted without the prefix, and declarations in the prefix have
+    // line 0.
+    struct declarations sides[2];
 };
-
-// Determines whether a contract's engine completes sources with these declarations. The engine completes sources
-// without a version line that declare none of the names in the engine's prefix. `vertex` may be NULL. Returns false if
-// memory runs out.
-bool prefix_applies(const struct contract *contract, const struct declarations *vertex,
-                    const struct declarations *fragment, bool *applies, lam_error *error);
-
-// Adds the prefix. Returns false if memory runs out. The caller frees `out`.
-bool prefix_add(const struct contract *contract, const char *vertex, const char *fragment, struct complete_texts *out,
-                lam_error *error);
-
-// Completes the shader sources of a program for a contract: adds the contract's prefix if the prefix applies, and
-// otherwise leaves the sources unchanged.
-// `vertex` may be NULL. Returns false if memory runs out. The caller frees `out`.
-bool prefix_complete(const struct contract *contract, const char *vertex, const char *fragment,
-                     struct complete_texts *out, lam_error *error);
 void prefix_free(struct complete_texts *texts);
 
-// Parses the declarations of a completed source. Lines are counted without the prefix, and declarations in the prefix
-// have line 0.
-bool prefix_read(const struct complete_texts *texts, bool vertex, struct declarations *out, lam_error *error);
+// Parses the declarations of both sources. Fails with LAM_LIMIT. `user` is for other functions of this type.
+typedef bool prefix_reader(void *user, struct complete_texts *texts, lam_error *error);
+prefix_reader prefix_read;
+
+// The sources of a program as submitted and read, and as an engine completes them. Each is read once, for all contracts.
+struct program_texts {
+    struct complete_texts own, completed; // `completed.fragment` is NULL until prefix_texts needs it
+    prefix_reader *read;
+    void *user; // passed to `read`
+};
+
+// Returns the sources that a contract's engine compiles. The engine adds its prefix to sources without a version line
+// that declare none of the names in the prefix. The result is valid until the next call for a contract with another
+// prefix. Returns NULL on failure.
+const struct complete_texts *prefix_texts(struct program_texts *texts, const struct contract *contract,
+                                          lam_error *error);
 
 #endif

@@ -6,7 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_WORDS = 1 << 19, MAX_PARAMETERS = 16, MAX_NESTING = 32, MAX_EXPANSION_DEPTH = 64 };
+// A step is one token, macro or word that a loop looks at. The number of steps is limited, because a short text can
+// contain macros that expand to any number of words.
+enum { MAX_STEPS = 1 << 21, MAX_PARAMETERS = 16, MAX_NESTING = 32, MAX_EXPANSION_DEPTH = 64 };
+enum { HASH_SIZE = 1 << 14 };
 
 struct token {
     char text[64]; // a token, or "\n", which ends a directive; "#" starts a directive
@@ -22,7 +25,8 @@ struct tokens {
 
 struct macro {
     char name[64];
-    bool function, disabled; // `disabled` is set during the macro's own expansion
+    int next;                         // the next macro with the same hash: 1 + its index, or 0
+    bool defined, function, disabled; // `disabled` is set during the macro's own expansion
     int parameter_count;
     char parameters[MAX_PARAMETERS][64];
     const struct token *body;
@@ -34,10 +38,11 @@ struct preprocessor {
     struct tokens tokens;
     struct macro *macros;
     int macro_count;
-    int depth;   // nesting of braces
-    int steps;   // the number of expansion steps, limited to MAX_WORDS
-    bool failed; // out of memory
-    int nesting; // nesting of #if
+    int heads[HASH_SIZE]; // for each hash, 1 + the index of the newest macro, or 0
+    int depth;            // nesting of braces
+    int steps;            // limited to MAX_STEPS
+    bool failed;          // out of memory
+    int nesting;          // nesting of #if
     struct {
         bool active, taken, outer;
     } branches[MAX_NESTING];
@@ -54,6 +59,13 @@ static void *grown(void *items, int count, size_t size)
     if (count & (count - 1))
         return items;
     return realloc(items, (count ? 2 * (size_t)count : 1) * size);
+}
+
+// Counts a step. Returns false if the preprocessor must end.
+static bool step(struct preprocessor *p)
+{
+    p->d->cut = p->d->cut || ++p->steps > MAX_STEPS;
+    return !p->d->cut && !p->failed;
 }
 
 // --- tokens
@@ -138,7 +150,8 @@ static bool split(struct tokens *t, const char *c)
 static void emit_word(struct preprocessor *p, const struct token *t, int line)
 {
     struct declarations *d = p->d;
-    if (d->word_count >= MAX_WORDS || p->failed)
+    d->cut = d->cut || d->word_count >= MAX_WORDS;
+    if (!step(p))
         return;
     struct word *words = grown(d->words, d->word_count, sizeof *words);
     p->failed = !words;
@@ -151,7 +164,6 @@ static void emit_word(struct preprocessor *p, const struct token *t, int line)
     p->depth -= is(t, "}");
     w->depth = p->depth;
     p->depth += is(t, "{");
-    w->times = w->declared = 0;
     w->is_member = d->word_count > 0 && strcmp(w[-1].text, ".") == 0;
     d->word_count++;
 }
@@ -161,16 +173,23 @@ static void emit(struct preprocessor *p, struct tokens *out, const struct token 
 {
     if (!out)
         emit_word(p, t, line);
-    else if (++p->steps < MAX_WORDS && !add_token(out, t->text, strlen(t->text), line, t->glued))
+    else if (step(p) && !add_token(out, t->text, strlen(t->text), line, t->glued))
         p->failed = true;
 }
 
-static struct macro *find_macro(const struct preprocessor *p, const char *name)
+// Returns the macro, which may be undefined again, or NULL if there was no such macro.
+static struct macro *find_entry(struct preprocessor *p, const char *name)
 {
-    for (int i = 0; i < p->macro_count; i++)
-        if (strcmp(p->macros[i].name, name) == 0)
-            return &p->macros[i];
+    for (int i = p->heads[word_hash(name) % HASH_SIZE]; i && step(p); i = p->macros[i - 1].next)
+        if (strcmp(p->macros[i - 1].name, name) == 0)
+            return &p->macros[i - 1];
     return NULL;
+}
+
+static struct macro *find_macro(struct preprocessor *p, const char *name)
+{
+    struct macro *m = find_entry(p, name);
+    return m && m->defined ? m : NULL;
 }
 
 struct argument {
@@ -180,14 +199,15 @@ struct argument {
 
 // Parses the arguments after the name of a function-like macro. Returns the number of tokens up to the closing bracket,
 // or 0 if no opening bracket follows the name.
-static int read_arguments(const struct token *t, int count, struct argument arguments[MAX_PARAMETERS], int *found)
+static int read_arguments(struct preprocessor *p, const struct token *t, int count,
+                          struct argument arguments[MAX_PARAMETERS], int *found)
 {
     int depth = 0;
     *found = 0;
     if (count == 0 || !is(t, "("))
         return 0;
     arguments[0] = (struct argument){t + 1, 0};
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count && step(p); i++) {
         depth += is(&t[i], "(") - is(&t[i], ")");
         bool comma = depth == 1 && is(&t[i], ",");
         if (depth == 0 || comma) {
@@ -210,7 +230,7 @@ static void expand(struct preprocessor *p, const struct token *t, int count, int
 static void substitute(struct preprocessor *p, const struct macro *m, const struct argument *arguments,
                        int argument_count, int level, struct tokens *out)
 {
-    for (int i = 0; i < m->body_count && !p->failed; i++) {
+    for (int i = 0; i < m->body_count && step(p); i++) {
         int k = 0;
         while (k < m->parameter_count && !is(&m->body[i], m->parameters[k]))
             k++;
@@ -234,15 +254,14 @@ static bool is_named_number(const struct preprocessor *p, const struct macro *m)
 // keep the lines of their tokens.
 static void expand(struct preprocessor *p, const struct token *t, int count, int line, int level, struct tokens *out)
 {
-    for (int i = 0; i < count && !p->failed; i++) {
+    for (int i = 0; i < count && step(p); i++) {
         int at = line ? line : t[i].line;
         struct macro *m = word_is_name(t[i].text) ? find_macro(p, t[i].text) : NULL;
         struct argument arguments[MAX_PARAMETERS];
         int argument_count = 0, taken = 0;
         if (m && m->function)
-            taken = read_arguments(&t[i + 1], count - i - 1, arguments, &argument_count);
-        if (!m || m->disabled || (m->function && !taken) || level > MAX_EXPANSION_DEPTH || ++p->steps > MAX_WORDS ||
-            is_named_number(p, m)) {
+            taken = read_arguments(p, &t[i + 1], count - i - 1, arguments, &argument_count);
+        if (!m || m->disabled || (m->function && !taken) || level > MAX_EXPANSION_DEPTH || is_named_number(p, m)) {
             emit(p, out, &t[i], at);
             continue;
         }
@@ -260,7 +279,8 @@ static void define(struct preprocessor *p, const struct token *t, int count)
 {
     if (count < 1 || !word_is_name(t[0].text))
         return;
-    struct macro *m = find_macro(p, t[0].text);
+    struct macro *m = find_entry(p, t[0].text);
+    int next = m ? m->next : 0;
     if (!m) {
         struct macro *macros = grown(p->macros, p->macro_count, sizeof *macros);
         p->failed = !macros;
@@ -268,8 +288,11 @@ static void define(struct preprocessor *p, const struct token *t, int count)
             return;
         p->macros = macros;
         m = &macros[p->macro_count++];
+        int *head = &p->heads[word_hash(t[0].text) % HASH_SIZE];
+        next = *head;
+        *head = p->macro_count;
     }
-    *m = (struct macro){.function = count > 1 && is(&t[1], "(") && t[1].glued};
+    *m = (struct macro){.next = next, .defined = true, .function = count > 1 && is(&t[1], "(") && t[1].glued};
     memcpy(m->name, t[0].text, sizeof m->name);
     int at = 1;
     if (m->function) {
@@ -286,7 +309,7 @@ static void undefine(struct preprocessor *p, const char *name)
 {
     struct macro *m = find_macro(p, name);
     if (m)
-        *m = p->macros[--p->macro_count];
+        m->defined = false;
 }
 
 // --- conditions
@@ -299,7 +322,7 @@ struct condition {
 
 static bool is_es(const struct declarations *d) { return strcmp(d->profile, "es") == 0 || d->version == 100; }
 
-static bool is_defined(const struct preprocessor *p, const char *name)
+static bool is_defined(struct preprocessor *p, const char *name)
 {
     bool core = p->d->version >= 150 && !is_es(p->d), compatibility = strcmp(p->d->profile, "compatibility") == 0;
     return find_macro(p, name) || (is_es(p->d) && strcmp(name, "GL_ES") == 0) ||
@@ -333,10 +356,15 @@ static long value_of_name(struct condition *c, const char *name)
 
 static long primary(struct condition *c)
 {
-    if (next(c, "!"))
-        return !primary(c);
-    if (next(c, "-"))
-        return -primary(c);
+    if (!step(c->p) || c->level > MAX_EXPANSION_DEPTH)
+        return 0;
+    bool not = next(c, "!");
+    if (not|| next(c, "-")) {
+        c->level++;
+        unsigned long value = (unsigned long)primary(c);
+        c->level--;
+        return not ? !value : (long)-value;
+    }
     if (next(c, "(")) {
         long value = value_of(c, 0);
         next(c, ")");
@@ -470,25 +498,30 @@ static void run_directive(struct preprocessor *p, const struct token *t, int cou
 
 bool preprocess(struct declarations *d, const char *text)
 {
-    struct preprocessor p = {.d = d};
-    const struct tokens *t = &p.tokens;
-    p.failed = !split(&p.tokens, text);
-    for (int i = 0; i < t->count && !p.failed;) {
+    struct preprocessor *p = calloc(1, sizeof *p);
+    if (!p)
+        return false;
+    const struct tokens *t = &p->tokens;
+    p->d = d;
+    p->failed = !split(&p->tokens, text);
+    for (int i = 0; i < t->count && step(p);) {
         int end = i;
         if (t->items[i].directive) {
             while (!is(&t->items[end], "\n"))
                 end++;
-            run_directive(&p, &t->items[i + 1], end - i - 1);
+            run_directive(p, &t->items[i + 1], end - i - 1);
             i = end + 1;
         } else { // expands the source up to the next directive, because a macro's arguments may be on several lines
             while (end < t->count && !t->items[end].directive)
                 end++;
-            if (is_active(&p))
-                expand(&p, &t->items[i], end - i, 0, 0, NULL);
+            if (is_active(p))
+                expand(p, &t->items[i], end - i, 0, 0, NULL);
             i = end;
         }
     }
-    free(p.tokens.items);
-    free(p.macros);
-    return !p.failed;
+    bool ok = !p->failed;
+    free(p->tokens.items);
+    free(p->macros);
+    free(p);
+    return ok;
 }

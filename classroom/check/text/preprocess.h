@@ -5,8 +5,8 @@
 #include "declarations.h"
 
 // Stores the words of the source, and the version in its #version line, in `d`. Invalid sources are accepted: unknown
-// parts are kept unchanged, and a source that expands to more than half a million words is truncated. Returns false if
-// memory runs out.
+// parts are kept unchanged. The time is proportional to the length of the text, and limited: if the source or the
+// expansion of its macros is too long, sets `d->cut` and ignores the rest. Returns false if memory runs out.
 bool preprocess(struct declarations *d, const char *text);
 
 #endif

@@ -36,35 +36,17 @@ static int score(const struct contract *contract, const struct declarations *d, 
     return points;
 }
 
-// Computes the score of sources after the contract's engine has completed them.
-static bool score_completed(const struct contract *contract, const char *vertex, const char *fragment, int *points,
-                            lam_error *error)
-{
-    struct complete_texts texts;
-    struct declarations sides[2] = {{0}};
-    bool ok = prefix_add(contract, vertex, fragment, &texts, error) && prefix_read(&texts, true, &sides[0], error) &&
-              prefix_read(&texts, false, &sides[1], error);
-    *points = ok ? score(contract, &sides[0], true) + score(contract, &sides[1], false) : 0;
-    declarations_free(&sides[0]);
-    declarations_free(&sides[1]);
-    prefix_free(&texts);
-    return ok;
-}
-
-bool contract_recognise(lam_check_contract *const *contracts, int count, const char *vertex, const char *fragment,
+bool contract_recognise(lam_check_contract *const *contracts, int count, struct program_texts *texts,
                         const struct contract **out, lam_error *error)
 {
-    struct declarations sides[2] = {{0}};
     int best = 0;
-    bool ok = declarations_read(&sides[0], vertex ? vertex : "", true, error) &&
-              declarations_read(&sides[1], fragment, false, error);
     *out = NULL;
-    for (int i = 0; ok && i < count; i++) {
+    for (int i = 0; i < count; i++) {
         const struct contract *contract = &contracts[i]->contract;
-        int points = score(contract, &sides[0], true) + score(contract, &sides[1], false);
-        bool completed = false;
-        ok = prefix_applies(contract, vertex ? &sides[0] : NULL, &sides[1], &completed, error) &&
-             (!completed || score_completed(contract, vertex, fragment, &points, error));
+        const struct complete_texts *completed = prefix_texts(texts, contract, error);
+        if (!completed)
+            return false;
+        int points = score(contract, &completed->sides[0], true) + score(contract, &completed->sides[1], false);
         // Contracts with any strengths are skipped. For their shaders, the roles of the names are inferred, and the
         // shaders may use more spaces than a contract describes.
         if (points > best && !contract->any_strengths) {
@@ -72,9 +54,7 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, const c
             *out = contract;
         }
     }
-    declarations_free(&sides[0]);
-    declarations_free(&sides[1]);
-    return ok;
+    return true;
 }
 
 // --- names that do not match

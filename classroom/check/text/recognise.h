@@ -5,8 +5,8 @@
 #include "prefix.h"
 
 // Finds the contract that matches the names in the shaders best. *out is NULL if no contract contains any of them.
-// `vertex` may be NULL. Returns false if memory runs out.
-bool contract_recognise(lam_check_contract *const *contracts, int count, const char *vertex, const char *fragment,
+// Returns false on failure (LAM_LIMIT).
+bool contract_recognise(lam_check_contract *const *contracts, int count, struct program_texts *texts,
                         const struct contract **out, lam_error *error);
 
 // If no contract fits a program, lists the program's names that are missing in `contract`, the nearest contract.

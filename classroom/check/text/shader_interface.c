@@ -393,15 +393,9 @@ void shader_interface_set_counts(struct shader_interface *r, const int counts[MA
 bool shader_interface_make(struct shader_interface *r, const struct complete_texts *texts,
                            const struct contract *contract, lam_error *error)
 {
-    *r = (struct shader_interface){.contract = contract};
-    if (!prefix_read(texts, true, &r->vertex, error) || !prefix_read(texts, false, &r->fragment, error)) {
-        shader_interface_free(r);
+    *r = (struct shader_interface){.contract = contract, .vertex = texts->sides[0], .fragment = texts->sides[1]};
+    if (!can_be_checked(r, error))
         return false;
-    }
-    if (!can_be_checked(r, error)) {
-        shader_interface_free(r);
-        return false;
-    }
     find_declared(r);
     find_maps(r);
     shader_constants_find(r);
@@ -427,11 +421,4 @@ bool shader_interface_make(struct shader_interface *r, const struct complete_tex
     if (r->vertex_lit || r->supports & RULE_FLAT)
         r->supports &= ~(unsigned)NEED_NORMAL_MAP;
     return true;
-}
-
-void shader_interface_free(struct shader_interface *r)
-{
-    declarations_free(&r->vertex);
-    declarations_free(&r->fragment);
-    *r = (struct shader_interface){0};
 }

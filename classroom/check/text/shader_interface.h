@@ -13,7 +13,7 @@ struct light_group {
 };
 
 struct shader_interface {
-    struct declarations vertex, fragment;
+    struct declarations vertex, fragment; // owned by the struct complete_texts
     const struct contract *contract;
     uint64_t declared, used; // bit i is set if a shader declares, or reads, a uniform of semantic i
     uint64_t constants;      // bit i is set if a shader contains a constant of semantic i
@@ -39,10 +39,9 @@ struct shader_interface {
     bool infinite_viewer, gl1; // set for printed shaders: --viewer infinite, --gl1
 };
 
-// Makes the interface of a program from its sources. `contract` must outlive the interface.
+// Makes the interface of a program from its declarations. `texts` and `contract` must outlive the interface.
 bool shader_interface_make(struct shader_interface *interface, const struct complete_texts *texts,
                            const struct contract *contract, lam_error *error);
-void shader_interface_free(struct shader_interface *interface);
 
 // Return whether one of the shaders declares, or reads, a uniform with this semantic.
 bool shader_interface_declares(const struct shader_interface *interface, enum uniform_semantic semantic);

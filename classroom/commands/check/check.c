@@ -2,8 +2,10 @@
 #include "check.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "command.h"
 #include "console.h"
@@ -196,6 +198,17 @@ static int finish(struct check_command *c)
     return code;
 }
 
+// Ends the program soon after a signal, even if a thread is busy and does not look at interrupted().
+static void *end_after_signal(void *unused)
+{
+    const struct timespec pause = {.tv_nsec = 20000000}, grace = {.tv_nsec = 200000000};
+    while (!interrupted())
+        nanosleep(&pause, NULL);
+    nanosleep(&grace, NULL);
+    interrupt_finish();
+    return unused;
+}
+
 int run_check(int operand_count, char **operands, const struct options *o)
 {
     lam_error error = {0};
@@ -207,6 +220,9 @@ int run_check(int operand_count, char **operands, const struct options *o)
         return report_failure(&error, o);
     }
     interrupt_start();
+    pthread_t watch;
+    if (pthread_create(&watch, NULL, end_after_signal, NULL) == 0)
+        pthread_detach(watch);
     struct check_command c = {.options = o, .batch = {.options = o}};
     c.batch.tolerance = option_given(o, "tolerance") ? o->diff.tolerance : 2;
     int code = 0;

@@ -6,6 +6,7 @@
 
 #include <lambent/check.h>
 
+#include "foreign.h"
 #include "options.h"
 
 // --- the drawing process (check_process.c)
@@ -26,9 +27,10 @@ lam_check_draw_status check_process(void *user, const lam_bytes *request, lam_by
 
 // --- submissions (check_pairs.c, check_find.c)
 
-// The files of one check. All members but `problem` are allocated with malloc.
+// The files of one check. All texts but `problem` are allocated with malloc.
 struct check_submission {
-    char *name; // the path of the fragment shader; in a class, relative to the folder and without the extension
+    struct foreign
+        name; // the path of the fragment shader; in a class, relative to the folder and without the extension
     char *fragment, *vertex;
     const char *problem; // the reason why the submission cannot be checked, or NULL
 };
@@ -102,9 +104,6 @@ bool check_print_lists(FILE *file, lam_error *error);
 // Returns a sentence about the first mistake, otherwise the first message, otherwise the meaning of the verdict.
 // Returns "" if the shader passes.
 const char *check_says(const lam_check_report *report);
-
-// Writes a CSV value, in quotes if necessary. Escapes names that a spreadsheet would evaluate as formulas.
-void check_csv_text(FILE *file, const char *text);
 
 // Write the rows of a CSV file and of Moodle's worksheet. The functions return 0 or, if the file cannot be written, the
 // errno.

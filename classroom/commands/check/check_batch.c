@@ -83,7 +83,7 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
                                                                                        : default_memory_bytes};
     lam_error *error = &result->error;
     if (s->problem) {
-        complain(error, LAM_CANNOT_READ, "%s: %s", s->name, s->problem);
+        complain(error, LAM_CANNOT_READ, "%s: %s", s->name.text, s->problem);
         return;
     }
     char *fragment = check_read_text(s->fragment, error),
@@ -110,7 +110,7 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
         lam_check_run(&params, &result->report, error);
         if (o->check.write_contract)
             write_contract(o->check.write_contract, &params, result);
-        if (error->code == LAM_BAD_ARGUMENT && !strstr(error->text, s->fragment)) {
+        if ((error->code == LAM_BAD_ARGUMENT || error->code == LAM_LIMIT) && !strstr(error->text, s->fragment)) {
             char text[sizeof error->text];
             snprintf(text, sizeof text, "%s", error->text);
             complain(error, error->code, "%s: %s", s->fragment, text);
@@ -133,7 +133,7 @@ static void write_sheet(struct check_batch *b, struct check_result *result)
         else if (output_is_stream(result->sheet) ||
                  output_check(result->sheet, result->submission->fragment,
                               !b->in_class && output_is_named(o->picture.output), &result->sheet_error))
-            check_sheet(report, result->submission->name, o, result->sheet, &result->sheet_error);
+            check_sheet(report, result->submission->name.text, o, result->sheet, &result->sheet_error);
         if (result->sheet_error.code) {
             free(result->sheet);
             result->sheet = NULL;
@@ -175,7 +175,7 @@ static void print_report(const struct check_batch *b, const struct check_result 
     const struct options *o = b->options;
     FILE *file = result->sheet && strcmp(result->sheet, "-") == 0 ? stderr : stdout;
     if (o->report.json && (b->count > 1 || b->in_class || !result->error.code))
-        check_report_json(file, result, b->in_class ? result->submission->name : NULL, b->tolerance);
+        check_report_json(file, result, b->in_class ? result->submission->name.text : NULL, b->tolerance);
     else if (!o->report.json && !o->report.quiet && b->in_class)
         check_report_line(file, result);
     else if (!o->report.json && !o->report.quiet && !result->error.code)

@@ -4,23 +4,6 @@
 #include <errno.h>
 #include <string.h>
 
-void check_csv_text(FILE *file, const char *text)
-{
-    bool formula = *text && strchr("=+-@\t\r", *text) != NULL;
-    bool quoted = formula || strpbrk(text, ",\"\r\n") != NULL;
-    if (quoted)
-        putc('"', file);
-    if (formula)
-        putc('\'', file);
-    for (const char *c = text; *c; c++) {
-        if (*c == '"')
-            putc('"', file);
-        putc(*c, file);
-    }
-    if (quoted)
-        putc('"', file);
-}
-
 int check_csv_head(FILE *file)
 {
     fputs("submission,verdict,points,of,percent,ambient,diffuse,specular", file);
@@ -65,13 +48,13 @@ int check_csv_row(FILE *file, const struct check_result *result)
 {
     const lam_check_report *r = &result->report;
     const struct check_submission *s = result->submission;
-    check_csv_text(file, s->name);
+    print_foreign(file, FOREIGN_CSV, s->name);
     if (result->error.code) {
         fputs(",no verdict,,,,,,", file);
         for (int i = 0; lam_check_scene_name(i); i++)
             putc(',', file);
         fputs(",,,", file);
-        check_csv_text(file, result->error.text);
+        print_foreign(file, FOREIGN_CSV, FOREIGN(result->error.text));
     } else {
         fprintf(file, ",%s", lam_check_verdict_name(r->verdict));
         put_numbers(file, r);
@@ -82,14 +65,14 @@ int check_csv_row(FILE *file, const struct check_result *result)
             fprintf(file, ",%.0f,", r->findings[r->finding_count - 1].share * 100);
         else
             fputs(",,", file);
-        check_csv_text(file, check_says(r));
+        print_foreign(file, FOREIGN_CSV, FOREIGN(check_says(r)));
     }
     putc(',', file);
-    check_csv_text(file, s->fragment ? s->fragment : "");
+    print_foreign(file, FOREIGN_CSV, FOREIGN(s->fragment ? s->fragment : ""));
     putc(',', file);
-    check_csv_text(file, s->vertex ? s->vertex : "");
+    print_foreign(file, FOREIGN_CSV, FOREIGN(s->vertex ? s->vertex : ""));
     putc(',', file);
-    check_csv_text(file, result->sheet ? result->sheet : "");
+    print_foreign(file, FOREIGN_CSV, FOREIGN(result->sheet ? result->sheet : ""));
     putc('\n', file);
     return fflush(file) == 0 ? 0 : errno; // so that this grade is saved even if a later check fails
 }

@@ -38,7 +38,7 @@ static bool add(struct finding *f, char *name, const char *fragment, const char 
     if (!name)
         return false;
     struct check_submission *s = &f->items[f->count++];
-    *s = (struct check_submission){name, fragment ? strdup(fragment) : NULL, vertex ? strdup(vertex) : NULL, problem};
+    *s = (struct check_submission){{name}, fragment ? strdup(fragment) : NULL, vertex ? strdup(vertex) : NULL, problem};
     return (!fragment || s->fragment) && (!vertex || s->vertex);
 }
 
@@ -179,7 +179,7 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
 
 static int by_submission(const void *a, const void *b)
 {
-    return strcmp(((const struct check_submission *)a)->name, ((const struct check_submission *)b)->name);
+    return strcmp(((const struct check_submission *)a)->name.text, ((const struct check_submission *)b)->name.text);
 }
 
 int check_find(const char *folder, struct check_submission **submissions, lam_error *error)

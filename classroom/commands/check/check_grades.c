@@ -50,18 +50,18 @@ int check_moodle_row(FILE *file, const struct check_result *result)
 {
     char full[128], number[24];
     const lam_check_report *r = &result->report;
-    if (read_participant(result->submission->name, full, number)) {
+    if (read_participant(result->submission->name.text, full, number)) {
         fprintf(file, "Participant %s,", number);
-        check_csv_text(file, full);
+        print_foreign(file, FOREIGN_CSV, FOREIGN(full));
     } else {
         putc(',', file);
-        check_csv_text(file, result->submission->name);
+        print_foreign(file, FOREIGN_CSV, result->submission->name);
     }
     if (result->error.code)
         fputs(",,100.00,-,", file);
     else
         fprintf(file, ",%.2f,100.00,-,", 100 * share_of(result));
-    check_csv_text(file, result->error.code ? reason_of(result) : check_says(r));
+    print_foreign(file, FOREIGN_CSV, FOREIGN(result->error.code ? reason_of(result) : check_says(r)));
     putc('\n', file);
     return fflush(file) == 0 ? 0 : errno;
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "console.h"
-#include "html.h"
+#include "foreign.h"
 #include "output.h"
 #include "writer.h"
 
@@ -71,12 +71,12 @@ static void put_scene(FILE *file, const lam_check_scene *s)
     if (earned < 0)
         return;
     fprintf(file, "<span class=\"%s\" title=\"", s->passes ? "good" : "bad");
-    html_text(file, s->description);
+    html_text(file, FOREIGN(s->description));
     fprintf(file, ": largest difference %.3f, mean %.4f", s->maximum, s->mean);
     if (s->looks_like)
         fprintf(file, "; looks like %s", s->looks_like);
     fputs("\">", file);
-    html_text(file, s->name);
+    html_text(file, FOREIGN(s->name));
     fputs("</span> ", file);
 }
 
@@ -85,11 +85,11 @@ static void put_findings(FILE *file, const lam_check_report *r)
     for (int i = 0; i < r->finding_count; i++) {
         const lam_check_finding *f = &r->findings[i];
         fprintf(file, "<p><b>%s</b>: ", f->mistake);
-        html_text(file, f->explanation);
+        html_text(file, FOREIGN(f->explanation));
         if (f->also)
             fprintf(file, " <i>(or %s: the same pictures)</i>", f->also);
         fputs("<br><code>", file);
-        html_text(file, f->correction);
+        html_text(file, FOREIGN(f->correction));
         fputs("</code></p>", file);
     }
     if (r->finding_count && !r->findings[0].certain)
@@ -105,11 +105,11 @@ static void put_findings(FILE *file, const lam_check_report *r)
         const lam_check_diagnostic *d = &r->diagnostics[i];
         const char *slash = d->file ? strrchr(d->file, '/') : NULL;
         fputs("<p class=\"note\">", file);
-        html_text(file, slash ? slash + 1 : d->file);
+        html_text(file, FOREIGN(slash ? slash + 1 : d->file));
         if (d->line)
             fprintf(file, ":%d", d->line);
         fputs(d->file || d->line ? ": " : "", file);
-        html_text(file, d->text);
+        html_text(file, FOREIGN(d->text));
         fputs("</p>", file);
     }
 }
@@ -136,7 +136,7 @@ void check_page_add(struct check_page *page, const struct check_result *result)
             !result->error.code && r->verdict == LAM_CHECK_PASSES ? "good" : "bad", verdict);
     if (result->error.code) {
         fputs("<td></td><td></td><td>", file);
-        html_text(file, result->error.text);
+        html_text(file, FOREIGN(result->error.text));
         fputs("</td></tr>\n", file);
         return;
     }
@@ -154,7 +154,7 @@ void check_page_add(struct check_page *page, const struct check_result *result)
         fputs("\"></details>", file);
     } else if (result->sheet_error.code) {
         fputs("<p class=\"note\">", file);
-        html_text(file, result->sheet_error.text);
+        html_text(file, FOREIGN(result->sheet_error.text));
         fputs("</p>", file);
     }
     fputs("</td></tr>\n", file);
@@ -192,11 +192,11 @@ static const char style[] =
 
 static void write_page(FILE *file, struct check_page *page, const char *title)
 {
-    fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>", file);
-    html_text(file, title);
+    fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">" HTML_POLICY "<title>", file);
+    html_text(file, FOREIGN(title));
     fprintf(file, "</title><meta name=\"viewport\" content=\"width=device-width\"><style>%s</style></head><body>\n<h1>",
             style);
-    html_text(file, title);
+    html_text(file, FOREIGN(title));
     fprintf(file,
             "</h1><p>%d submissions, checked by <code>lambent check</code>. Each scene that matches the reference "
             "scores one point. Move the pointer over its name to see the differences.</p>\n",

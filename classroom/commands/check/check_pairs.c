@@ -47,7 +47,7 @@ bool check_same_stem(const char *a, const char *b)
 void check_free_submissions(struct check_submission *submissions, int count)
 {
     for (int i = 0; submissions && i < count; i++) {
-        free(submissions[i].name);
+        free((void *)(uintptr_t)submissions[i].name.text);
         free(submissions[i].fragment);
         free(submissions[i].vertex);
     }
@@ -56,8 +56,8 @@ void check_free_submissions(struct check_submission *submissions, int count)
 
 static bool fill(struct check_submission *s, const char *fragment, const char *vertex)
 {
-    *s = (struct check_submission){strdup(fragment), strdup(fragment), vertex ? strdup(vertex) : NULL, NULL};
-    return s->name && s->fragment && (s->vertex || !vertex);
+    *s = (struct check_submission){{strdup(fragment)}, strdup(fragment), vertex ? strdup(vertex) : NULL, NULL};
+    return s->name.text && s->fragment && (s->vertex || !vertex);
 }
 
 int check_pair(int count, char **files, const char *vertex, struct check_submission **submissions, lam_error *error)
@@ -97,7 +97,7 @@ int check_pair(int count, char **files, const char *vertex, struct check_submiss
 // Converts "ann/phong.frag" to "ann-phong".
 static char *flat_name(const struct check_submission *s, bool in_class)
 {
-    const char *name = s->name;
+    const char *name = s->name.text;
     while (strncmp(name, "../", 3) == 0 || strncmp(name, "./", 2) == 0)
         name += name[1] == '/' ? 2 : 3;
     while (*name == '/')

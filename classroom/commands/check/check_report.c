@@ -3,17 +3,20 @@
 
 #include <string.h>
 
+#include "foreign.h"
+
 static void print_diagnostics(FILE *file, const lam_check_report *r)
 {
     for (int i = 0; i < r->diagnostic_count; i++) {
         const lam_check_diagnostic *n = &r->diagnostics[i];
         fputs("  ", file);
-        if (n->file)
-            fprintf(file, "%s:", n->file);
+        print_foreign(file, FOREIGN_TERMINAL, FOREIGN(n->file));
+        fputs(n->file ? ":" : "", file);
         if (n->line)
             fprintf(file, "%d:", n->line);
-        fprintf(file, "%s%s%s\n", n->file || n->line ? " " : "", n->kind == LAM_CHECK_DIAGNOSTIC_HINT ? "hint: " : "",
-                n->text);
+        fprintf(file, "%s%s", n->file || n->line ? " " : "", n->kind == LAM_CHECK_DIAGNOSTIC_HINT ? "hint: " : "");
+        print_foreign(file, FOREIGN_TERMINAL, FOREIGN(n->text));
+        putc('\n', file);
     }
 }
 
@@ -75,7 +78,8 @@ static void print_findings(FILE *file, const lam_check_report *r)
 
 void check_report_text(FILE *file, const lam_check_report *r, const char *shader, double tolerance)
 {
-    fprintf(file, "%s %s\n", shader, check_verdict_text(r->verdict));
+    print_foreign(file, FOREIGN_TERMINAL, FOREIGN(shader));
+    fprintf(file, " %s\n", check_verdict_text(r->verdict));
     fprintf(file, "  contract %s; lit in the %s shader%s%s%s\n", r->contract, r->vertex_lit ? "vertex" : "fragment",
             r->made_vertex ? "; the vertex shader was generated" : "", r->driver[0] ? "; " : "", r->driver);
     print_diagnostics(file, r);
@@ -86,13 +90,14 @@ void check_report_text(FILE *file, const lam_check_report *r, const char *shader
 void check_report_line(FILE *file, const struct check_result *result)
 {
     const lam_check_report *r = &result->report;
+    char name[FOREIGN_SIZE];
+    fprintf(file, "%-32s ", foreign_text(result->submission->name, name));
     if (result->error.code) {
-        fprintf(file, "%-32s no verdict\n", result->submission->name);
+        fputs("no verdict\n", file);
         return;
     }
     struct check_points points = check_points_of(r);
-    fprintf(file, "%-32s %-12s %2g of %2g", result->submission->name, lam_check_verdict_name(r->verdict), points.earned,
-            points.possible);
+    fprintf(file, "%-12s %2g of %2g", lam_check_verdict_name(r->verdict), points.earned, points.possible);
     for (int i = 0; i < r->finding_count; i++)
         fprintf(file, "%s%s", i ? ", " : "  ", r->findings[i].mistake);
     if (r->finding_count && !r->findings[0].certain)

@@ -1,9 +1,10 @@
 // fail.c: fills a lam_error.
 #include "fail.h"
 
+#include <lambent/text.h>
+
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 bool fail(lam_error *error, lam_code code, const char *format, ...)
 {
@@ -12,19 +13,11 @@ bool fail(lam_error *error, lam_code code, const char *format, ...)
     error->code = code;
     va_list arguments;
     va_start(arguments, format);
-    int length = vsnprintf(error->text, sizeof error->text, format, arguments);
+    char sentence[2 * sizeof error->text];
+    if (vsnprintf(sentence, sizeof sentence, format, arguments) < 0)
+        sentence[0] = 0;
     va_end(arguments);
-    if (length < 0)
-        error->text[0] = 0;
-    if (length >= (int)sizeof error->text) {
-        size_t at = sizeof error->text - 4;
-        while (at > 0 && ((unsigned char)error->text[at] & 0xc0) == 0x80) // do not cut a UTF-8 character
-            at--;
-        memcpy(error->text + at, "…", sizeof "…");
-    }
-    for (unsigned char *c = (unsigned char *)error->text; *c; c++)
-        if (*c < 32 || *c == 127)
-            *c = '?';
+    lam_utf8_show(sentence, error->text, sizeof error->text);
     return false;
 }
 

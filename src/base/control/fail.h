@@ -6,9 +6,8 @@
 #include <lambent/base.h>
 
 // Writes the code and the formatted sentence into `error` (which may be NULL) and returns false, so that a function can
-// report a failure with `return fail(error, …)`. Control characters in the text become '?', so that a hostile file
-// cannot send control sequences to a terminal. A sentence that is too long is truncated between characters and ends in
-// "…".
+// report a failure with `return fail(error, …)`. The text is cleaned and truncated by lam_utf8_show, so that a hostile
+// file cannot send control sequences to a terminal.
 bool fail(lam_error *error, lam_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 // Reports LAM_MACHINE, because a request for `bytes` bytes of memory failed.

@@ -1,15 +1,9 @@
 // shown_name.c: shortens names from files for messages.
 #include "shown_name.h"
 
-#include <lambent/base.h>
+#include <lambent/text.h>
 
 #include <string.h>
-
-// Detects the control characters U+0000 … U+001F and U+007F … U+009F; some terminals interpret the latter too.
-static bool is_control(const unsigned char *at, int length)
-{
-    return length == 1 ? *at < 0x20 || *at == 0x7f : length == 2 && at[0] == 0xc2 && at[1] < 0xa0;
-}
 
 static const unsigned char *next_character(const unsigned char *at, const unsigned char *end)
 {
@@ -23,7 +17,8 @@ static const unsigned char *write_characters(const unsigned char *at, const unsi
 {
     for (int count = 0; at < end && count < limit; count++) {
         int step = lam_utf8_length(at, (size_t)(end - at));
-        if (step == 0 || is_control(at, step)) {
+        uint32_t hidden = lam_utf8_hidden(at, (size_t)(end - at));
+        if (hidden && (hidden < 0xa0 || hidden == 0xfffd)) { // lam_utf8_show replaces the others
             *(*to)++ = '?';
         } else {
             memcpy(*to, at, (size_t)step);

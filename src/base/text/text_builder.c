@@ -40,7 +40,8 @@ void text_add_part(struct text *text, const char *more, size_t length)
         text->bytes = grown;
         text->capacity = capacity;
     }
-    memcpy(text->bytes + text->length, more, length);
+    if (length) // memcpy must not receive NULL, even for 0 bytes
+        memcpy(text->bytes + text->length, more, length);
     text->length += length;
     text->bytes[text->length] = 0;
 }

@@ -2,7 +2,11 @@
 // 4).
 #include "gltf_container.h"
 
+#include <string.h>
+#include <strings.h>
+
 #include "fail.h"
+#include "file.h"
 
 enum { HEADER = 12, CHUNK = 8, CHUNK_JSON = 0x4e4f534a, CHUNK_BIN = 0x004e4942 };
 
@@ -41,8 +45,10 @@ bool gltf_container_read(struct gltf *gltf, const uint8_t **text, size_t *size)
     const struct import_source *source = gltf->source;
     *text = source->bytes;
     *size = source->size;
-    if (!gltf_is_binary(source->bytes, source->size))
-        return true;
+    if (!gltf_is_binary(source->bytes, source->size)) // a file of JSON text may have this ending too
+        return strcasecmp(path_ending(source->name), "glb") != 0 || !source->size ||
+               memchr("{ \t\r\n\xef", source->bytes[0], 6) ||
+               fail_byte(gltf->json.error, source, 0, "found no binary glTF file, which begins with 'glTF'");
     size_t end = 0, at = HEADER;
     if (!check_header(gltf, &end))
         return false;

@@ -46,7 +46,10 @@ struct light_field {
     enum { ANY_CONE, HARD_CONE, SOFT_CONE } cone;
 };
 const struct light_field *light_field(int index);
-static inline bool field_is_of(const lam_field *field, lam_light_type type) { return field->light_types >> type & 1; }
+static inline bool field_is_of(const lam_field *field, lam_light_type type)
+{
+    return (unsigned)type < LAM_LIGHT_TYPE_COUNT && field->light_types >> type & 1;
+}
 
 // A number outside the range of its field, with the field's name and range as text for an error message.
 struct field_fault {

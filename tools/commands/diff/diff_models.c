@@ -8,6 +8,7 @@
 #include "batch_run.h"
 #include "batch_sources.h"
 #include "console.h"
+#include "foreign.h"
 #include "exit_codes.h"
 #include "job_check.h"
 #include "json.h"
@@ -125,7 +126,7 @@ static void put_text(const struct model_diff *diff, json_t *const *records)
         if (change == CHANGE_EQUAL)
             continue;
         printf("%-8s ", change_names[change]);
-        print_name(stdout, diff->pairs[i].name);
+        print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(diff->pairs[i].name));
         if (change == CHANGE_CHANGED)
             printf("  %.4g %% of the pixels", 100 * json_number_value(json_object_get(records[i], "share_over_1")));
         putchar('\n');

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "html.h"
+#include "foreign.h"
 
 static const char head[] =
     "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" "
@@ -39,21 +39,21 @@ static void put_counts(FILE *out, const json_t *record)
     const char *before = text_of(record, "counts_before"), *after = text_of(record, "counts_after");
     bool both = before && after && strcmp(before, after) != 0;
     fputs("<small>", out);
-    html_text(out, both || !after ? before : after);
+    html_text(out, FOREIGN(both || !after ? before : after));
     if (both) {
         fputs(" → ", out);
-        html_text(out, after);
+        html_text(out, FOREIGN(after));
     }
 }
 
 static void put_model(FILE *out, const struct model_diff *diff, size_t model, const json_t *record, enum change change)
 {
     fputs("<h3><code>", out);
-    html_text(out, diff->pairs[model].name);
+    html_text(out, FOREIGN(diff->pairs[model].name));
     fputs("</code></h3>\n", out);
     if (change == CHANGE_FAILED) {
         fputs("<p class=\"bad\">", out);
-        html_text(out, text_of(record, "error"));
+        html_text(out, FOREIGN(text_of(record, "error")));
         fputs("</p>\n", out);
         return;
     }
@@ -88,7 +88,7 @@ static void put_section(FILE *out, const struct model_diff *diff, json_t *const 
             continue;
         }
         fputs("<li><code>", out);
-        html_text(out, diff->pairs[i].name);
+        html_text(out, FOREIGN(diff->pairs[i].name));
         fputs("</code></li>\n", out);
     }
     fputs(list ? "</ul></details>\n" : "", out);
@@ -104,9 +104,9 @@ char *diff_page(const struct model_diff *diff, json_t *const *records)
     fputs(head, out);
     const char *title = diff->options->captions.title;
     fputs("<h1>", out);
-    html_text(out, title ? title : diff->old);
+    html_text(out, FOREIGN(title ? title : diff->old));
     fputs(title ? "" : " → ", out);
-    html_text(out, title ? "" : diff->new);
+    html_text(out, FOREIGN(title ? "" : diff->new));
     fprintf(out, "</h1>\n<p class=\"about\">lambent %s:", lam_version());
     for (int i = 0; i < CHANGE_COUNT; i++)
         fprintf(out, "%s %zu %s", i ? "," : "", diff->counts[i], change_names[i]);

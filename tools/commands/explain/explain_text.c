@@ -10,13 +10,17 @@
 
 #include "explain_rows.h"
 #include "explain_words.h"
+#include "foreign.h"
 
 enum { FEW_LIGHTS = 16 }; // with more lights, only contributing lights are printed
 
 static void named(const char *name)
 {
-    if (name && *name)
-        printf(" '%s'", name);
+    if (name && *name) {
+        printf(" '");
+        print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(name));
+        printf("'");
+    }
 }
 
 // --- a light
@@ -552,8 +556,9 @@ static void print_pixel(const lam_explanation *e)
 
 void explain_text(const lam_explanation *e, const char *model)
 {
-    printf("%s: pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", model, e->x, e->y, e->width,
-           e->height, shading_word(e->shading), lam_reflection_describe(e->reflection)->word, e->samples,
+    print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(model));
+    printf(": pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", e->x, e->y, e->width, e->height,
+           shading_word(e->shading), lam_reflection_describe(e->reflection)->word, e->samples,
            e->samples == 1 ? "" : "s");
     if (!e->fragment_count)
         printf("\nOnly the background is visible here.\n");

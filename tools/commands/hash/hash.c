@@ -12,6 +12,7 @@
 #include "batch_run.h"
 #include "batch_sources.h"
 #include "console.h"
+#include "foreign.h"
 #include "exit_codes.h"
 #include "hash.h"
 #include "job_check.h"
@@ -195,7 +196,7 @@ static void tell_state(const struct hash_run *run, json_t *const *records, enum 
             json_text(json, NULL, name);
         else if (state != STATE_EQUAL && run->checks && !run->options->report.quiet) {
             printf("%-8s ", state_names[state]);
-            print_name(stdout, name);
+            print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(name));
             putchar('\n');
         }
     }

@@ -6,28 +6,18 @@
 #include <string.h>
 
 #include <lambent/material.h>
+#include <lambent/text.h>
 
+#include "foreign.h"
 #include "option_names.h"
 #include "vectors.h"
 
 enum { ROWS = 8, NAME_BYTES = 40, LINE_BYTES = 120 };
 
-// Returns text from a file, with control characters replaced by '?', truncated after `bytes`. Returns "" for NULL.
-static char *plain(const char *name, size_t bytes, char *out)
+// Returns text from a file for a terminal, truncated to fewer than `bytes` bytes. Returns "" for NULL.
+static const char *plain(const char *name, size_t bytes, char *out)
 {
-    char *to = out;
-    const char *end = name ? name + strlen(name) : name;
-    while (name < end && (size_t)(to - out) < bytes) {
-        int length = lam_utf8_length(name, (size_t)(end - name));
-        if (length <= 1) {
-            *to++ = (char)(length == 0 || (unsigned char)*name < 32 || *name == 127 ? '?' : *name);
-            name++;
-        } else {
-            for (int i = 0; i < length; i++)
-                *to++ = *name++;
-        }
-    }
-    memcpy(to, name < end ? "…" : "", name < end ? 4 : 1);
+    lam_utf8_show(name ? name : "", out, bytes);
     return out;
 }
 
@@ -287,7 +277,8 @@ void info_text(const struct info *info)
     const lam_scene *scene = job->scene;
     const lam_file_info *file = lam_scene_file_info(scene);
     char text[LINE_BYTES + 8];
-    printf("%s\n%-12s%s", strcmp(job->model, "-") == 0 ? "standard input" : job->model, "format", info_format(scene));
+    print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(strcmp(job->model, "-") == 0 ? "standard input" : job->model));
+    printf("\n%-12s%s", "format", info_format(scene));
     if (file->version)
         printf(" %s", plain(file->version, LINE_BYTES, text));
     if (file->generator)

@@ -276,7 +276,7 @@ static bool lock_running(struct journal *j, lam_error *error)
             return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
         if (!wait_for_lock(j->running, until_ms))
             return errno == EWOULDBLOCK
-                       ? complain(error, LAM_BAD_ARGUMENT, "%s: the journal is in use by another run", j->path)
+                       ? complain(error, LAM_CANNOT_WRITE, "%s: the journal is in use by another run", j->path)
                        : complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));
         if (fstat(j->running, &about) != 0)
             return complain(error, LAM_CANNOT_WRITE, "%s: cannot lock: %s", j->running_path, strerror(errno));
@@ -343,10 +343,10 @@ json_t *journal_find(const struct journal *j, const char *output)
     return record;
 }
 
-const char *journal_value(const json_t *record, const char *key)
+struct foreign journal_value(const json_t *record, const char *key)
 {
     const char *text = json_string_value(json_object_get(record, key));
-    return text ? text : "";
+    return FOREIGN(text ? text : "");
 }
 
 void journal_set_text(json_t *record, const char *key, const char *text)

@@ -10,6 +10,8 @@
 
 #include <lambent/base.h>
 
+#include "foreign.h"
+
 struct journal;
 
 // How to open a journal. START renames an existing journal to FILE.before. RESUME and SAME read the existing journal
@@ -25,7 +27,7 @@ struct journal_run {
 };
 
 // Opens a journal. `slots` is the maximum number of models drawn at the same time. Fails with LAM_BAD_ARGUMENT (the
-// options differ, or another run uses the journal), LAM_CANNOT_READ, LAM_CANNOT_WRITE or LAM_LIMIT.
+// options differ), LAM_CANNOT_READ, LAM_CANNOT_WRITE (also if another run uses the journal) or LAM_LIMIT.
 struct journal *journal_open(const char *path, enum journal_way way, const struct journal_run *run, int slots,
                              lam_error *error);
 
@@ -38,7 +40,7 @@ json_t *journal_find(const struct journal *journal, const char *output);
 bool journal_add(struct journal *journal, const json_t *record, lam_error *error);
 
 // Returns the string value of a key, or "" if the record contains no such string.
-const char *journal_value(const json_t *record, const char *key);
+struct foreign journal_value(const json_t *record, const char *key);
 
 // Sets a key of a record to `text` (journal_text), or to null if `text` is NULL.
 void journal_set_text(json_t *record, const char *key, const char *text);

@@ -64,7 +64,7 @@ void batch_unit_free(struct batch_unit *u)
 static bool is_untouched(const json_t *record, const char *output)
 {
     uint64_t hash, recorded;
-    return xxh64_parse(journal_value(record, "hash"), &recorded) && xxh64_file(output, &hash) && hash == recorded;
+    return xxh64_parse(journal_value(record, "hash").text, &recorded) && xxh64_file(output, &hash) && hash == recorded;
 }
 
 // Returns the current path of a file that the record names, allocated with malloc. The record may come from a run in
@@ -96,24 +96,24 @@ static bool has_same_key(const json_t *record, const struct batch_unit *u, int v
     uint64_t recorded;
     char(*hashes)[XXH64_TEXT] = calloc(count + 1, sizeof *hashes);
     const char **texts = calloc(count + 1, sizeof *texts);
-    bool same = hashes && texts && xxh64_parse(journal_value(record, "key"), &recorded);
+    bool same = hashes && texts && xxh64_parse(journal_value(record, "key").text, &recorded);
     if (same)
         json_array_foreach(files, i, file)
         {
             uint64_t hash;
-            char *path = path_now(journal_value(file, "path"), journal_value(record, "model"), model);
+            char *path = path_now(journal_value(file, "path").text, journal_value(record, "model").text, model);
             texts[i] = hashes[i];
             if (path && xxh64_file(path, &hash))
                 xxh64_print(hash, hashes[i]);
             else
                 strcpy(hashes[i], "absent");
-            same &= path && strcmp(hashes[i], journal_value(file, "hash")) == 0;
+            same &= path && strcmp(hashes[i], journal_value(file, "hash").text) == 0;
             free(path);
         }
     if (same) {
         const struct batch_plan *plan = u->task.plan;
         const struct job_view *v = &plan->views[view];
-        const char *dot = strrchr(u->outputs[view], '.'), *format = journal_value(record, "format");
+        const char *dot = strrchr(u->outputs[view], '.'), *format = journal_value(record, "format").text;
         struct batch_key_parts parts = {.options = u->task.options_text,
                                         .parsed = plan->options,
                                         .model = model,
@@ -135,7 +135,7 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
                                  uint16_t *attempts)
 {
     struct stat found;
-    bool written = strcmp(journal_value(record, "class"), "ok") == 0;
+    bool written = strcmp(journal_value(record, "class").text, "ok") == 0;
     if (b->way == JOURNAL_SAME)
         return written && has_same_key(record, u, view) && is_untouched(record, u->outputs[view]) ? PICTURE_SAME
                                                                                                   : PICTURE_OPEN;
@@ -146,7 +146,7 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
     }
     // Lambent 0.1 before 2026-12 recorded no cause: a limit or a failed write may then be the machine's.
     int exit = (int)json_integer_value(json_object_get(record, "exit"));
-    const char *cause = journal_value(record, "cause");
+    const char *cause = journal_value(record, "cause").text;
     bool by_machine = *cause ? strcmp(cause, "machine") == 0 : exit == 4 || exit == 5;
     *attempts = (uint16_t)json_integer_value(json_object_get(record, "attempt"));
     return by_machine || *attempts <= b->options->batch.retry_failed ? PICTURE_OPEN : PICTURE_FAILED_BEFORE;

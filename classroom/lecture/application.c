@@ -215,6 +215,7 @@ static void add_body(struct text *text, const struct glsl_facts *f, bool origin)
     lecture_add_spots(known_made(&t, "SPOTS"), c, "double");
     known_number(&t, "LIGHTS", c->light_count);
     known_number(&t, "HEMISPHERES", c->hemisphere_count);
+    glsl_add_sky_color(known_made(&t, "SKY_COLOR"), c, "ka", "kd");
     text_print(known_made(&t, "ARRIVING"), "%s%s%s%s%s%s%s", weakened ? "scale(" : "", f->has_cone ? "spot" : "",
                f->has_cone && f->has_falloff ? " * " : "", f->has_falloff ? "attenuation" : "", weakened ? ", " : "",
                sum, weakened ? ")" : "");

@@ -151,6 +151,7 @@ static void add_stage(struct text *text, const struct glsl_facts *f)
     glsl_declare_attributes(known_made(&t, "ATTRIBUTES"), f);
     add_material(&t, f);
     known_number(&t, "HEMISPHERES", c->hemisphere_count);
+    glsl_add_sky_color(known_made(&t, "SKY_COLOR"), c, "ka", "kd");
     known_number(&t, "LIGHTS", c->light_count);
     lecture_add_way(known_made(&t, "WAY"), c, "-lights[i].direction.xyz", "lights[i].position.xyz - P");
     lecture_add_spots(known_made(&t, "SPOTS"), c, "float");

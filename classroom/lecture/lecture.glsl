@@ -59,7 +59,7 @@ if (lights_here) {
                     ambient += vertex_colors ? tint.rgb * mix(ground_product[i].rgb, sky_product[i].rgb, 0.5 + 0.5 * dot(N, hemispheres[i].up.xyz)) : mix(ground_product[i].rgb, sky_product[i].rgb, 0.5 + 0.5 * dot(N, hemispheres[i].up.xyz));
                 } else {
                     vec3 sky = hemispheres[i].sky.rgb, ground = hemispheres[i].ground.rgb;
-                    ambient += vertex_colors ? tint.rgb * ka * mix(ground, sky, 0.5 + 0.5 * dot(N, hemispheres[i].up.xyz)) : ka * mix(ground, sky, 0.5 + 0.5 * dot(N, hemispheres[i].up.xyz));
+                    ambient += vertex_colors ? tint.rgb * SKY_COLOR * mix(ground, sky, 0.5 + 0.5 * dot(N, hemispheres[i].up.xyz)) : SKY_COLOR * mix(ground, sky, 0.5 + 0.5 * dot(N, hemispheres[i].up.xyz));
                 }
             }
         }

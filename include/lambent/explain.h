@@ -93,7 +93,8 @@ typedef struct lam_explained_hemisphere {
     lam_rgb sky, ground; // colours of sky and ground
     float n_dot_up;      // cosine between n and up
     lam_rgb term;        // ka ⊙ mix(ground, sky, ½ + ½ n·up)
-    LAM_RESERVED(8);
+    bool by_diffuse;     // kd instead of ka in `term`
+    LAM_RESERVED(7);
 } lam_explained_hemisphere;
 
 // The layers of a physical material at a point (docs/lighting/layers.md).

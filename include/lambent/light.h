@@ -13,7 +13,7 @@ extern "C" {
 // The kinds of light.
 typedef enum lam_light_type {
     LAM_LIGHT_AMBIENT, // uniform light: adds ka ⊙ ambient
-    // Light from sky and ground: adds ka ⊙ mix(ground, sky, ½ + ½ n·up).
+    // Light from sky and ground: adds ka ⊙ mix(ground, sky, ½ + ½ n·up), or kd instead of ka (by_diffuse).
     LAM_LIGHT_HEMISPHERE,
     LAM_LIGHT_POINT,       // from a point, in all directions
     LAM_LIGHT_DIRECTIONAL, // parallel, from infinitely far away
@@ -95,7 +95,9 @@ typedef struct lam_light {
     // Point, directional, spot: the share of this light to which ambient occlusion (lam_draw_params.occlusion) applies,
     // 0..1. 1 suits large, soft lights. Ambient and hemisphere light is always dimmed.
     float occluded;
-    LAM_RESERVED(30);
+    // Hemisphere: classic materials reflect this light with their diffuse colour kd, whatever their ka.
+    bool by_diffuse;
+    LAM_RESERVED(29);
 } lam_light;
 
 // Returns a white light of a type at the origin, with the direction (0, 0, −1), ambient 0 (LAM_LIGHT_AMBIENT: 0.2),
@@ -111,7 +113,8 @@ typedef enum lam_rig {
     // scene's environment, or the built-in environment "studio" if the scene has no environment.
     LAM_RIG_AUTO = 0,
     LAM_RIG_NONE, // only the scene's own lights, even if there are none
-    // The default look: a near key light, a fill and a rim light that move with the camera, and a hemisphere light.
+    // The default look: a near key light, a fill and a rim light that move with the camera, and a hemisphere light,
+    // which classic materials reflect with kd, because many exporters write a black ka.
     // Ambient occlusion applies in full to the fill light, and at 60 % to the key light and the rim light. In
     // lam_scene_rig_lights without a ground, it applies in full to all of them, and curved models and terrains have a
     // key light next to the eye, and no rim light.

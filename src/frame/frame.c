@@ -259,10 +259,9 @@ static void leave_facets(struct frame *frame)
 
 // The radius of cavity shading, relative to half the diagonal of the scene's box.
 #define CAVITY_RADIUS 0.05
-// The smaller radius for LAM_TONE_CONTRAST, which shows narrow valleys. It is used if the frame has at least FINE
-// triangles. With fewer triangles, dark lines would appear between the triangles.
+// The smaller radius for LAM_TONE_CONTRAST, which shows narrow valleys. It is used if the scene is fine. Otherwise, dark
+// lines would appear between the faces.
 #define CONTRAST_CAVITY_RADIUS 0.02
-enum { FINE = 16384 };
 
 // Returns whether cavity shading lightens ridges. Returns false if a texture colours a drawn surface. Also returns
 // false if a classic material is white, because its ridges would become broad white stripes.
@@ -392,7 +391,7 @@ static void set_tone(struct frame *frame, const lam_scene *scene, bool physical)
     if (!settings->tone)
         settings->tone = physical && settings->color != LAM_COLOR_RAW ? LAM_TONE_KHRONOS_NEUTRAL : LAM_TONE_NONE;
     const bool contrast = settings->tone == LAM_TONE_CONTRAST;
-    frame->narrow_valleys = contrast && frame->triangle_count >= FINE;
+    frame->narrow_valleys = contrast && scene_is_fine(scene);
     frame->deep_valleys = frame->narrow_valleys || (!physical && scene_form(scene) == FORM_FLAT);
     frame->ridges = !contrast && lightens_ridges(frame);
     if (!lam_output_is_light(settings->output))

@@ -87,6 +87,7 @@ double frame_brighten_stops(const struct frame *frame, const lam_scene *scene);
 // Sets the kind, falloff, attenuation, range and cone of a light, and zeroes position, axis and colours.
 void frame_light_init(struct frame_light *out, const lam_light *light);
 
+// The hemisphere lights that materials reflect with kd (lam_light.by_diffuse) follow all others.
 struct frame_hemisphere {
     float up[3]; // unit, eye space
     float sky[3], ground[3];
@@ -267,6 +268,8 @@ bool frame_converts_at_points(const struct frame *frame, const lam_material *mat
 // ks is 1, because the Fresnel factor is applied later (fresnel_of). Factors that maps change are not included, because
 // each point applies them.
 void frame_material_colors(const struct frame *frame, const lam_material *material, float kd[3], float ks[3]);
+// Returns the three numbers by which a material multiplies a hemisphere light: kd or ka.
+const float *frame_sky_color(const struct frame *frame, const struct frame_hemisphere *h, const lam_material *material);
 
 // Returns whether a classic material mirrors the frame's environment.
 bool frame_reflects_environment(const struct frame *frame, const lam_material *material);

@@ -5,7 +5,8 @@
 #include "frame.h"
 
 #include "linear.h"
-#include "scene_internal.h"
+#include "srgb.h"
+#include "surface_lattice.h"
 #include "texture_map.h"
 
 #include <string.h>
@@ -29,88 +30,78 @@
 // light reaches.
 #define LIGHTEST 1.7
 
-enum { SAMPLES = 4096, BINS = 256, STEPS = 6 }; // the number of sampled triangles, of bins, and of steps per stop
+enum { BINS = 1024, STEPS = 48 }; // the number of bins, and of steps per stop
 
-// A histogram: area[b] is the area of the triangles whose base colour has sqrt(luminance) ≈ b / BINS.
+// A histogram: area[b] is the area of the surfaces whose base colour has sqrt(luminance) ≈ b / BINS, as a whole number,
+// so that the order of the surfaces has no effect.
 struct luminances {
-    double area[BINS], all;
+    int64_t area[BINS], all;
+    // the mesh and the material whose points are added
+    const lam_mesh *mesh;
+    const lam_material *material;
 };
 
 static double luminance(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
 
-// Returns the approximate linear value of an sRGB byte, accurate enough for a mean.
-static double decoded(uint8_t byte)
+// Adds a corner's share of the mesh's own colour.
+static void add_tint(const lam_mesh *mesh, uint32_t corner, double weight, double color[3])
 {
-    double x = byte / 255.0;
-    return x * x * (0.3 + 0.7 * x);
+    size_t at = mesh->colors_rate == LAM_PER_VERTEX ? mesh_element(mesh->color_indices, mesh, corner) : corner / 3;
+    for (size_t c = 0; c < 3; c++)
+        color[c] += weight * (mesh->colors_format == LAM_COLORS_LINEAR_F32
+                                  ? (double)((const float *)mesh->colors)[4 * at + c]
+                                  : srgb_linear(((const uint8_t *)mesh->colors)[4 * at + c] / 255.0));
 }
 
-// Multiplies a colour by the mesh's own colour at a triangle's first corner.
-static void tint(const lam_mesh *mesh, uint32_t triangle, double color[3])
+// Returns the luminance of the base colour at a point of a triangle, given the weights of the corners.
+static double base_luminance(const struct luminances *sum, uint32_t triangle, const double weight[3])
 {
-    if (!mesh->colors)
-        return;
-    uint32_t at =
-        mesh->colors_rate == LAM_PER_VERTEX ? mesh_element(mesh->color_indices, mesh, 3 * triangle) : triangle;
-    for (int c = 0; c < 3; c++)
-        color[c] *= mesh->colors_format == LAM_COLORS_LINEAR_F32
-                        ? (double)((const float *)mesh->colors)[4 * (size_t)at + (size_t)c]
-                        : decoded(((const uint8_t *)mesh->colors)[4 * (size_t)at + (size_t)c]);
-}
-
-// Returns the luminance of the base colour in the middle of a triangle.
-static double base_luminance(const lam_mesh *mesh, const lam_material *material, uint32_t triangle)
-{
-    double color[3] = {(double)material->diffuse.r, (double)material->diffuse.g, (double)material->diffuse.b};
-    const lam_texture_map *map = material->maps[LAM_MAP_DIFFUSE];
+    const lam_mesh *mesh = sum->mesh;
+    const lam_texture_map *map = sum->material->maps[LAM_MAP_DIFFUSE];
     const float *from = map && map->texcoords ? mesh->second_texcoords : mesh->texcoords;
     const uint32_t *own = map && map->texcoords ? mesh->second_texcoord_indices : mesh->texcoord_indices;
-    tint(mesh, triangle, color);
-    if (map && from) {
-        float s = 0, t = 0;
-        for (uint32_t k = 0; k < 3; k++) {
+    double tint[3] = {0}, s = 0, t = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        if (mesh->colors)
+            add_tint(mesh, 3 * triangle + k, weight[k], tint);
+        if (map && from) {
             const float *at = from + 2 * (size_t)mesh_element(own, mesh, 3 * triangle + k);
-            s += at[0] / 3;
-            t += at[1] / 3;
+            s += weight[k] * (double)at[0];
+            t += weight[k] * (double)at[1];
         }
-        texel value = texture_map_base(map, s, t);
-        for (int c = 0; c < 3; c++)
-            color[c] *= (double)value[c];
     }
+    const texel value = map && from ? texture_map_base(map, (float)s, (float)t) : (texel){1, 1, 1, 1};
+    const float *kd = &sum->material->diffuse.r;
+    double color[3];
+    for (int c = 0; c < 3; c++)
+        color[c] = (double)kd[c] * (mesh->colors ? tint[c] : 1) * (double)value[c];
     return luminance(color[0], color[1], color[2]);
 }
 
-// Returns twice the area of a triangle in eye space.
-static double area_of(const struct frame_draw *draw, uint32_t triangle)
+static void add_row(void *user, const struct lattice_row *row)
 {
-    lam_vec3 p[3];
-    for (uint32_t k = 0; k < 3; k++) {
-        const float *from = draw->mesh->positions + 3 * (size_t)mesh_element(NULL, draw->mesh, 3 * triangle + k);
-        double at[3];
-        for (int i = 0; i < 3; i++)
-            at[i] = (double)draw->eye[i][0] * (double)from[0] + (double)draw->eye[i][1] * (double)from[1] +
-                    (double)draw->eye[i][2] * (double)from[2];
-        p[k] = v3(at[0], at[1], at[2]);
+    struct luminances *sum = user;
+    const bool varies = sum->mesh->colors || sum->material->maps[LAM_MAP_DIFFUSE];
+    for (int i = 0; i < (varies ? row->points : 1); i++) {
+        double weight[3];
+        for (int k = 0; k < 3; k++)
+            weight[k] = row->weight[k] + i * row->step[k];
+        const double bright = base_luminance(sum, row->triangle, weight);
+        if (!(bright >= 0))
+            continue;
+        const double bin = __builtin_sqrt(bright) * BINS;
+        const int64_t area = varies ? row->size : row->size * row->points;
+        sum->area[bin < BINS - 1 ? (int)bin : BINS - 1] += area;
+        sum->all += area;
     }
-    return v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
-}
-
-static void add(struct luminances *sum, double bright, double area)
-{
-    if (!(area > 0) || !math_finite(area) || !(bright >= 0))
-        return;
-    double bin_of = __builtin_sqrt(bright) * BINS;
-    int bin = bin_of < BINS - 1 ? (int)bin_of : BINS - 1;
-    sum->area[bin] += area;
-    sum->all += area;
 }
 
 // Returns the luminance that the given share of the surface does not exceed.
 static double percentile(const struct luminances *sum, double share)
 {
-    double below = 0;
+    int64_t below = 0;
     int bin = 0;
-    while (bin < BINS - 1 && below + sum->area[bin] < share * sum->all)
+    while (bin < BINS - 1 && (double)(below + sum->area[bin]) < share * (double)sum->all)
         below += sum->area[bin++];
     return ((double)bin + 0.5) * ((double)bin + 0.5) / ((double)BINS * BINS);
 }
@@ -185,18 +176,19 @@ static bool is_painted(const struct frame *frame, const lam_scene *scene)
 double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
 {
     struct luminances sum = {.all = 0};
-    const uint32_t step = frame->triangle_count / SAMPLES + 1;
     if (!applies(frame, scene))
         return 0;
     if (is_bright(frame))
         return is_white(frame) ? -DIM : 0;
+    const struct surface_lattice lattice = surface_lattice_of(scene);
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];
         const struct frame_draw *draw = &frame->draws[range->draw];
-        uint32_t end = range->first_id + range->count, first = (range->first_id + step - 1) / step * step;
-        for (uint32_t id = first; id < end && !draw->strokes && !draw->ground; id += step)
-            add(&sum, base_luminance(draw->mesh, frame->materials[range->front], id - draw->first_id),
-                area_of(draw, id - draw->first_id));
+        const uint32_t first = range->first_id - draw->first_id;
+        sum.mesh = draw->mesh;
+        sum.material = frame->materials[range->front];
+        if (!draw->strokes && !draw->ground)
+            surface_lattice_visit(&lattice, scene, draw->object, first, first + range->count, add_row, &sum);
     }
     int steps = 0;
     double bright = percentile(&sum, 0.75), white = percentile(&sum, 0.95);

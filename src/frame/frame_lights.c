@@ -116,6 +116,8 @@ static bool add_light(struct frame *frame, const lam_scene *scene, const lam_lig
         return false;
     if (light->type == LAM_LIGHT_HEMISPHERE) {
         struct frame_hemisphere *out = &frame->hemispheres[frame->hemisphere_count++];
+        for (; !light->by_diffuse && out > frame->hemispheres && out[-1].source->by_diffuse; out--)
+            *out = out[-1];
         bool own = light->up.x != 0 || light->up.y != 0 || light->up.z != 0;
         const lam_mat4 *by = own ? &space : view;
         store3(out->up, v3_unit(mat4_vector(by, own ? light->up : from_y_up(scene->up, v3(0, 1, 0)))));

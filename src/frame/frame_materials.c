@@ -166,6 +166,12 @@ void frame_material_colors(const struct frame *frame, const lam_material *materi
     }
 }
 
+const float *frame_sky_color(const struct frame *frame, const struct frame_hemisphere *h, const lam_material *material)
+{
+    bool by_diffuse = h->source->by_diffuse && !material->physical && !frame_converts_at_points(frame, material);
+    return by_diffuse ? &material->diffuse.r : &material->ambient.r;
+}
+
 bool frame_reflects_environment(const struct frame *frame, const lam_material *material)
 {
     return frame->environment && !material->physical &&

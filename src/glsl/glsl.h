@@ -109,6 +109,7 @@ struct glsl_choices {
     int group_count;
     int light_count; // Σ counts
     int hemisphere_count;
+    int ambient_hemispheres; // the first of them, which materials reflect with ka; the others with kd
 };
 
 // Sets the choices for a range of a frame. Zeroes the struct first, so that memcmp can compare it. The caller sets

@@ -135,6 +135,8 @@ void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
 // Returns whether the reflection model uses the material parameter with this name in LOBE_PARAMETERS
 // (src/lighting/lobes.h).
 bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
+// Appends the expression of the colour, `ka` or `kd`, that multiplies hemisphere light i.
+void glsl_add_sky_color(struct text *text, const struct glsl_choices *c, const char *ka, const char *kd);
 // Appends the lines that select the parameters of the lobe from the front or the back material, for shaders with
 // products and two materials.
 void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);

@@ -18,12 +18,23 @@ static const char *const kind_words[GLSL_KINDS] = {WORD(LIGHT_POINT), WORD(LIGHT
 static const char *const falloff_words[GLSL_FALLOFFS] = {WORD(FALLOFF_NONE), WORD(FALLOFF_DISTANCE),
                                                          WORD(FALLOFF_RANGE)};
 
+void glsl_add_sky_color(struct text *text, const struct glsl_choices *c, const char *ka, const char *kd)
+{
+    if (c->ambient_hemispheres == c->hemisphere_count || frame_is_physical(c->reflection))
+        text_add(text, ka);
+    else if (!c->ambient_hemispheres)
+        text_add(text, kd);
+    else
+        text_print(text, "(i < %d ? %s : %s)", c->ambient_hemispheres, ka, kd);
+}
+
 static void put_lights(struct known_table *t, const struct glsl_choices *c)
 {
     int light_texels = c->products ? 4 : c->gl1 ? 7 : 6, product_texels = c->gl1 ? 3 : 2; // texels per light
     known_flag(t, "has_light_shares", c->passed);
     known_flag(t, "cube_map", c->environment == GLSL_CUBE);
     known_number(t, "HEMISPHERES", c->hemisphere_count);
+    glsl_add_sky_color(known_made(t, "SKY_COLOR"), c, "m.ambient.rgb", "m.diffuse.rgb");
     known_number(t, "LIGHT_TEXELS", light_texels);
     known_number(t, "PRODUCT_TEXELS", product_texels);
     known_number(t, "HEMISPHERE_TEXELS", c->products ? 1 : 3);

@@ -95,9 +95,11 @@ int glsl_uniform_value(const struct glsl_choices *c, const struct glsl_uniform_s
     case GLSL_LIGHT_AMBIENT_PRODUCT:
         return put_product(out, &material->ambient.r, light_at(from, index)->ambient);
     case GLSL_SKY_PRODUCT:
-        return put_product(out, &material->ambient.r, frame->hemispheres[index].sky);
+        return put_product(out, frame_sky_color(frame, &frame->hemispheres[index], material),
+                           frame->hemispheres[index].sky);
     case GLSL_GROUND_PRODUCT:
-        return put_product(out, &material->ambient.r, frame->hemispheres[index].ground);
+        return put_product(out, frame_sky_color(frame, &frame->hemispheres[index], material),
+                           frame->hemispheres[index].ground);
     case GLSL_FIRST_PRODUCT:
         // NOLINTNEXTLINE(bugprone-integer-division): whole texels of 16 bytes
         return put_number(out, (float)((size_t)number * glsl_products_bytes(c) / 16));

@@ -14,6 +14,8 @@ static void find_groups(struct glsl_choices *c, const struct frame *frame)
                 c->groups[c->group_count++] = (struct glsl_group){kind, falloff, counts[kind][falloff]};
     c->light_count = frame->light_count;
     c->hemisphere_count = frame->hemisphere_count;
+    for (int i = 0; i < frame->hemisphere_count; i++)
+        c->ambient_hemispheres += !frame->hemispheres[i].source->by_diffuse;
 }
 
 void glsl_choose(struct glsl_choices *c, const struct frame *frame, const struct frame_draw_range *range,
@@ -225,7 +227,8 @@ void glsl_pack_products(const struct glsl_choices *c, const struct frame *frame,
     out += lights * (c->gl1 ? 12 : 8);
     for (size_t i = 0; i < hemispheres; i++) {
         float *sky = block ? out + 4 * i : out + 8 * i, *ground = block ? sky + 4 * hemispheres : sky + 4;
-        product(sky, &material->ambient.r, frame->hemispheres[i].sky);
-        product(ground, &material->ambient.r, frame->hemispheres[i].ground);
+        const float *color = frame_sky_color(frame, &frame->hemispheres[i], material);
+        product(sky, color, frame->hemispheres[i].sky);
+        product(ground, color, frame->hemispheres[i].ground);
     }
 }

@@ -89,11 +89,13 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
         return false;
     if (!scene_measure(scene, source->pool, error))
         return false;
-    if (importer->up_is_habit && params->up == LAM_UP_AUTO && is_terrain_on_z(scene)) {
+    if (importer->up_is_habit && params->up == LAM_UP_AUTO && is_terrain_on_z(scene, source->pool)) {
         scene->up = LAM_UP_Z;
         lam_scene_add_warning(scene, "z is assumed to be up, because the model is a terrain in the plane of x and y "
                                      "(to keep the file's axes, choose y as the up axis)");
     }
+    if (!scene->lights.count && !scene_lit_by_environment(scene))
+        scene_find_form(scene, source->pool);
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
     call_progress(source->call, 1, "normals");
     return true;

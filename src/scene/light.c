@@ -87,8 +87,7 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
 // the box's diagonal from the centre, in front and to the left, so that the light varies across a flat face. The key
 // light's strength ranges from 1.3 on the near side of the model to 0.75 on the far side. The rim light comes from above
 // and behind. Tops are brightest, left sides darker and right sides darkest, so that the three visible faces of a cube
-// differ at each azimuth. At the corner of the box that is nearest to the key light, a point reflects ka or kd times at
-// most
+// differ at each azimuth. At the corner of the box that is nearest to the key light, a point reflects kd times at most
 //
 //  0.66·1.33 (key) + 0.19 (sky) = 1.07
 //
@@ -115,6 +114,7 @@ static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
     lights[3].name = "sky";
     lights[3].sky = (lam_rgb){0.195f, 0.195f, 0.195f};
     lights[3].ground = (lam_rgb){0.066f, 0.066f, 0.066f};
+    lights[3].by_diffuse = true;
     return 4;
 }
 

@@ -28,6 +28,7 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error)
     struct {
         struct lam_scene scene;
         lam_material default_material;
+        uint64_t known_form;
     } *memory = calloc(1, sizeof *memory);
     if (!memory)
         return fail_memory(error, sizeof *memory), NULL;
@@ -50,6 +51,7 @@ struct lam_scene *scene_make(struct call_control *call, lam_error *error)
     scene->format = "";
     scene->default_material = &memory->default_material;
     *scene->default_material = lam_material_default();
+    scene->known_form = &memory->known_form;
     return scene;
 }
 

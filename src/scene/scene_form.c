@@ -2,9 +2,12 @@
 #include "scene_internal.h"
 
 #include "linear.h"
+#include "surface_lattice.h"
 #include "up_axis.h"
 
 #include <lambent/material.h>
+
+#include <string.h>
 
 // A scene is a terrain if it is open and its area faces up: the vertical component of the sum of all area vectors must
 // be more than FACING times the whole area. A closed surface faces all sides equally, so the sum is 0. A level plane is
@@ -14,54 +17,30 @@
 
 // Other scenes are curved if their normals differ: each normal falls into a cell of a cube around all directions, and
 // the six fullest cells contain less than FLAT times the whole area. A box fills six cells completely. For scans and
-// figures, these six cells contain 0.05 to 0.3 of the area; for machine parts and low-poly models, 0.43 to 1.
-#define FLAT 0.36
+// figures, these six cells contain 0.04 to 0.29 of the area; for machine parts and most low-poly models, 0.34 to 1.
+#define FLAT 0.32
+
+// The detail is the number of different planes through the points of the lattice, divided by the number of points. The
+// number of triangles says less, because it grows if flat faces are divided. Scenes with less detail than COARSE are
+// treated as flat: figures of a few hundred faces. Scenes with more detail than FINE show no faces.
+#define COARSE 0.28
+#define FINE   0.73
 
 enum {
-    TRIANGLES_MIN = 1024, // a model with fewer triangles is treated as flat
-    SAMPLES = 256,        // sampled triangles
-    SIDE = 7,             // cells along an edge of the cube; odd, so that no axis lies between cells
+    SIDE = 7, // cells along an edge of the cube; odd, so that no axis lies between cells
     CELLS = 6 * SIDE * SIDE,
     FULLEST = 6,
+    WORDS = 1 << 11, // words of 64 bits in a set of planes or points
+    TURNS = 32,
+    OFFSETS = 4,     // steps of the normals of planes, and of their distances from zero in the lattice
+    CHUNK = 1 << 16, // triangles per parallel task
 };
 
-// Sums over the sampled triangles.
-struct areas {
-    double all, facing;  // area, and the component of the area vectors along the up axis
-    double cells[CELLS]; // the area for each direction of the normal
+// Sums over the points of the lattice. Whole numbers, so that the order of the points has no effect.
+struct sums {
+    int64_t all, area[3], cells[CELLS];    // the area, the area vector, and the area for each direction of the normal
+    uint64_t planes[WORDS], points[WORDS]; // sets of the different planes, and of the different points
 };
-
-// Multiplies a vector by the upper left 3×3 matrix.
-static lam_vec3 turned(const lam_mat4 *m, lam_vec3 v)
-{
-    return v3(m->m[0][0] * v.x + m->m[0][1] * v.y + m->m[0][2] * v.z,
-              m->m[1][0] * v.x + m->m[1][1] * v.y + m->m[1][2] * v.z,
-              m->m[2][0] * v.x + m->m[2][1] * v.y + m->m[2][2] * v.z);
-}
-
-// Gets two edges of a triangle in mesh coordinates.
-static void edges_of(const lam_mesh *mesh, size_t triangle, lam_vec3 edges[2])
-{
-    lam_vec3 p[3];
-    for (size_t k = 0; k < 3; k++) {
-        size_t corner = 3 * triangle + k;
-        const float *at = mesh->positions + 3 * (size_t)(mesh->indices ? mesh->indices[corner] : corner);
-        p[k] = v3((double)at[0], (double)at[1], (double)at[2]);
-    }
-    edges[0] = v3_sub(p[1], p[0]);
-    edges[1] = v3_sub(p[2], p[0]);
-}
-
-void mesh_add_areas(const lam_mesh *mesh, lam_vec3 axis, double *all, double *facing)
-{
-    for (size_t t = 0; t < mesh->triangle_count; t++) {
-        lam_vec3 edges[2];
-        edges_of(mesh, t, edges);
-        lam_vec3 area = v3_cross(edges[0], edges[1]);
-        *all += v3_length(area);
-        *facing += v3_dot(area, axis);
-    }
-}
 
 // Returns the index of the cell for a coordinate −1 ≤ x ≤ 1 along one edge of the cube.
 static int cell_along(double x)
@@ -70,10 +49,9 @@ static int cell_along(double x)
     return cell < SIDE ? cell : SIDE - 1;
 }
 
-// Returns the cell of a finite direction other than 0: the face of its largest component, then the row and the column.
-static int cell_of(lam_vec3 direction)
+// Returns the cell of a direction other than 0: the face of its largest component, then the row and the column.
+static int cell_of(const double c[3])
 {
-    const double c[3] = {direction.x, direction.y, direction.z};
     const double size[3] = {c[0] < 0 ? -c[0] : c[0], c[1] < 0 ? -c[1] : c[1], c[2] < 0 ? -c[2] : c[2]};
     int axis = size[1] > size[0];
     axis = size[2] > size[axis] ? 2 : axis;
@@ -81,26 +59,60 @@ static int cell_of(lam_vec3 direction)
     return ((2 * axis + (c[axis] < 0)) * SIDE + row) * SIDE + column;
 }
 
-// Adds one triangle. Uses the triangle's normal in mesh coordinates, so that equal parts in different positions have
-// the same normals, and a rotation of the model has no effect.
-static void add_triangle(struct areas *sum, const lam_mesh *mesh, size_t triangle, const lam_mat4 *transform,
-                         lam_vec3 up)
+static uint64_t mixed(uint64_t hash, uint64_t value)
 {
-    lam_vec3 edges[2];
-    edges_of(mesh, triangle, edges);
-    lam_vec3 own = v3_cross(edges[0], edges[1]);
-    lam_vec3 area = v3_cross(turned(transform, edges[0]), turned(transform, edges[1]));
-    double size = v3_length(area);
-    sum->all += size;
-    sum->facing += v3_dot(area, up);
-    if (v3_finite(own) && (own.x != 0 || own.y != 0 || own.z != 0))
-        sum->cells[cell_of(own)] += size;
+    hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 29;
+}
+
+static int64_t rounded(double x) { return (int64_t)(x + (x < 0 ? -0.5 : 0.5)); }
+
+static uint64_t mixed_vector(uint64_t hash, lam_vec3 v)
+{
+    return mixed(mixed(mixed(hash, (uint64_t)rounded(v.x)), (uint64_t)rounded(v.y)), (uint64_t)rounded(v.z));
+}
+
+static void put(uint64_t set[WORDS], uint64_t hash)
+{
+    __atomic_fetch_or(&set[hash >> 48 & (WORDS - 1)], UINT64_C(1) << (hash >> 42 & 63), __ATOMIC_RELAXED);
+}
+
+static void add_row(void *user, const struct lattice_row *row)
+{
+    struct sums *sum = user;
+    const double normal[] = {row->normal.x, row->normal.y, row->normal.z};
+    const lam_vec3 unit = v3_unit(row->normal);
+    __atomic_fetch_add(&sum->all, row->size * row->points, __ATOMIC_RELAXED);
+    for (int i = 0; i < 3; i++)
+        __atomic_fetch_add(&sum->area[i], row->area[i] * row->points, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&sum->cells[cell_of(normal)], row->size * row->points, __ATOMIC_RELAXED);
+    const uint64_t plane = mixed_vector((uint64_t)rounded(v3_dot(unit, row->at) * OFFSETS), v3_scale(unit, TURNS));
+    put(sum->planes, plane);
+    for (int i = 0; i < row->points; i++)
+        put(sum->points, mixed(plane, (uint64_t)(row->x + i) << 32 | (uint64_t)row->y));
+}
+
+struct summing {
+    const struct lam_scene *scene;
+    struct surface_lattice lattice;
+    struct sums *sum;
+    int object;
+};
+
+static void sum_chunk(void *user, size_t index, int thread)
+{
+    (void)thread;
+    const struct summing *summing = user;
+    const uint32_t count =
+                       scene_mesh(summing->scene, scene_object(summing->scene, summing->object)->mesh)->triangle_count,
+                   first = (uint32_t)index * CHUNK, end = count - first > CHUNK ? first + CHUNK : count;
+    surface_lattice_visit(&summing->lattice, summing->scene, summing->object, first, end, add_row, summing->sum);
 }
 
 // Returns the area in the fullest cells, and empties these cells.
-static double take_fullest(struct areas *sum)
+static int64_t take_fullest(struct sums *sum)
 {
-    double taken = 0;
+    int64_t taken = 0;
     for (int i = 0; i < FULLEST; i++) {
         int fullest = 0;
         for (int cell = 1; cell < CELLS; cell++)
@@ -112,33 +124,84 @@ static double take_fullest(struct areas *sum)
     return taken;
 }
 
-// Returns the triangle of a sample: one of every `step` triangles. The position of this triangle among the `step`
-// triangles varies, because equal steps through a grid of triangles would find only some directions.
-static uint64_t sampled(uint64_t index, uint64_t step)
+static int members(const uint64_t set[WORDS])
 {
-    uint32_t varying = (uint32_t)index * 2654435769u; // multiples of the golden ratio, modulo 1
-    return index * step + ((uint64_t)varying * step >> 32);
+    int count = 0;
+    for (int i = 0; i < WORDS; i++)
+        count += __builtin_popcountll(set[i]);
+    return count;
+}
+
+struct surface_facts surface_facts(const struct lam_scene *scene, struct pool *pool)
+{
+    struct sums sum = {.all = 0};
+    struct summing summing = {scene, surface_lattice_of(scene), &sum, 0};
+    for (int i = 0; i < scene->objects.count; i++) {
+        if (!scene_shows(scene, i))
+            continue;
+        summing.object = i;
+        const size_t chunks =
+            ((size_t)scene_mesh(scene, scene_object(scene, i)->mesh)->triangle_count + CHUNK - 1) / CHUNK;
+        pool_run(chunks > 1 ? pool : NULL, chunks, sum_chunk, &summing);
+    }
+    const double all = sum.all ? (double)sum.all : 1, points = members(sum.points);
+    return (struct surface_facts){
+        .facing = v3((double)sum.area[0] / all, (double)sum.area[1] / all, (double)sum.area[2] / all),
+        .fullest = (double)take_fullest(&sum) / all,
+        .detail = points > 0 ? members(sum.planes) / points : 0,
+    };
+}
+
+// Returns the direction of the sky before the placement of the scene.
+static lam_vec3 up_of(const struct lam_scene *scene)
+{
+    const lam_vec3 up = from_y_up(lam_scene_up(scene), v3(0, 1, 0));
+    const double(*m)[4] = scene->placement.m;
+    return v3_unit(v3(m[0][0] * up.x + m[1][0] * up.y + m[2][0] * up.z,
+                      m[0][1] * up.x + m[1][1] * up.y + m[2][1] * up.z,
+                      m[0][2] * up.x + m[1][2] * up.y + m[2][2] * up.z));
+}
+
+// Returns a number that identifies the visible objects and the direction of the sky. Its lowest four bits are 0, and
+// the others are not all 0.
+static uint64_t key_of(const struct lam_scene *scene, lam_vec3 up)
+{
+    uint64_t key = mixed_vector((uint64_t)(uintptr_t)scene->token, v3_scale(up, 1 << 20));
+    for (int i = 0; i < scene->objects.count; i++) {
+        const lam_mat4 transform = unplaced_transform(scene, i);
+        uint64_t words[sizeof transform / sizeof(uint64_t)];
+        memcpy(words, &transform, sizeof words);
+        key = mixed(key, (uint64_t)scene_object(scene, i)->mesh << 1 | scene_shows(scene, i));
+        for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+            key = mixed(key, words[k]);
+    }
+    return (key | 1) << 4;
+}
+
+enum { KNOWN_FINE = 4 }; // the lowest bits of scene->known_form: a scene_form, and this bit if the scene is fine
+
+int scene_find_form(const struct lam_scene *scene, struct pool *pool)
+{
+    if (!scene || scene->file.animation_count) // the form must not change between frames
+        return FORM_FLAT;
+    const lam_vec3 up = up_of(scene);
+    const uint64_t key = key_of(scene, up), known = __atomic_load_n(scene->known_form, __ATOMIC_RELAXED);
+    if (known >> 4 == key >> 4)
+        return (int)(known & 15);
+    const struct surface_facts facts = surface_facts(scene, pool);
+    const double facing = v3_dot(facts.facing, up);
+    enum scene_form form = facts.detail < COARSE               ? FORM_FLAT
+                           : facing > FACING && facing < LEVEL ? FORM_TERRAIN
+                           : facts.fullest < FLAT              ? FORM_CURVED
+                                                               : FORM_FLAT;
+    const int found = (int)form | (facts.detail > FINE ? KNOWN_FINE : 0);
+    __atomic_store_n(scene->known_form, key | (uint64_t)found, __ATOMIC_RELAXED);
+    return found;
 }
 
 enum scene_form scene_form(const struct lam_scene *scene)
 {
-    uint64_t count = scene ? lam_scene_triangle_count(scene) : 0;
-    if (count < TRIANGLES_MIN || scene->file.animation_count) // the form must not change between frames
-        return FORM_FLAT;
-    const uint64_t step = count / SAMPLES;
-    const lam_vec3 up = from_y_up(lam_scene_up(scene), v3(0, 1, 0));
-    struct areas sum = {.all = 0};
-    uint64_t index = 0, base = 0; // the number of the sample; the number of triangles in the previous meshes
-    for (int i = 0; i < scene->objects.count; i++) {
-        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
-        if (mesh_is_strokes(mesh) || !scene_shows(scene, i))
-            continue;
-        uint64_t end = base + mesh->triangle_count;
-        for (uint64_t t; (t = sampled(index, step)) < end; index++)
-            add_triangle(&sum, mesh, (size_t)(t - base), &scene_object(scene, i)->transform, up);
-        base = end;
-    }
-    if (sum.facing > FACING * sum.all && sum.facing < LEVEL * sum.all)
-        return FORM_TERRAIN;
-    return take_fullest(&sum) < FLAT * sum.all ? FORM_CURVED : FORM_FLAT;
+    return (enum scene_form)(scene_find_form(scene, NULL) & ~KNOWN_FINE);
 }
+
+bool scene_is_fine(const struct lam_scene *scene) { return scene_find_form(scene, NULL) & KNOWN_FINE; }

@@ -100,6 +100,7 @@ struct lam_scene {
     uint64_t object_items; // triangles, lines and points of all added objects
     // The crease angle of meshes whose normals the device computes; 0 means that all meshes have normals.
     double deferred_crease_rad;
+    uint64_t *known_form;    // the form, and a hash of the objects that it was found for; atomic
     struct scene_mark *mark; // the state for lam_scene_reset, or NULL
     bool shared_arrays;      // meshes may share arrays, so no array is changed in place
     bool first_all_used;     // the importer of the first mesh knows that triangles use every vertex
@@ -191,20 +192,28 @@ bool scene_measure(struct lam_scene *scene, struct pool *pool, lam_error *error)
 // Returns the largest distance of a used vertex from a point, in world space.
 double scene_radius(const struct lam_scene *scene, lam_vec3 centre);
 
-// Adds twice the areas of a mesh's triangles to *all, and the components of their area vectors along `axis` to *facing.
-// These components are positive for front faces whose normal is `axis`.
-void mesh_add_areas(const lam_mesh *mesh, lam_vec3 axis, double *all, double *facing);
+// Properties of the surface of the visible objects, from the points of a lattice (surface_lattice.h). They depend
+// neither on the order of the triangles nor on their number.
+struct surface_facts {
+    lam_vec3 facing; // the sum of all area vectors, divided by the sum of their lengths
+    double fullest;  // the fraction of the area in the six directions with the most area
+    double detail;   // the number of planes per point of the lattice, 0..1
+};
+struct surface_facts surface_facts(const struct lam_scene *scene, struct pool *pool);
 
 // The form of a scene, which determines the lights of the studio.
 enum scene_form {
-    FORM_FLAT,    // a few flat faces contain most of the area, as in machine parts; or the scene has few triangles
+    FORM_FLAT,    // a few flat faces contain most of the area, as in machine parts; or the scene has few faces
     FORM_CURVED,  // the normals differ everywhere, as in scans
     FORM_TERRAIN, // an open surface with slopes; most of its area faces up
 };
 
-// Returns the form of the visible objects, from a few hundred sampled triangles. The result is the same on every
-// computer, and in each frame of an animation. `scene` may be NULL.
+// These functions return the form of the visible objects, and whether their faces are too small to be visible. The
+// results are the same on every computer, and in each frame of an animation. `scene` may be NULL.
 enum scene_form scene_form(const struct lam_scene *scene);
+bool scene_is_fine(const struct lam_scene *scene);
+// Computes these results with the threads of a pool. The scene keeps them until its objects change.
+int scene_find_form(const struct lam_scene *scene, struct pool *pool);
 
 // Returns whether a mesh consists of lines or points. Functions that compute normals or follow surfaces skip such
 // meshes.

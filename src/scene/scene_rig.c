@@ -73,33 +73,16 @@ static void suit_contrast(lam_light *key, lam_light *fill, lam_light *sky, enum 
     sky->ground = grey(0.02 * share);
 }
 
-// Returns whether most materials reflect no light from the sky, because ka is 0 and kd is not.
-static bool lacks_ambient(const struct lam_scene *scene)
-{
-    int count = 0;
-    for (int i = 0; i < scene->materials.count; i++) {
-        const lam_material *m = lam_scene_material(scene, i);
-        bool reflects = m->ambient.r > 0 || m->ambient.g > 0 || m->ambient.b > 0;
-        count += !reflects && (m->diffuse.r > 0 || m->diffuse.g > 0 || m->diffuse.b > 0);
-    }
-    return 2 * count > scene->materials.count;
-}
-
 // A curved model is lit from near the eye, so that outlines are dark and small slopes are visible. At most, a point
-// reflects 0.9·1.33 (key) + 0.07 (sky) = 1.27 times ka or kd. A terrain is lit from below the view's axis, because
+// reflects 0.9·1.33 (key) + 0.07 (sky) = 1.27 times kd. A terrain is lit from below the view's axis, because
 // light from above brightens all slopes alike: level ground is dark, and slopes that face the viewer are bright.
 // Returns the number of lights: `count` if the faces are flat.
 static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const struct lam_scene *scene)
 {
     enum scene_form form = scene_form(scene);
     lights[0].occluded = lights[2].occluded = 1;
-    if (form == FORM_FLAT) {
-        if (scene && lacks_ambient(scene)) { // the fill and the rim light replace the light from the sky
-            lights[1].diffuse = grey(0.24);
-            lights[2].diffuse = grey(0.68);
-        }
+    if (form == FORM_FLAT)
         return count;
-    }
     lights[2] = lights[3]; // no rim light
     lam_light *key = &lights[0], *fill = &lights[1], *sky = &lights[2];
     double reflectance = grey_reflectance(scene);

@@ -364,7 +364,9 @@ static lam_scene *hills(float height)
         for (int x = 0; x < HILLS_SIDE; x++) {
             float *p = points + 3 * (z * HILLS_SIDE + x);
             p[0] = (float)x;
-            p[1] = height * (float)((x + z) % 3);
+            uint32_t random = (uint32_t)(x * HILLS_SIDE + z) * 2654435769u;
+            random = (random ^ random >> 15) * 2246822519u;
+            p[1] = height * 0x1p-23f * (float)(random >> 8);
             p[2] = (float)z;
         }
     for (uint32_t z = 0; z + 1 < HILLS_SIDE; z++)
@@ -400,7 +402,8 @@ static void terrains_are_lit_from_below(void **state)
         assert_true(lam_light_check(&lights[i], NULL));
     assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_THREE_POINT, false, lights), 4);
     assert_int_equal(lam_scene_rig_lights(level, LAM_RIG_AUTO, false, lights), 4);
-    assert_int_equal(lam_scene_rig_lights(steep, LAM_RIG_AUTO, false, lights), 4);
+    lam_scene_rig_lights(steep, LAM_RIG_AUTO, false, lights);
+    assert_true(lights[0].position.y > 0);
     assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, true, lights), 4); // with a ground
     lam_scene_set_up(terrain, LAM_UP_Z);                                            // it stands like a wall
     assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, false, lights), 4);

@@ -66,8 +66,9 @@ struct material_products *products_make(struct buffer *storage, const struct fra
         out->ground = out->sky + skies;
         at += skies * 6 * sizeof(float);
         for (size_t i = 0; i < skies; i++) {
-            product(out->sky[i], &material->ambient.r, frame->hemispheres[i].sky);
-            product(out->ground[i], &material->ambient.r, frame->hemispheres[i].ground);
+            const float *color = frame_sky_color(frame, &frame->hemispheres[i], material);
+            product(out->sky[i], color, frame->hemispheres[i].sky);
+            product(out->ground[i], color, frame->hemispheres[i].ground);
         }
     }
     return products;

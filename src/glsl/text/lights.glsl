@@ -82,8 +82,8 @@ hemisphere hemisphere_of(int i, Material m, bool front)
         h.ground = (lights_in_texture ? list_texel(product_list, product + 1) : front ? ground_product[i]
             : back_ground_product[i]).rgb;
     } else {
-        h.sky = mul3(m.ambient.rgb, (lights_in_texture ? list_texel(light_list, first + 1) : hemispheres[i].sky).rgb);
-        h.ground = mul3(m.ambient.rgb, (lights_in_texture ? list_texel(light_list, first + 2) : hemispheres[i].ground).rgb);
+        h.sky = mul3(SKY_COLOR, (lights_in_texture ? list_texel(light_list, first + 1) : hemispheres[i].sky).rgb);
+        h.ground = mul3(SKY_COLOR, (lights_in_texture ? list_texel(light_list, first + 2) : hemispheres[i].ground).rgb);
     }
     return h;
 }

@@ -64,6 +64,10 @@ static const struct light_field rows[] = {
     {.field = {MEMBER(up), .type = LAM_FIELD_DIRECTION, .min = -UNBOUNDED, .max = UNBOUNDED,
                .light_types = BIT(HEMISPHERE), .summary = "direction of the sky; default: the scene's up axis"},
      .optional = true},
+    {.field = {MEMBER(by_diffuse), .type = LAM_FIELD_FLAG, .max = 1, .light_types = BIT(HEMISPHERE),
+               .summary = "whether classic materials reflect this light with their diffuse color instead of their "
+                          "ambient color"},
+     .optional = true},
     {.field = {.name = "no_shadows",
                .key = "shadows",
                .offset = offsetof(lam_light, no_shadows),

@@ -198,7 +198,8 @@ static void print_hemisphere(const lam_explained_hemisphere *h, int number_in_li
     row_color(4, "ground", h->ground, "");
     row_vector(4, "up", h->up, "eye space");
     row_number(4, "n·up", (double)h->n_dot_up, "");
-    row_color(4, "ambient", h->term, "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
+    row_color(4, "ambient", h->term,
+              h->by_diffuse ? "kd ⊙ mix(ground, sky, ½ + ½ n·up)" : "ka ⊙ mix(ground, sky, ½ + ½ n·up)");
 }
 
 // Prints all lights, or only the contributing lights if there are many.

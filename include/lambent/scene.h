@@ -58,7 +58,8 @@ typedef enum lam_normals {
 struct lam_bytes;
 
 // Opens a file that a model (MTL, texture) or a scene file (a model, a picture) names. `name` is relative to the folder
-// of the loaded file and stays inside it. Fills `bytes`. Returns false and fills `error` if the file cannot be read.
+// of the loaded file and stays inside it. Fills `bytes`. Returns false and fills `error` if the file cannot be read. If
+// `error` is LAM_CANNOT_READ, the loader may try other names for a picture or a material file (docs/formats.md).
 typedef bool lam_open_fn(void *user, const char *name, struct lam_bytes *bytes, lam_error *error);
 
 // Frees the bytes of a lam_open_fn. The loader calls it once for each opened file.

@@ -3,14 +3,33 @@
 
 #include "fail.h"
 #include "file_list.h"
+#include "number.h"
 #include "shown_name.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 // --- names
+
+int companion_escaped(const char *at)
+{
+    int high = at[0] == '%' ? number_hex_digit(at[1]) : -1, low = high < 0 ? -1 : number_hex_digit(at[2]);
+    return low < 0 ? -1 : high * 16 + low;
+}
+
+void companion_unescape(const char *uri, char *out)
+{
+    while (*uri) {
+        int byte = companion_escaped(uri);
+        *out++ = byte > 0 ? (char)byte : *uri; // %00 is not decoded, because a name cannot contain a zero byte
+        uri += byte > 0 ? 3 : 1;
+    }
+    *out = 0;
+}
 
 // Copies the components of a path to `out`, which may be `name` itself. Components that are "." or empty are omitted.
 // Each ".." removes the component before it. Returns false if the path leaves the folder, if no component is left, or
@@ -189,6 +208,99 @@ bool companion_open(const struct import_source *source, const char *name, struct
     if (!ok && cut && error && error->code == LAM_CANNOT_READ)
         explain_cut(name, error);
     return ok;
+}
+
+// --- searching
+
+enum { SEARCHES_MAX = 256 }; // a small file must not make the program list large folders many times
+
+// Replaces the components of a name by the entries of the model's folder that differ only in case. Returns the number
+// of entries for the last component that was looked for: 0, 1, or more if the name is ambiguous.
+static int match_case(const struct companions *companions, char *name)
+{
+    int found = 1;
+    for (char *at = name; at && found == 1; at = strchr(at, '/') ? strchr(at, '/') + 1 : NULL) {
+        char path[2 * COMPANION_NAME_SIZE], wanted[COMPANION_NAME_SIZE];
+        size_t length = strcspn(at, "/");
+        bool exact = false;
+        snprintf(path, sizeof path, "%s%.*s.", companions->folder, (int)(at - name), name);
+        snprintf(wanted, sizeof wanted, "%.*s", (int)length, at);
+        DIR *entries = opendir(path);
+        found = 0;
+        for (struct dirent *entry; entries && !exact && (entry = readdir(entries));) {
+            if (strcasecmp(entry->d_name, wanted) != 0)
+                continue;
+            exact = strcmp(entry->d_name, wanted) == 0;
+            found = exact ? 1 : found + 1;
+            memcpy(at, entry->d_name, length);
+        }
+        if (entries)
+            closedir(entries);
+    }
+    return found;
+}
+
+// Tries one name. Returns true if the search ends: with the file, or with another error than a missing file.
+static bool try_name(const struct import_source *source, const char *name, bool any_case, struct arena *arena,
+                     struct companion *out, lam_error *error)
+{
+    struct companions *companions = source->open_state;
+    char own[COMPANION_NAME_SIZE];
+    bool cut, confined = companion_name(source, name, own, &cut);
+    if (any_case) {
+        if (!companions || companions->open || !companions->folder || companions->searches++ >= SEARCHES_MAX ||
+            !confined || own[0] == '/')
+            return false;
+        int matches = match_case(companions, own);
+        if (matches > 1)
+            return !fail_name(source, name, "and several files differ from this name only in case; none is used",
+                              error);
+        if (!matches)
+            return false;
+    }
+    *error = (lam_error){0};
+    if (source->open(source, any_case ? own : name, arena, out, error) &&
+        !(out->name = arena_string(arena, confined ? own : name)))
+        call_memory_error(source->call, COMPANION_NAME_SIZE, error);
+    return error->code != LAM_CANNOT_READ;
+}
+
+bool companion_find(const struct import_source *source, struct lam_scene *scene, const char *name, const char *beside,
+                    struct arena *arena, struct companion *out, lam_error *error)
+{
+    enum { WAYS = 4 }; // the name and its last component, each in the model's folder and in `beside`
+    char *names[2][WAYS], shown[2][SHOWN_NAME_SIZE];
+    size_t length = strlen(name), quoted = length > 2 && *name == '"' && name[length - 1] == '"';
+    lam_error first = {0}, other = {0};
+    for (int step = 0; step < 4 * WAYS; step++) {
+        const int decoded = step / (2 * WAYS), any_case = step / WAYS % 2, way = step % WAYS;
+        char **own = names[decoded];
+        if (way == 0 && !any_case) {
+            own[0] = own[2] = arena_string_of(arena, name + quoted, length - 2 * quoted);
+            if (decoded && own[0])
+                companion_unescape(own[0], own[0]);
+            for (char *at = own[0]; at && *at; at++)
+                own[2] = *at == '/' || *at == '\\' ? at + 1 : own[2];
+            own[1] = own[0] ? join(arena, beside, own[0]) : NULL;
+            own[3] = own[0] ? join(arena, beside, own[2]) : NULL;
+            if (!own[1] || !own[3])
+                return call_memory_error(source->call, 2 * length, error);
+        }
+        bool repeated = decoded && strcmp(own[way], names[0][way]) == 0;
+        for (int i = 0; i < way; i++)
+            repeated |= strcmp(own[way], own[i]) == 0;
+        lam_error *result = step ? &other : &first;
+        if (repeated || !try_name(source, own[way], any_case, arena, out, result))
+            continue;
+        if (out->name && scene && (decoded || any_case || way >= 2))
+            scene_warn(scene, "%s: names the file '%s'; '%s' is used", source->name, shown_file(name, shown[0]),
+                       shown_file(out->name, shown[1]));
+        first = *result;
+        break;
+    }
+    if (!out->name && error)
+        *error = first;
+    return out->name != NULL;
 }
 
 bool companion_open_of_scene(const struct import_source *source, const char *name, struct arena *arena,

@@ -1,8 +1,12 @@
-// mesh_build.c: splits polygons into triangles, and adds meshes to the scene, for all formats.
+// mesh_build.c: splits polygons into triangles, converts vertex colours and adds meshes to the scene, for all formats.
 #include "mesh_build.h"
 
 #include "loop_status.h"
+#include "parallel_rows.h"
+#include "srgb.h"
 #include "triangulate.h"
+
+#include <float.h>
 
 enum { TASK_POLYGONS = 1024, SMALL_POLYGON = 64 };
 
@@ -28,6 +32,17 @@ static inline void reorder(uint32_t *at, uint32_t count, const uint32_t *triples
         at[i] = copy[triples[i]];
 }
 
+// Returns the polygon's first corner whose position is not finite, or `count` if there is none.
+static uint32_t bad_corner(const struct mesh_polygons *polygons, size_t first, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const float *p = polygons->positions + 3 * (size_t)polygons->corners[0][first + i];
+        if ((p[0] - p[0]) + (p[1] - p[1]) + (p[2] - p[2]) != 0)
+            return i;
+    }
+    return count;
+}
+
 static bool split_polygon(const struct splitting *splitting, struct mesh_polygon polygon, struct splitter *splitter)
 {
     uint32_t count = polygon.count, corner_count = 3 * (count - 2), *const *arrays = splitting->polygons->corners;
@@ -40,7 +55,14 @@ static bool split_polygon(const struct splitting *splitting, struct mesh_polygon
         if (!corners || !triples)
             return false;
     }
-    size_t first = 3 * (size_t)polygon.first_triangle;
+    size_t first = 3 * (size_t)polygon.first_triangle, bad = bad_corner(splitting->polygons, first, count);
+    for (int k = 0; k < 3 && bad < count; k++) {
+        uint32_t *at = arrays[k] ? arrays[k] + first : NULL, one = at ? at[bad] : 0;
+        for (uint32_t i = 0; at && i < corner_count; i++)
+            at[i] = one;
+    }
+    if (bad < count)
+        return true;
     if (!triangulate(&splitter->triangulator, splitting->polygons->positions, arrays[0] + first, count, triples))
         return false;
     for (uint32_t i = 0; splitting->inner_edges && i < count - 2; i++)
@@ -100,6 +122,49 @@ bool mesh_triangulate(const struct import_source *source, struct lam_scene *scen
     if (!call_should_continue(call))
         return call_error(call, error);
     return !splitting.loop.out_of_memory || call_memory_error(call, polygons->items[0].count * sizeof(uint32_t), error);
+}
+
+// --- colours
+
+struct coloring {
+    float *colors;
+    size_t count;
+    bool raw;
+    float range[2]; // of red, green and blue, and of alpha
+};
+
+static bool convert_chunk(void *user, size_t index, lam_error *error)
+{
+    const struct coloring *coloring = user;
+    size_t first, last;
+    (void)error;
+    parallel_rows_range(coloring->count, index, &first, &last);
+    for (size_t i = 4 * first; i < 4 * last; i++) {
+        bool alpha = i % 4 == 3;
+        float c = coloring->colors[i] < 0 ? 1 : coloring->colors[i] / coloring->range[alpha];
+        c = c > 1 ? 1 : c;
+        coloring->colors[i] = coloring->raw || alpha ? c : (float)srgb_linear((double)c);
+    }
+    return true;
+}
+
+bool mesh_convert_colors(const struct import_source *source, struct lam_scene *scene, float *colors, size_t count,
+                         const struct color_range ranges[2], lam_error *error)
+{
+    struct coloring coloring = {.colors = colors, .count = count, .raw = source->params->color == LAM_COLOR_RAW};
+    float largest[2] = {0, 0};
+    for (size_t i = 0; i < 4 * count; i++)
+        if (colors[i] > largest[i % 4 == 3] && colors[i] <= FLT_MAX)
+            largest[i % 4 == 3] = colors[i];
+    for (int k = 0; k < 2; k++) {
+        float most = largest[k], least = ranges[k].least, usual = ranges[k].usual;
+        coloring.range[k] = usual == 0 ? 1 : most <= least ? least : most <= 255 ? 255 : usual > 255 ? usual : 65535;
+        if (usual != 0 && coloring.range[k] != usual)
+            scene_warn(scene, "%s: %s reach %g, so their range is taken as 0 to %g, not 0 to %g", source->name,
+                       k ? "opacities of vertices" : "vertex colours", (double)most, (double)coloring.range[k],
+                       (double)usual);
+    }
+    return parallel_rows_run(source, parallel_rows_count(count), convert_chunk, &coloring, error);
 }
 
 bool mesh_add_object(struct lam_scene *scene, const lam_mesh *mesh, const char *name, lam_error *error)

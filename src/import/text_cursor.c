@@ -59,3 +59,13 @@ char *text_name(struct arena *arena, const uint8_t *at, size_t length)
         *to = 0;
     return name;
 }
+
+const uint8_t *text_name_end(const uint8_t *at, const uint8_t *end)
+{
+    for (const uint8_t *c = at; c < end; c++)
+        if (*c == '#' && (c > at ? text_white(c[-1]) : c + 1 == end || text_white(c[1])))
+            end = c;
+    while (end > at && text_white(end[-1]))
+        end--;
+    return end;
+}

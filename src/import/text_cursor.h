@@ -35,6 +35,10 @@ static inline const uint8_t *text_line_end(const uint8_t *at, const uint8_t *end
     return at;
 }
 
+// Returns the end of a name, without white space and a comment after it. '#' after white space begins a comment. At the
+// beginning of a name it does so only if white space follows.
+const uint8_t *text_name_end(const uint8_t *at, const uint8_t *end);
+
 // Returns whether the word at `at` is `word` (lower case), ignoring case.
 bool text_is_word(const uint8_t *at, const uint8_t *end, const char *word);
 

@@ -57,9 +57,11 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
                    uint64_t start_ns, lam_error *error)
 {
     const lam_load_params *params = source->params;
-    if (!check_not_empty(scene, source->name, error))
+    if (!importer->is_scene_file &&
+        (!scene_repair(scene, source->name, params->normals, params->crease_angle_rad, source->pool, error) ||
+         !scene_give_colors_white(scene, error)))
         return false;
-    if (!importer->is_scene_file && !scene_give_colors_white(scene, error))
+    if (!check_not_empty(scene, source->name, error))
         return false;
     show_clear_scene(scene, source->name);
     // The importer of scene files has already recorded the origin of each model.

@@ -104,6 +104,7 @@ struct lam_scene {
     struct scene_mark *mark; // the state for lam_scene_reset, or NULL
     bool shared_arrays;      // meshes may share arrays, so no array is changed in place
     bool first_all_used;     // the importer of the first mesh knows that triangles use every vertex
+    bool normals_missing;    // before scene_repair, an index of a normal may be UINT32_MAX: the corner has no normal
 };
 
 // Works like lam_scene_make, but allocations count towards the limit of `call` (may be NULL) until scene_built is
@@ -156,6 +157,13 @@ bool scene_note_origin(struct lam_scene *scene, struct scene_origin origin, int 
 int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_params *params,
                     struct call_control *call, lam_error *error);
 int scene_add_formula(struct lam_scene *scene, const lam_formula *formula, struct call_control *call, lam_error *error);
+
+// Repairs the meshes of a file directly after it is read. Triangles, lines and points that use a vertex whose position
+// is not finite are left out, and a file without any other fails with LAM_CANNOT_READ. A normal that is zero or not
+// finite is no normal. If a mesh contains no other normal, its array is dropped; otherwise the missing normals are
+// computed, and lines and points without a normal become a mesh without normals. Adds one warning for each kind.
+bool scene_repair(struct lam_scene *scene, const char *name, lam_normals normals, double crease_angle_rad,
+                  struct pool *pool, lam_error *error);
 
 // Prepares every mesh for drawing: computes missing normals, or all normals if `normals` requests that.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,

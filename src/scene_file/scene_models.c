@@ -96,7 +96,8 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     inner->format = importer->name;
     inner->color = r->color;
     model->crease_angle_rad = importer_crease(importer, wanted->normals, wanted->crease_angle_rad);
-    if (!importer->load(&source, inner, r->error))
+    if (!importer->load(&source, inner, r->error) ||
+        !scene_repair(inner, source.name, wanted->normals, wanted->crease_angle_rad, source.pool, r->error))
         return false;
     uint64_t items = 0;
     for (int i = 0; i < inner->meshes.count; i++)

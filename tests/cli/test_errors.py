@@ -131,7 +131,7 @@ class Models(Case):
 
     def test_no_triangles(self):
         ply = b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
-        for name, data in (("points.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"), ("none.stl", b"solid none\nendsolid none\n"),
+        for name, data in (("none.obj", b"vn 0 0 1\nvt 0 0\n"), ("none.stl", b"solid none\nendsolid none\n"),
                            ("zero.stl", bytes(80) + struct.pack("<I", 0)), ("none.ply", ply)):
             self.one_sentence(self.bad(2, self.write(name, data), says=name))
 

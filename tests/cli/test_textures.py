@@ -3,6 +3,7 @@
 import base64
 import json
 import math
+import shutil
 import struct
 
 from harness import ROOT, Case, pixel, read_png, write_png
@@ -40,6 +41,94 @@ class Textures(Case):
         self.give("t.png", picture)
         self.give("m.mtl", "newmtl a\nKd 0 0 0\nKa 0 0 0\nillum 0\n" + statements)
         return self.give("m.obj", SQUARE)
+
+    def test_search(self):
+        """Pictures that moved: beside the material's file, by their last component, in another case, with %20, in quotes."""
+        def fill(files, mtl="m.mtl", name="t.png"):
+            for file in files:
+                path = self.folder / file
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(QUARTERS)
+            path = self.folder / mtl
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(f"newmtl a\nKd 1 1 1\nillum 0\nmap_Kd {name}\n")
+            (self.folder / "m.obj").write_text(SQUARE.replace("m.mtl", mtl))
+            self.given |= {file.split("/")[0] for file in [*files, mtl]} | {"m.obj"}
+
+        rows = [  # files, MTL file, name, expected: drawn, words in the single warning
+            (["sub/t.png"], "sub/m.mtl", "t.png", True, None),
+            (["t.png", "sub/t.png"], "sub/m.mtl", "sub/t.png", True, None),
+            (["sub/t.png"], "sub/m.mtl", "..\\t.png", True, "'sub/t.png' is used"),
+            (["sub/t.png"], "sub/m.mtl", "C:\\tex\\t.png", True, "'sub/t.png' is used"),
+            (["t.png"], "m.mtl", "C:\\tex\\t.png", True, None),
+            (["t.png"], "m.mtl", "textures/t.png", True, "names the file 'textures/t.png'; 't.png' is used"),
+            (["Textures/T.PNG"], "m.mtl", "textures/t.png", True, "'Textures/T.PNG' is used"),
+            (["T.png", "t.PNG"], "m.mtl", "t.png", False, "several files differ from this name only in case"),
+            (["T.png", "t.png"], "m.mtl", "t.png", True, None),
+            (["my t.png"], "m.mtl", "my%20t.png", True, "'my t.png' is used"),
+            (["my t.png", "my%20t.png"], "m.mtl", "my%20t.png", True, None),
+            (["My t.png"], "m.mtl", "sub/my%20t.png", True, "'My t.png' is used"),
+            (["my t.png"], "m.mtl", '"my t.png"', True, None),
+            (["t.png"], "m.mtl", "t.png -bm 1 # map", True, None),
+            ([], "m.mtl", "t.png", False, "t.png: cannot open"),
+        ]
+        for sandbox in ("off", "require"):
+            for files, mtl, name, drawn, words in rows:
+                for left in ("sub", "Textures", "t.png", "T.png", "t.PNG", "my t.png", "My t.png", "my%20t.png"):
+                    path = self.folder / left
+                    if path.is_dir():
+                        shutil.rmtree(path)
+                    elif path.exists():
+                        path.unlink()
+                fill(files, mtl, name)
+                done = self.good("m.obj", *LOOK, "--sandbox", sandbox)
+                self.given.add("a.png")
+                warnings = done.stderr.decode().count("warning:")
+                picture = corners(read_png((self.folder / "a.png").read_bytes()))
+                self.assertEqual(picture[0] == RED[:3], drawn, (files, name))
+                self.assertEqual(warnings, words is not None, (files, name, done.stderr))
+                self.assertIn(words or "", done.stderr.decode())
+        # Never outside of the model's folder.
+        (self.folder / "in").mkdir()
+        self.given |= {"in", "out.png"}
+        (self.folder / "out.png").write_bytes(QUARTERS)
+        (self.folder / "in" / "OUT.png").symlink_to("../out.png")
+        (self.folder / "in" / "m.mtl").write_text("newmtl a\nillum 0\nmap_Kd ../out.png\n")
+        (self.folder / "in" / "m.obj").write_text(SQUARE)
+        done = self.good("in/m.obj", *LOOK)
+        self.assertIn("drawn without this texture", done.stderr.decode())
+        self.assertNotEqual(corners(read_png((self.folder / "a.png").read_bytes()))[0], RED[:3])
+
+    def test_ply(self):
+        """PLY names its pictures in comments. Texture coordinates of vertices and of faces, ASCII and binary, small and large
+        (read in parts), draw the same picture, and converted files keep it."""
+        r, g, b, w = RED[:3], GREEN[:3], BLUE[:3], WHITE[:3]
+        self.give("t.png", QUARTERS)
+        uv = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        at = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+        for wedge in (False, True):
+            for form in ("ascii", "binary_little_endian", "binary_big_endian"):
+                for more in (0, 100000):  # faces that fill the file
+                    vertex = "" if wedge else "property float s\nproperty float t\n"
+                    face = "property list uchar float texcoord\n" if wedge else ""
+                    header = (f"ply\nformat {form} 1.0\ncomment TextureFile t.png\nelement vertex 4\nproperty float x\nproperty float y\n"
+                              f"property float z\n{vertex}element face {1 + more}\nproperty list uchar int vertex_indices\n{face}end_header\n")
+                    rows = [(*at[i], 0, *(() if wedge else uv[i])) for i in range(4)]
+                    if form == "ascii":
+                        body = "".join(" ".join(map(str, row)) + "\n" for row in rows)
+                        body += "4 0 1 2 3" + (" 8 0 0 1 0 1 1 0 1" if wedge else "") + "\n"
+                        body = (body + more * ("3 0 0 0" + (" 0" if wedge else "") + "\n")).encode()
+                    else:
+                        end = "<" if "little" in form else ">"
+                        body = b"".join(struct.pack(f"{end}{len(row)}f", *row) for row in rows)
+                        body += struct.pack(f"{end}B4i", 4, 0, 1, 2, 3) + (struct.pack(f"{end}B8f", 8, *sum(uv, ())) if wedge else b"")
+                        body += more * (struct.pack(f"{end}B3i", 3, 0, 0, 0) + (b"\0" if wedge else b""))
+                    self.give("m.ply", header.encode() + body)
+                    self.assertEqual(self.drawn("m.ply", "--show", "base-color"), [r, g, b, w], (wedge, form, more))
+            for other in ("glb", "obj"):
+                self.good("convert", "m.ply", f"n.{other}")
+                self.given |= self.new_files()
+                self.assertEqual(self.drawn(f"n.{other}", "--show", "base-color"), [r, g, b, w], (wedge, other))
 
     def test_mtl_orientation_and_options(self):
         r, g, b, w = RED[:3], GREEN[:3], BLUE[:3], WHITE[:3]

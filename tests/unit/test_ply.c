@@ -234,12 +234,12 @@ static void test_vertex_attributes(void **state)
                                                  "property float ty\nproperty float tz\nproperty float u\n"
                                                  "property float v\n" FACE("1") "end_header\n"
                                                                                 "1 0 0 0 0.5 0.25 3 0 4 0 1\n"
-                                                                                "0 1 0 0 0 nan 0 0 0 0.5 inf\n"
+                                                                                "0 1 0 0 0 1 0 0 0 0.5 inf\n"
                                                                                 "2 0 1 0 0 0 0 -7 0 0.5 0.75\n"
                                                                                 "3 0 1 2\n",
                                  "a.ply");
     const lam_mesh *mesh = mesh_of(scene);
-    static const float normals[] = {0.5f, 0.25f, 1, 0, 0, 0, 0, 0, 2};
+    static const float normals[] = {0.5f, 0.25f, 1, 0, 1, 0, 0, 0, 2};
     static const float tangents[] = {0.6f, 0, 0.8f, 1, 0, 0, 0, 1, 0, -1, 0, 1};
     static const float texcoords[] = {0, 1, 0, 0, 0.5f, 0.75f};
     assert_int_equal(mesh->normal_count, 3);
@@ -272,39 +272,159 @@ static void test_colors_bytes(void **state)
     lam_scene_free(scene);
 }
 
-// Floats and wide integers become linear floats, by the sRGB curve unless raw.
-static void test_colors_floats(void **state)
+// Numbers of every type are colours from 0 to 1 after their range is recognised, and then linear, by the sRGB curve unless
+// raw. `rgb` is the colour of the first vertex, the brightest.
+static void test_colors_ranges(void **state)
 {
     (void)state;
-    enum { STEPS = 1000 };
-    char *text = malloc(STEPS * 64), *at = text;
-    assert_non_null(text);
-    at += sprintf(at,
-                  HEADER("ascii") "element vertex %d\n" XYZ
-                                  "property float red\nproperty ushort green\nproperty double blue\n"
-                                  "property float alpha\n" FACE("1") "end_header\n",
-                  STEPS);
-    for (int i = 0; i < STEPS; i++)
-        at += sprintf(at, "%d %d 0 %.9g %d %s %.9g\n", i, i % 3, i / 500.0, i * 65, i ? "-1" : "nan", i / 500.0);
-    sprintf(at, "3 0 1 2\n");
-    for (int raw = 0; raw < 2; raw++) {
-        lam_scene *scene =
-            load_with(text, strlen(text), "a.ply", &(lam_load_params){.color = raw ? LAM_COLOR_RAW : LAM_COLOR_SRGB});
-        assert_int_equal(mesh_of(scene)->colors_format, LAM_COLORS_LINEAR_F32);
-        const float *colors = mesh_of(scene)->colors;
-        for (int i = 0; i < STEPS; i++) {
-            double numbers[] = {i / 500.0, i * 65 / 65535.0};
-            for (int c = 0; c < 2; c++) {
-                double s = numbers[c], linear = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
-                double expected = raw || s > 1 ? s : linear; // linear above 1, where sRGB ends
-                assert_near((double)colors[4 * i + c], expected, raw ? 1e-7 * expected : 1e-6);
+    static const struct {
+        const char *type, *alpha, *first, *rest, *warning;
+        double rgb[3], opacity;
+    } rows[] = {
+        {"float", "float", "1 0.5 0 0.25", "0 0 0 1", NULL, {1, 0.5, 0}, 0.25},
+        {"double", "float", "0.5 0.25 nan 0.5", "0 -1 0 1", NULL, {0.5, 0.25, 0}, 0.5},
+        {"float",
+         "float",
+         "255 51 0 51",
+         "0 0 0 255",
+         "reach 255, so their range is taken as 0 to 255, not 0 to 1",
+         {1, 0.2, 0},
+         0.2},
+        {"float",
+         "uchar",
+         "255 51 0 51",
+         "0 0 0 255",
+         "reach 255, so their range is taken as 0 to 255, not 0 to 1",
+         {1, 0.2, 0},
+         0.2},
+        {"uchar", "float", "255 51 0 0.5", "0 0 0 1", NULL, {1, 0.2, 0}, 0.5},
+        {"ushort", "ushort", "65535 13107 0 13107", "0 0 0 65535", NULL, {1, 0.2, 0}, 0.2},
+        {"ushort",
+         "uchar",
+         "255 51 0 255",
+         "0 0 0 255",
+         "reach 255, so their range is taken as 0 to 255, not 0 to 65535",
+         {1, 0.2, 0},
+         1},
+        {"short",
+         "uchar",
+         "255 51 0 255",
+         "0 0 0 255",
+         "reach 255, so their range is taken as 0 to 255, not 0 to 32767",
+         {1, 0.2, 0},
+         1},
+        {"int", "int", "255 51 -1 51", "0 0 0 255", NULL, {1, 0.2, 0}, 0.2},
+        {"uint",
+         "uchar",
+         "65535 13107 0 255",
+         "0 0 0 255",
+         "reach 65535, so their range is taken as 0 to 65535, not 0 to 255",
+         {1, 0.2, 0},
+         1},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (int raw = 0; raw < 2; raw++) {
+            char text[1024];
+            snprintf(text, sizeof text,
+                     HEADER("ascii") "element vertex 3\n" XYZ
+                                     "property %s red\nproperty %s green\nproperty %s blue\nproperty %s alpha\n" FACE(
+                                         "1") "end_header\n0 0 0 %s\n1 0 0 %s\n0 1 0 %s\n3 0 1 2\n",
+                     rows[i].type, rows[i].type, rows[i].type, rows[i].alpha, rows[i].first, rows[i].rest,
+                     rows[i].rest);
+            lam_scene *scene = load_with(text, strlen(text), "a.ply",
+                                         &(lam_load_params){.color = raw ? LAM_COLOR_RAW : LAM_COLOR_SRGB});
+            const char *warning = lam_scene_warning(scene, 0);
+            const float *colors = mesh_of(scene)->colors;
+            assert_int_equal(mesh_of(scene)->colors_format, LAM_COLORS_LINEAR_F32);
+            assert_true(rows[i].warning ? warning && strstr(warning, rows[i].warning) : !warning);
+            for (int c = 0; c < 3; c++) {
+                double s = rows[i].rgb[c], linear = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+                assert_near((double)colors[c], raw ? s : linear, 1e-6);
             }
-            assert_true(colors[4 * i + 2] == 0);
-            assert_near((double)colors[4 * i + 3], i < 500 ? i / 500.0 : 1.0, 1e-7);
+            assert_near((double)colors[3], rows[i].opacity, 1e-6);
+            lam_scene_free(scene);
         }
+}
+
+// Packed colours of the Point Cloud Library and base colours of Gaussian splats, and the warning about the rest.
+static void test_colors_special(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *properties, *numbers, *warning;
+        uint8_t bytes[4]; // sRGB
+    } rows[] = {
+        {"property uint rgb\n", "16744448", NULL, {255, 128, 0, 255}},
+        {"property int rgba\n", "-2130739200", NULL, {255, 128, 0, 128}},
+        {"property float rgb\n", "2.34180529e-38", NULL, {255, 0, 1, 255}},
+        {"property uchar blue\nproperty float red\nproperty ushort green\n", "0 1 32896", NULL, {255, 128, 0, 255}},
+        {"property double rgb\n", "2.34180529e-38", NULL, {255, 0, 1, 255}},
+        {"property uchar diffuse_red\nproperty uchar diffuse_green\nproperty uchar diffuse_blue\n",
+         "255 128 0",
+         NULL,
+         {255, 128, 0, 255}},
+        {"property float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\nproperty float opacity\n",
+         "1.77245385 0 -9 1",
+         "a.ply: contains data that is not drawn: opacity",
+         {255, 128, 0, 255}},
+        {"property float confidence\nproperty list uchar int names\nproperty uchar red\n",
+         "1 0 7",
+         "a.ply: contains data that is not drawn: confidence, names, red, element camera",
+         {0, 0, 0, 0}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, HEADER("ascii") "element vertex 1\n" XYZ "%s%send_header\n0 0 0 %s\n%s",
+                 rows[i].properties, rows[i].bytes[3] ? "" : "element camera 1\nproperty int a\nproperty int b\n",
+                 rows[i].numbers, rows[i].bytes[3] ? "" : "1 2\n");
+        lam_scene *scene = load_text(text, "a.ply");
+        const lam_mesh *mesh = mesh_of(scene);
+        if (rows[i].warning)
+            assert_string_equal(lam_scene_warning(scene, 0), rows[i].warning);
+        else
+            assert_null(lam_scene_warning(scene, 0));
+        if (mesh->colors_format == LAM_COLORS_LINEAR_F32)
+            for (int c = 0; c < 3; c++) {
+                double s = rows[i].bytes[c] / 255.0, linear = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+                assert_near((double)((const float *)mesh->colors)[c], linear, 0.005);
+            }
+        else if (rows[i].bytes[3])
+            assert_memory_equal(mesh->colors, rows[i].bytes, 4);
+        else
+            assert_null(mesh->colors);
         lam_scene_free(scene);
     }
-    free(text);
+}
+
+// Texture coordinates of vertices and of the corners of faces, and the numbers of the faces' textures.
+static void test_textures(void **state)
+{
+    (void)state;
+    static const char text[] =
+        HEADER("ascii") "comment TextureFile one.ppm\ncomment TextureFile two words.ppm\nelement vertex 4\n" XYZ
+                        "element face 4\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+                        "property int texnumber\nend_header\n" SQUARE
+                        "4 0 1 2 3 8 0 0 1 0 1 1 0 1 1\n3 0 1 2 6 0.5 0 0.25 0 nan 1 1\n3 0 2 1 0 0\n3 0 2 3 2 7 8 5\n";
+    static const float corners[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}, {0.5f, 0}, {0.25f, 0},
+                                       {0, 1}, {0, 0}, {0, 0}, {0, 0}, {7, 8}, {0, 0}, {0, 0}};
+    static const lam_part parts[] = {{.triangle_count = 3, .material = 1},
+                                     {.first_triangle = 3, .triangle_count = 1, .material = 0},
+                                     {.first_triangle = 4, .triangle_count = 1, .material = -1}};
+    lam_scene *scene = load_text(text, "a.ply");
+    const lam_mesh *mesh = mesh_of(scene);
+    assert_int_equal(mesh->triangle_count, 5);
+    for (size_t i = 0; i < 15; i++)
+        assert_memory_equal(mesh->texcoords + 2 * (size_t)mesh->texcoord_indices[i], corners[i], sizeof *corners);
+    assert_int_equal(mesh->part_count, 3);
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(mesh->parts[i].first_triangle, parts[i].first_triangle);
+        assert_int_equal(mesh->parts[i].triangle_count, parts[i].triangle_count);
+        assert_int_equal(mesh->parts[i].material, parts[i].material);
+    }
+    assert_int_equal(lam_scene_material_count(scene), 2);
+    assert_string_equal(lam_scene_material(scene, 1)->map_names[LAM_MAP_DIFFUSE], "two words.ppm");
+    assert_non_null(strstr(lam_scene_warning(scene, 0), "one.ppm"));
+    lam_scene_free(scene);
 }
 
 // Colours and normals of faces, repeated for the triangles of a polygon.
@@ -564,7 +684,7 @@ static void test_body_errors(void **state)
     refuse_text(VERTICES FACE("1") "end_header\n0 0 0\n1 zero 0\n1 1 0\n0 1 0\n3 0 1 2\n", "a.ply",
                 "a.ply:11: vertex 2 of 4: found 'zero' as y, expected a number");
     refuse_text(VERTICES FACE("1") "end_header\n0 0 0\n1 nan 0\n1 1 0\n0 1 0\n3 0 1 2\n", "a.ply",
-                "a.ply: vertex 2 of 4: found NaN as y, expected a finite number");
+                "a.ply: contains nothing to draw: each triangle, line and point uses a vertex that is not finite");
     refuse_text(VERTICES "property uchar red\n" FACE("1") "end_header\n0 0 0 256\n1 0 0 0\n1 1 0 0\n0 1 0 0\n3 0 1 2\n",
                 "a.ply", "a.ply:11: vertex 1 of 4: found '256' as red, expected a whole number from 0 to 255");
     refuse_text(VERTICES FACE("2") "end_header\n" SQUARE "3 0 1 2\n", "a.ply",
@@ -619,9 +739,12 @@ static void test_binary_errors(void **state)
     }
     uint32_t infinity = 0x7f800000;
     memcpy(file.bytes + body + 16, &infinity, 4);
-    snprintf(sentence, sizeof sentence, "a.ply: byte %zu: vertex 2 of 4: found infinity as y, expected a finite number",
-             body + 16);
-    refuse(file.bytes, file.size, "a.ply", LAM_CANNOT_READ, sentence);
+    lam_scene *scene = load_with(file.bytes, file.size, "a.ply", NULL);
+    assert_int_equal(mesh_of(scene)->triangle_count, 1);
+    assert_string_equal(lam_scene_warning(scene, 0),
+                        "a.ply: 1 vertices have coordinates that are not finite; 1 triangles, "
+                        "lines or points that use them are left out");
+    lam_scene_free(scene);
 
     struct made negative = {0};
     put_square(&negative, "binary_little_endian", XYZ, "element face 1\nproperty list char int vertex_indices\n");
@@ -700,7 +823,9 @@ int main(void)
         cmocka_unit_test(test_mixed_of_triangle_size),
         cmocka_unit_test(test_vertex_attributes),
         cmocka_unit_test(test_colors_bytes),
-        cmocka_unit_test(test_colors_floats),
+        cmocka_unit_test(test_colors_ranges),
+        cmocka_unit_test(test_colors_special),
+        cmocka_unit_test(test_textures),
         cmocka_unit_test(test_face_attributes),
         cmocka_unit_test(test_concave_polygon),
         cmocka_unit_test(test_strips),

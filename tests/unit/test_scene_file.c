@@ -15,7 +15,7 @@ static bool open_beside(void *user, const char *name, lam_bytes *bytes, lam_erro
                        : strcmp(name, "a.mtl") == 0      ? "newmtl red\nKd 1 0 0\nNs 9\nnewmtl blue\nKd 0 0 1\n"
                        : strcmp(name, "in/b.obj") == 0   ? "mtllib b.mtl\n" TRIANGLE "usemtl green\nf 1 2 3\n"
                        : strcmp(name, "in/b.mtl") == 0   ? "newmtl green\nKd 0 1 0\n"
-                       : strcmp(name, "points.obj") == 0 ? "v 0 0 0\n"
+                       : strcmp(name, "points.obj") == 0 ? "v nan 0 0\n"
                        : strcmp(name, "inner.json") == 0 ? "{\"lambent\": 1}"
                                                          : NULL;
     if (!text) {
@@ -338,7 +338,7 @@ static void test_errors(void **unused)
     }
     lam_error error = {0};
     assert_null(load_scene("{\"lambent\": 1, \"objects\": [{\"file\": \"points.obj\"}]}", &error));
-    assert_non_null(strstr(error.text, "no faces, lines or points"));
+    assert_non_null(strstr(error.text, "contains nothing to draw"));
 }
 
 static const char whole[] =

@@ -105,18 +105,26 @@ static bool read_color(struct mtl_parser *reader, const uint8_t *at, const uint8
 
 static bool is_black(lam_rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 
-// If all colours of a material are black, replaces its ambient and diffuse colours, because exporters write such
-// materials by mistake. The new colour is white if a texture supplies the colour. Otherwise it is the neutral grey,
-// with a warning.
+// A map multiplies a colour, which is white by default. Exporters write a black diffuse colour beside a map by mistake.
+static void whiten_mapped(struct mtl_parser *reader, lam_material *m)
+{
+    char shown[SHOWN_NAME_SIZE];
+    if (!m->map_names[LAM_MAP_DIFFUSE] ||
+        (reader->kd && !is_black((lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b})))
+        return;
+    m->diffuse.r = m->diffuse.g = m->diffuse.b = 1;
+    if (reader->kd)
+        scene_warn(reader->scene, "%s: material '%s' has a black Kd and a map_Kd; it is drawn with Kd 1 1 1",
+                   reader->name, shown_name(m->name, shown));
+}
+
+// If all colours of a material are black, replaces its ambient and diffuse colours by the neutral grey, with a warning,
+// because exporters write such materials by mistake.
 static void replace_black(struct mtl_parser *reader, lam_material *m)
 {
     lam_rgb kd = {m->diffuse.r, m->diffuse.g, m->diffuse.b};
     if (!reader->kd || !is_black(kd) || !is_black(m->ambient) || !is_black(m->specular) || !is_black(m->emission))
         return;
-    if (m->map_names[LAM_MAP_DIFFUSE]) {
-        reader->kd = false;
-        return;
-    }
     lam_material neutral = lam_material_default();
     m->ambient = neutral.ambient;
     m->diffuse = (lam_rgba){neutral.diffuse.r, neutral.diffuse.g, neutral.diffuse.b, m->diffuse.a};
@@ -151,10 +159,8 @@ static bool close_material(struct mtl_parser *reader, lam_error *error)
     if (!reader->open)
         return true;
     lam_material *m = &reader->material;
+    whiten_mapped(reader, m);
     replace_black(reader, m);
-    // A texture multiplies the colour, which is white by default.
-    if (!reader->kd && m->map_names[LAM_MAP_DIFFUSE])
-        m->diffuse.r = m->diffuse.g = m->diffuse.b = 1;
     if (!reader->ka)
         m->ambient = (lam_rgb){m->diffuse.r, m->diffuse.g, m->diffuse.b};
     if (m->illum == 0) { // unlit: the surface emits its colour
@@ -179,6 +185,7 @@ static bool close_material(struct mtl_parser *reader, lam_error *error)
 
 static bool start_material(struct mtl_parser *reader, const uint8_t *at, const uint8_t *end, lam_error *error)
 {
+    end = text_name_end(at, end);
     if (!close_material(reader, error))
         return false;
     reader->material = lam_material_default();
@@ -193,8 +200,9 @@ static bool start_material(struct mtl_parser *reader, const uint8_t *at, const u
     return true;
 }
 
-// Skips a map's options and returns the start of its file name, which may contain spaces.
-static const uint8_t *skip_options(const uint8_t *at, const uint8_t *end)
+// Skips a map's options and returns the start of its file name, which may contain spaces. Options after a file name end
+// at `end`: their last word may be a number.
+static const uint8_t *skip_options(const uint8_t *at, const uint8_t *end, bool after_name)
 {
     static const struct {
         const char *word;
@@ -212,35 +220,59 @@ static const uint8_t *skip_options(const uint8_t *at, const uint8_t *end)
         }
         if (option < 0)
             return at;
+        const uint8_t *begin = at;
+        int count = 0;
         at = text_skip_white(text_skip_word(at, end), end);
-        for (int i = 0; i < options[option].max && at < end; i++) {
-            float unused;
+        for (float unused; count < options[option].max && at < end; count++) {
             const uint8_t *word = text_skip_word(at, end);
+            bool is_number = number_float(at, end, &unused) == word;
             // The last word is the file name, even if it is a number.
-            if (i >= options[option].min &&
-                (number_float(at, end, &unused) != word || text_skip_white(word, end) == end))
+            if (count >= options[option].min && (!is_number || (!after_name && text_skip_white(word, end) == end)))
                 break;
+            if (after_name && !is_number && memchr(at, '.', (size_t)(word - at)))
+                return begin; // a file name that contains " -"
             at = text_skip_white(word, end);
         }
+        if (after_name && count < options[option].min)
+            return begin;
     }
+}
+
+// Returns the end of a map's file name: the first white space that only options follow.
+static const uint8_t *name_end(const uint8_t *name, const uint8_t *end)
+{
+    for (const uint8_t *at = text_skip_word(name, end); at < end; at = text_skip_word(at, end)) {
+        const uint8_t *stop = at;
+        at = text_skip_white(at, end);
+        if (*at == '-' && skip_options(at, end, true) == end)
+            return stop;
+    }
+    return end;
 }
 
 static bool read_map(struct mtl_parser *reader, enum lam_map map, const uint8_t *at, const uint8_t *end,
                      lam_error *error)
 {
-    const uint8_t *name = skip_options(at, end), *last = name;
+    end = text_name_end(at, end);
+    const uint8_t *name = skip_options(at, end, false), *after = name_end(name, end);
     if (name == end)
         return true; // an empty map statement, which exporters write for "none"
-    while (last > at && text_white(last[-1]))
-        last--;
     struct arena *arena = &reader->scene->arena;
-    reader->material.map_names[map] = text_name(arena, name, (size_t)(end - name));
-    reader->material.map_options[map] = last > at ? text_name(arena, at, (size_t)(last - at)) : NULL;
+    // the options before and after the name
+    size_t length = (size_t)(text_name_end(at, name) - at), name_length = (size_t)(after - name);
+    after = length ? after : text_skip_white(after, end);
+    size_t more = (size_t)(end - after);
+    uint8_t *options = arena_alloc(arena, length + more);
+    for (size_t i = 0; options && i < length + more; i++) {
+        uint8_t c = i < length ? at[i] : after[i - length];
+        options[i] = text_white(c) ? ' ' : c;
+    }
+    reader->material.map_names[map] = text_name(arena, name, name_length);
+    reader->material.map_options[map] = options && length + more ? text_name(arena, options, length + more) : NULL;
     reader->set->other_maps += map == LAM_MAP_DISPLACEMENT;
     reader->set->reflection_maps += map == LAM_MAP_REFLECTION;
-    if (!reader->material.map_names[map] || (last > at && !reader->material.map_options[map]))
-        return call_memory_error(arena->call, (size_t)(end - at), error);
-    return true;
+    return (reader->material.map_names[map] && (length + more == 0 || reader->material.map_options[map])) ||
+           call_memory_error(arena->call, (size_t)(end - at), error);
 }
 
 enum statement {

@@ -14,9 +14,10 @@
 #include <string.h>
 #include <strings.h>
 
-// A picture that one or more maps use, identified by its confined name and by whether its values are colours.
+// A picture that one or more maps use, identified by its name, the folder of the material's file, and by whether its
+// values are colours.
 struct picture {
-    const char *name;
+    const char *name, *folder;
     lam_texture_values values;
     struct companion file;
     bool opened;
@@ -28,6 +29,8 @@ struct pictures {
     const struct import_source *source;
     struct picture *items;
     size_t count;
+    const struct mtl_set *set;
+    const lam_material *materials; // of the scene
 };
 
 static bool is_color(int slot)
@@ -156,15 +159,20 @@ static lam_texture_map map_of(struct lam_scene *scene, const char *file, const l
 
 // --- pictures
 
-static struct picture *picture_of(struct pictures *pictures, const char *name, int slot)
+static struct picture *picture_of(struct pictures *pictures, const lam_material *material, int slot)
 {
+    const struct mtl_folder *folders = pictures->set->folders.items;
+    const char *name = material->map_names[slot], *folder = "";
+    for (int i = 0; i < pictures->set->folders.count && folders[i].first <= material - pictures->materials; i++)
+        folder = folders[i].folder;
     lam_texture_values values =
         is_color(slot) && pictures->source->params->color != LAM_COLOR_RAW ? LAM_TEXTURE_COLOR : LAM_TEXTURE_NUMBERS;
     for (size_t i = 0; i < pictures->count; i++)
-        if (pictures->items[i].values == values && strcmp(pictures->items[i].name, name) == 0)
+        if (pictures->items[i].values == values && strcmp(pictures->items[i].name, name) == 0 &&
+            strcmp(pictures->items[i].folder, folder) == 0)
             return &pictures->items[i];
     struct picture *picture = &pictures->items[pictures->count++];
-    *picture = (struct picture){.name = name, .values = values};
+    *picture = (struct picture){.name = name, .folder = folder, .values = values};
     return picture;
 }
 
@@ -216,20 +224,20 @@ static bool list_map(struct pictures *pictures, struct lam_scene *scene, lam_mat
                      lam_error *error)
 {
     (void)scene, (void)error;
-    picture_of(pictures, material->map_names[slot], slot);
+    picture_of(pictures, material, slot);
     return true;
 }
 
 static bool give_map(struct pictures *pictures, struct lam_scene *scene, lam_material *material, int slot,
                      lam_error *error)
 {
-    const struct picture *picture = picture_of(pictures, material->map_names[slot], slot);
+    const struct picture *picture = picture_of(pictures, material, slot);
     return !picture->texture || add_map(scene, pictures->source->name, material, slot, picture, error);
 }
 
-static bool for_each_map(struct pictures *pictures, struct lam_scene *scene, int first, map_fn *run, lam_error *error)
+static bool for_each_map(struct pictures *pictures, struct lam_scene *scene, map_fn *run, lam_error *error)
 {
-    for (int i = first; i < scene->materials.count; i++) {
+    for (int i = 0; i < scene->materials.count; i++) {
         lam_material *material = (lam_material *)scene->materials.items + i;
         for (int slot = 0; slot < LAM_MAP_COUNT; slot++)
             if (is_drawn(slot) && material->map_names[slot] && !run(pictures, scene, material, slot, error))
@@ -238,21 +246,24 @@ static bool for_each_map(struct pictures *pictures, struct lam_scene *scene, int
     return true;
 }
 
-static size_t maps_from(const struct lam_scene *scene, int first)
+static size_t count_maps(const struct lam_scene *scene)
 {
     size_t count = 0;
-    for (int i = first; i < scene->materials.count; i++)
+    for (int i = 0; i < scene->materials.count; i++)
         for (int slot = 0; slot < LAM_MAP_COUNT; slot++)
             count += is_drawn(slot) && lam_scene_material(scene, i)->map_names[slot];
     return count;
 }
 
-static bool open_pictures(struct pictures *pictures, struct arena *memory, lam_error *error)
+static bool open_pictures(struct pictures *pictures, struct lam_scene *scene, struct arena *memory, lam_error *error)
 {
     for (size_t i = 0; i < pictures->count; i++) {
         struct picture *picture = &pictures->items[i];
-        picture->opened =
-            pictures->source->open(pictures->source, picture->name, memory, &picture->file, &picture->error);
+        bool noted = false; // the same name, with values of the other kind
+        for (size_t k = 0; k < i; k++)
+            noted |= strcmp(pictures->items[k].name, picture->name) == 0;
+        picture->opened = companion_find(pictures->source, noted ? NULL : scene, picture->name, picture->folder, memory,
+                                         &picture->file, &picture->error);
         if (!picture->opened && !texture_is_optional(&picture->error)) {
             if (error)
                 *error = picture->error;
@@ -278,20 +289,21 @@ static bool check_pictures(const struct pictures *pictures, struct lam_scene *sc
     return true;
 }
 
-bool mtl_maps_read(const struct import_source *source, struct lam_scene *scene, int first, struct arena *memory,
-                   lam_error *error)
+bool mtl_maps_read(const struct import_source *source, struct lam_scene *scene, const struct mtl_set *set,
+                   struct arena *memory, lam_error *error)
 {
-    size_t most = maps_from(scene, first);
+    size_t most = count_maps(scene);
     if (!most)
         return true;
-    struct pictures pictures = {source, arena_array(memory, most, sizeof *pictures.items), 0};
+    struct pictures pictures = {source, arena_array(memory, most, sizeof *pictures.items), 0, set,
+                                scene->materials.items};
     if (!pictures.items)
         return call_memory_error(source->call, most * sizeof *pictures.items, error);
-    for_each_map(&pictures, scene, first, list_map, error);
-    bool ok = open_pictures(&pictures, memory, error);
+    for_each_map(&pictures, scene, list_map, error);
+    bool ok = open_pictures(&pictures, scene, memory, error);
     if (ok) {
         pool_run(source->pool, pictures.count, decode_picture, &pictures);
-        ok = check_pictures(&pictures, scene, error) && for_each_map(&pictures, scene, first, give_map, error);
+        ok = check_pictures(&pictures, scene, error) && for_each_map(&pictures, scene, give_map, error);
     }
     for (size_t i = 0; i < pictures.count; i++) {
         file_release(&pictures.items[i].file.file);

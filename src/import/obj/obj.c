@@ -103,9 +103,11 @@ static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
         !alloc_arrays(obj, error))
         return false;
     call_progress(call, 0.2, "read");
-    if (!obj_parse(obj, error) || !obj_find_origin(obj, error) || !obj_convert_colors(obj, error))
-        return false;
-    return obj_complete(obj, error);
+    const struct color_range ranges[2] = {{1, 1}, {0, 0}};
+    return obj_parse(obj, error) && obj_find_origin(obj, error) &&
+           (!obj->colors ||
+            mesh_convert_colors(obj->source, obj->scene, obj->colors, (size_t)obj->total.positions, ranges, error)) &&
+           obj_complete(obj, error);
 }
 
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes, lam_error *error)

@@ -21,6 +21,8 @@
 #include "mesh_build.h"
 #include "mtl.h"
 
+#include <string.h>
+
 enum {
     OBJ_CHUNK = THRESHOLD(256 << 10, 1 << 10), // bytes: about a hundred microseconds of work
     OBJ_MISSING = UINT32_MAX,                  // a corner without this attribute
@@ -54,15 +56,14 @@ struct obj_chunk {
     // Pass two. Bounding box of the positions; low > high if there are no positions.
     float low[3], high[3];
     double low_exact[3], high_exact[3]; // the same bounds as doubles, set only if an origin is needed
-    float brightest;                    // the largest colour channel
     // Whether some corners have (…_used), and whether some corners lack (…_missing), a texture coordinate or a normal.
     bool texcoord_used, texcoord_missing, normal_used, normal_missing;
     // Whether a corner refers to a texture coordinate or a normal although the file contains none.
     bool texcoord_unknown, normal_unknown;
     uint64_t short_faces;                              // the number of faces with one or two corners
-    uint64_t nonfinite_numbers;                        // normals and texture coordinates that are not finite
-    const uint8_t *first_short_face, *first_nonfinite; // the first face with one or two corners, and the first vector
-                                                       // that is not finite
+    uint64_t nonfinite_numbers;                        // texture coordinates that are not finite
+    const uint8_t *first_short_face, *first_nonfinite; // the first face with one or two corners, and the first texture
+                                                       // coordinate that is not finite
 };
 
 // A statement of OBJ_OTHER, and the numbers of triangles, positions and texture coordinates before it.
@@ -114,9 +115,10 @@ struct obj {
     const char *object_name;       // the object's name if the file contains exactly one object; otherwise NULL
     struct obj_strokes strokes[2]; // points, lines
 
+    bool is_cloud; // all vertices are points, because the file contains no faces, lines or points
+
     double origin[3];
     bool has_origin;
-    float color_scale; // 1/255 if a channel is above 1
 
     struct mtl_set materials;
     struct obj_libraries libraries;
@@ -154,11 +156,10 @@ bool obj_parse(struct obj *obj, lam_error *error); // pass two
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error);
 // Chooses the origin. Reads the positions again as doubles if they are far from zero.
 bool obj_find_origin(struct obj *obj, lam_error *error);
-bool obj_convert_colors(struct obj *obj, lam_error *error);
 
 // obj_faces.c
 bool obj_complete_texcoords(struct obj *obj, lam_error *error);
-bool obj_complete_normals(struct obj *obj, lam_error *error);
+void obj_complete_normals(struct obj *obj);
 
 // obj_groups.c
 bool obj_read_statements(struct obj *obj, lam_error *error);
@@ -187,6 +188,9 @@ bool obj_load_chunked(const struct import_source *source, struct lam_scene *scen
 
 // Returns the line number of `at`. In a stream, the function returns 0 and sets line_requested.
 size_t obj_line_number(struct obj *obj, const uint8_t *at);
+
+// Returns whether a position is finite. scene_repair leaves out the faces of other positions.
+static inline bool obj_finite(const float p[3]) { return (p[0] - p[0]) + (p[1] - p[1]) + (p[2] - p[2]) == 0; }
 
 static inline bool obj_white(uint8_t c) { return c <= ' ' && c != '\n' && c != 0; }
 
@@ -218,7 +222,9 @@ static inline enum obj_kind obj_kind_of(const uint8_t *at)
     }
     if (*at == 'f' && at[1] <= ' ')
         return OBJ_FACE;
-    return *at == '\n' || *at == '#' || *at == 0 ? OBJ_EMPTY : OBJ_OTHER;
+    if (*at == '#' && memcmp(at, "#MRGB ", 6) != 0)
+        return OBJ_EMPTY;
+    return *at == '\n' || *at == 0 ? OBJ_EMPTY : OBJ_OTHER;
 }
 
 // Skips the rest of the statement and returns the start of the next line.

@@ -10,6 +10,7 @@
 #include "fail.h"
 #include "number.h"
 #include "shown_name.h"
+#include "srgb.h"
 #include "text_cursor.h"
 
 #include <string.h>
@@ -24,6 +25,7 @@ enum statement {
     POINTS,
     FREE_FORM, // curves and surfaces with their points and parameters
     IGNORED,   // known statements without effect
+    MRGB,      // vertex colours of ZBrush
     UNKNOWN,
     STATEMENTS,
 };
@@ -41,7 +43,7 @@ static const struct {
     {"bzp", FREE_FORM},      {"bsp", FREE_FORM},     {"cdc", FREE_FORM},   {"cdp", FREE_FORM},
     {"res", FREE_FORM},      {"mg", IGNORED},        {"bevel", IGNORED},   {"c_interp", IGNORED},
     {"d_interp", IGNORED},   {"lod", IGNORED},       {"maplib", IGNORED},  {"usemap", IGNORED},
-    {"shadow_obj", IGNORED}, {"trace_obj", IGNORED},
+    {"shadow_obj", IGNORED}, {"trace_obj", IGNORED}, {"#mrgb", MRGB},
 };
 
 // The object and group of the last part that consists of lines or of points.
@@ -58,6 +60,7 @@ struct state {
     const char *part_name;                // "object/group"
     uint32_t smoothing, smoothing_from;   // the smoothing group, and its first triangle
     uint32_t objects;
+    size_t colors;                    // the number of channels of vertices that MRGB has set
     struct stroke_part strokes[2];    // the parts of points and of lines
     size_t counts[STATEMENTS];        // number of statements of each kind
     const uint8_t *first[STATEMENTS]; // first statement of each kind
@@ -87,8 +90,7 @@ static bool read_name(struct state *state, const uint8_t *at, const char **out, 
     const uint8_t *end = obj_next_line(at, state->obj->end);
     at = text_skip_word(at, end);
     at = text_skip_white(at, end);
-    while (end > at && text_white(end[-1]))
-        end--;
+    end = text_name_end(at, end);
     *out = NULL;
     if (at == end)
         return true;
@@ -230,6 +232,32 @@ static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
     return number_int(at, end, &group) ? (uint32_t)group : 0; // 0 for "off" or a missing group
 }
 
+// Reads colours of the next vertices: for each vertex eight hexadecimal digits, of a mask and of red, green and blue.
+// Vertices without a colour are white.
+static bool read_mrgb(struct state *state, const uint8_t *at, lam_error *error)
+{
+    struct obj *obj = state->obj;
+    size_t numbers = 4 * (size_t)obj->total.positions;
+    bool raw = obj->source->params->color == LAM_COLOR_RAW;
+    if (obj->colors_present)
+        return true; // the statements v contain colours
+    if (!obj->colors && !(obj->colors = arena_array(&obj->scene->arena, numbers, sizeof(float))))
+        return no_memory(state, numbers * sizeof(float), error);
+    for (size_t i = state->colors; i < numbers && state->colors == 0; i++)
+        obj->colors[i] = 1;
+    at = text_skip_white(text_skip_word(at, obj->end), obj->end);
+    while (strspn((const char *)at, "0123456789abcdefABCDEF") >= 8 && state->colors < numbers) {
+        float *color = obj->colors + state->colors;
+        for (int i = 0; i < 3; i++) {
+            int byte = number_hex_digit((char)at[2 + 2 * i]) * 16 + number_hex_digit((char)at[3 + 2 * i]);
+            color[i] = (float)(raw ? byte / 255.0 : srgb_linear(byte / 255.0));
+        }
+        at += 8;
+        state->colors += 4;
+    }
+    return true;
+}
+
 static bool apply_statement(struct state *state, enum statement statement, const struct obj_statement *s,
                             lam_error *error)
 {
@@ -253,6 +281,8 @@ static bool apply_statement(struct state *state, enum statement statement, const
         fill_smoothing(state, s->triangle);
         state->smoothing = read_smoothing(state->obj, s->at);
         return true;
+    case MRGB:
+        return read_mrgb(state, s->at, error);
     case LINES:
     case POINTS:
         return read_strokes(state, s, statement == LINES, error);
@@ -289,9 +319,6 @@ static bool fail_without_faces(struct state *state, lam_error *error)
             error, LAM_UNSUPPORTED,
             "%s:%zu: contains no faces, only free-form curves and surfaces (%s), which this version cannot draw", name,
             obj_line_number(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found));
-    if (obj->total.positions)
-        return fail(error, LAM_CANNOT_READ, "%s: contains vertices (%llu), but no faces, lines or points that use them",
-                    name, (unsigned long long)obj->total.positions);
     if (state->counts[UNKNOWN])
         return fail(error, LAM_CANNOT_READ,
                     "%s:%zu: found %s, expected a statement of OBJ (v, f, …); the file contains nothing to draw", name,
@@ -375,9 +402,10 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
     fill_smoothing(&state, triangles);
     if (!end_part(&state, triangles, error))
         return false;
-    if (triangles == 0 && !obj->strokes[0].corners && !obj->strokes[1].corners)
+    obj->is_cloud = triangles == 0 && !obj->strokes[0].corners && !obj->strokes[1].corners;
+    if (obj->is_cloud && (!obj->total.positions || state.counts[FREE_FORM]))
         return fail_without_faces(&state, error);
     warn_elements(&state);
     warn_materials(&state);
-    return mtl_maps_read(obj->source, obj->scene, 0, &obj->memory, error);
+    return mtl_maps_read(obj->source, obj->scene, &obj->materials, &obj->memory, error);
 }

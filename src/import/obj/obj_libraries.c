@@ -34,14 +34,19 @@ static bool try_library(struct obj *obj, const char *name, enum attempt *attempt
     *attempt = before > 0 ? READ : before == 0 ? MISSING_BEFORE : LEFT_OUT;
     if (before >= 0 || libraries->tried.count == OBJ_LIBRARIES_MAX)
         return true;
-    bool found = obj->source->open(obj->source, name, &obj->memory, &file, why);
+    bool found = companion_find(obj->source, obj->scene, name, "", &obj->memory, &file, why);
+    struct mtl_folder folder = {obj->scene->materials.count, ""};
     *attempt = found ? READ : MISSING;
+    if (found)
+        folder.folder = arena_string_of(&obj->memory, file.name, (size_t)(path_name(file.name) - file.name));
     bool ok = note(obj, confined, found, error);
     if (!found && why->code != LAM_CANNOT_READ) {
         if (error)
             *error = *why;
         return false;
     }
+    if (found && (!folder.folder || !scene_list_append(&obj->materials.folders, &folder, sizeof folder, &obj->memory)))
+        ok = no_memory(obj, sizeof folder, error);
     ok = ok && (!found || mtl_read(&obj->materials, obj->source, obj->scene, &file, error));
     file_release(&file.file);
     return ok;

@@ -71,10 +71,8 @@ static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, f
     }
     reader->chunk->colors |= count >= 3;
     if (color && count >= 3) {
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 3; i++)
             color[i] = non_negative(extra[i]);
-            reader->chunk->brightest = color[i] > reader->chunk->brightest ? color[i] : reader->chunk->brightest;
-        }
     }
     return at;
 }
@@ -85,26 +83,12 @@ static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at
     if (reader->next.positions >= reader->limit.positions)
         return fail_expected(reader, at, changed);
     float *to = obj->positions + 3 * reader->next.positions;
-    const uint8_t *begin = at;
     at = read_numbers(reader, at + 1, to, 3, 3, "a coordinate (v x y z)");
     if (!at)
         return NULL;
-    float sum = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3 && obj_finite(to); i++) {
         reader->low[i] = to[i] < reader->low[i] ? to[i] : reader->low[i];
         reader->high[i] = to[i] > reader->high[i] ? to[i] : reader->high[i];
-        sum += to[i] - to[i];
-    }
-    if (__builtin_expect(sum != 0, 0)) { // some number is infinite or NaN
-        const uint8_t *word = begin + 1;
-        for (int i = 0; i < 3; i++) {
-            word = obj_next_word(word, reader->end);
-            if (to[i] - to[i] != 0)
-                break;
-            while (!obj_at_word_end(word))
-                word++;
-        }
-        return fail_expected(reader, word, "a finite coordinate");
     }
     float *color = obj->colors ? obj->colors + 4 * reader->next.positions : NULL;
     if (color) {
@@ -123,8 +107,8 @@ static const uint8_t *read_position(struct obj_reader *reader, const uint8_t *at
     return at;
 }
 
-// Reads a texture coordinate or a normal. Vectors with numbers that are not finite become 0, because some exporters
-// write "nan". One warning is added for all such vectors.
+// Reads a texture coordinate or a normal. Texture coordinates with numbers that are not finite become 0, because some
+// exporters write "nan". One warning is added for all of them.
 static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *at, bool normal)
 {
     struct obj *obj = reader->obj;
@@ -144,7 +128,7 @@ static const uint8_t *read_attribute(struct obj_reader *reader, const uint8_t *a
     float sum = 0;
     for (int i = 0; i < width; i++)
         sum += to[i] - to[i];
-    if (__builtin_expect(sum != 0, 0)) {
+    if (__builtin_expect(sum != 0 && !normal, 0)) {
         for (int i = 0; i < width; i++)
             to[i] = 0;
         struct obj_chunk *chunk = reader->chunk;

@@ -20,11 +20,10 @@ static void warn_faces(struct obj *obj)
         scene_warn(obj->scene, "%s:%zu: a face of fewer than three corners is ignored, the first of %llu", name,
                    obj_line_number(obj, face), (unsigned long long)faces);
     if (numbers)
-        scene_warn(obj->scene,
-                   "%s:%zu: a normal or texture coordinate that is not finite is set to 0, the first of %llu", name,
+        scene_warn(obj->scene, "%s:%zu: a texture coordinate that is not finite is set to 0, the first of %llu", name,
                    obj_line_number(obj, number), (unsigned long long)numbers);
     if (texcoords)
-        scene_warn(obj->scene, "%s: faces refer to texture coordinates, but the file contains none", name);
+        scene_warn(obj->scene, "%s: faces or lines refer to texture coordinates, but the file contains none", name);
     if (normals)
         scene_warn(obj->scene,
                    "%s: faces refer to normals, but the file contains none; lambent computes smooth normals", name);
@@ -38,8 +37,9 @@ static bool add_mesh(struct obj *obj, lam_error *error)
         .origin = {obj->origin[0], obj->origin[1], obj->origin[2]},
         .positions = obj->positions,
         .vertex_count = (uint32_t)total->positions,
-        .indices = obj->indices,
+        .indices = obj->is_cloud ? NULL : obj->indices,
         .triangle_count = (uint32_t)total->triangles,
+        .point_count = obj->is_cloud ? (uint32_t)total->positions : 0,
         .normals = obj->normals,
         .normal_count = (uint32_t)total->normals,
         .normal_indices = obj->normal_indices,
@@ -70,8 +70,9 @@ bool obj_complete(struct obj *obj, lam_error *error)
         .triangles = obj->total.triangles,
     };
     if (!mesh_triangulate(obj->source, obj->scene, &polygons, &obj->inner_edges, error) ||
-        !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error) || !obj_complete_normals(obj, error))
+        !obj_read_statements(obj, error) || !obj_complete_texcoords(obj, error))
         return false;
+    obj_complete_normals(obj);
     warn_faces(obj);
     return add_mesh(obj, error) && obj_strokes_add(obj, texcoords, error);
 }

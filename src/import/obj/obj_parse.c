@@ -4,8 +4,8 @@
 #include "number_scan.h"
 #include "origin.h"
 #include "parallel_rows.h"
-#include "srgb.h"
 
+#include <float.h>
 #include <string.h>
 
 bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
@@ -20,7 +20,6 @@ bool obj_parse_chunk(struct obj *obj, struct obj_chunk *chunk, lam_error *error)
         .error = error,
     };
     chunk->short_faces = chunk->nonfinite_numbers = 0;
-    chunk->brightest = 0;
     reader.limit = (struct obj_counts){
         .positions = chunk->before.positions + chunk->counts.positions,
         .texcoords = chunk->before.texcoords + chunk->counts.texcoords,
@@ -88,11 +87,10 @@ static void each_position(struct obj *obj, struct obj_chunk *chunk,
 
 static void extend_box(struct obj *obj, struct obj_chunk *chunk, uint64_t index, const double p[3])
 {
-    (void)obj;
-    for (int i = 0; i < 3; i++) {
-        if (index == chunk->before.positions || p[i] < chunk->low_exact[i])
+    for (int i = 0; i < 3 && obj_finite(obj->positions + 3 * index); i++) {
+        if (p[i] < chunk->low_exact[i])
             chunk->low_exact[i] = p[i];
-        if (index == chunk->before.positions || p[i] > chunk->high_exact[i])
+        if (p[i] > chunk->high_exact[i])
             chunk->high_exact[i] = p[i];
     }
 }
@@ -100,7 +98,7 @@ static void extend_box(struct obj *obj, struct obj_chunk *chunk, uint64_t index,
 static void store_relative(struct obj *obj, struct obj_chunk *chunk, uint64_t index, const double p[3])
 {
     (void)chunk;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && obj_finite(obj->positions + 3 * index); i++)
         obj->positions[3 * index + (uint64_t)i] = (float)(p[i] - obj->origin[i]);
 }
 
@@ -108,7 +106,12 @@ static bool box_chunk(void *user, size_t index, lam_error *error)
 {
     (void)error;
     struct obj *obj = user;
-    each_position(obj, &obj->chunks[index], extend_box);
+    struct obj_chunk *chunk = &obj->chunks[index];
+    for (int i = 0; i < 3; i++) {
+        chunk->low_exact[i] = DBL_MAX;
+        chunk->high_exact[i] = -DBL_MAX;
+    }
+    each_position(obj, chunk, extend_box);
     return true;
 }
 
@@ -143,38 +146,4 @@ bool obj_find_origin(struct obj *obj, lam_error *error)
             return false;
     }
     return parallel_rows_run(obj->source, obj->chunk_count, recenter_chunk, obj, error);
-}
-
-// --- colours
-
-static bool convert_rows(void *user, size_t index, lam_error *error)
-{
-    (void)error;
-    struct obj *obj = user;
-    size_t first, last;
-    parallel_rows_range(obj->total.positions, index, &first, &last);
-    bool raw = obj->source->params->color == LAM_COLOR_RAW;
-    for (size_t v = first; v < last; v++) {
-        float *color = obj->colors + 4 * v;
-        for (int i = 0; i < 3; i++) {
-            float c = color[i] < 0 ? 1 : color[i] * obj->color_scale; // vertices without a colour are white
-            c = c > 1 ? 1 : c;
-            color[i] = raw ? c : (float)srgb_linear((double)c);
-        }
-    }
-    return true;
-}
-
-bool obj_convert_colors(struct obj *obj, lam_error *error)
-{
-    if (!obj->colors)
-        return true;
-    float brightest = 0;
-    for (size_t c = 0; c < obj->chunk_count; c++)
-        brightest = obj->chunks[c].brightest > brightest ? obj->chunks[c].brightest : brightest;
-    obj->color_scale = brightest > 1 ? 1.0f / 255.0f : 1.0f;
-    if (brightest > 1)
-        scene_warn(obj->scene, "%s: vertex colours reach %g, so their range is taken as 0 to 255, not 0 to 1",
-                   obj->source->name, (double)brightest);
-    return parallel_rows_run(obj->source, parallel_rows_count(obj->total.positions), convert_rows, obj, error);
 }

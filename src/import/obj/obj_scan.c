@@ -219,7 +219,7 @@ bool obj_scan(struct obj *obj, lam_error *error)
         slashes |= chunk->slashes;
     }
     obj->total = sum;
-    if (!slashes) // no face has texture coordinates or normals
+    if (!slashes && sum.triangles) // no face has texture coordinates or normals
         obj->total.texcoords = obj->total.normals = 0;
     const char *name = obj->source->name;
     uint64_t largest = sum.positions > sum.texcoords ? sum.positions : sum.texcoords;

@@ -64,9 +64,13 @@ static const uint8_t *read_vertex(const struct stroke_parser *r, const uint8_t *
     if (!*found)
         return at;
     at = read_index(r, at, obj->total.positions, r->statement->positions, "vertex", position);
-    if (at && *at == '/' && !obj_at_word_end(at + 1))
-        at = read_index(r, at + 1, obj->total.texcoords, r->statement->texcoords, "texture coordinate", texcoord);
-    else if (at && *at == '/')
+    if (at && *at == '/' && !obj_at_word_end(at + 1)) {
+        bool known = obj->total.texcoords > 0; // otherwise the index is ignored, with a warning
+        at = read_index(r, at + 1, known ? obj->total.texcoords : UINT64_MAX,
+                        known ? r->statement->texcoords : r->statement->positions, "texture coordinate", texcoord);
+        obj->chunks[0].texcoord_unknown |= !known;
+        *texcoord = known ? *texcoord : OBJ_MISSING;
+    } else if (at && *at == '/')
         at++;
     if (at && !obj_at_word_end(at))
         return fail_word(r, at, "a space between vertices (v or v/t)");

@@ -2,8 +2,12 @@
 #include "ply.h"
 #include "fail.h"
 #include "mesh_build.h"
+#include "mtl_maps.h"
 #include "text_cursor.h"
 
+#include <lambent/material.h>
+
+#include <stdio.h>
 #include <string.h>
 
 static int ply_probe(const uint8_t *bytes, size_t size, size_t file_size)
@@ -25,6 +29,7 @@ struct ply_import {
     int lists[WANTED];                          // the property with the corners
     size_t offsets[WANTED];                     // offsets of the elements in the file
     struct ply_table tables[WANTED];
+    int textures; // the number of materials with textures
 };
 
 static bool fail_header(const struct ply_import *reader, const struct ply_element *element, const char *found,
@@ -80,6 +85,7 @@ static bool choose_elements(struct ply_import *reader, lam_error *error)
             return fail_header(reader, element, "has a list of corners with a floating-point type", "an integer type",
                                error);
         reader->lists[kind] = list;
+        element->properties[list].used = true;
     }
     check_edges(reader);
     return true;
@@ -98,7 +104,11 @@ static bool check_vertices(const struct ply_import *reader, lam_error *error)
 static struct ply_request request_for(const struct ply_import *reader, int kind, enum ply_positions_as positions)
 {
     const struct ply_element *vertices = reader->elements[VERTICES], *element = reader->elements[kind];
+    int wedges = kind == FACES ? ply_find(element, true, "texcoord") : -1;
+    if (wedges >= 0)
+        element->properties[wedges].used = true;
     return (struct ply_request){
+        .wedges = wedges >= 0 ? &element->properties[wedges] : NULL,
         .scalars = element->list_count < element->property_count && kind != STRIPS,
         .list = reader->lists[kind],
         .item_limit = vertices->count > UINT32_MAX ? UINT32_MAX : (uint32_t)vertices->count,
@@ -174,7 +184,8 @@ static bool read_vertices(struct ply_import *reader, lam_mesh *mesh, lam_error *
 {
     struct ply_attributes own;
     if (!read_positions(reader, mesh, error) ||
-        !ply_read_attributes(reader->source, &reader->tables[VERTICES], PLY_ALL, &reader->scene->arena, &own, error))
+        !ply_read_attributes(reader->source, reader->scene, &reader->tables[VERTICES], PLY_ALL, &reader->scene->arena,
+                             &own, error))
         return false;
     mesh->normals = own.normals;
     mesh->texcoords = own.texcoords;
@@ -186,6 +197,58 @@ static bool read_vertices(struct ply_import *reader, lam_mesh *mesh, lam_error *
     mesh->tangent_count = mesh->tangents ? mesh->vertex_count : 0;
     mesh->color_count = mesh->colors ? mesh->vertex_count : 0;
     return true;
+}
+
+// --- textures
+
+// Adds a white material for each texture, if the mesh has texture coordinates.
+static bool add_textures(struct ply_import *reader, const lam_mesh *mesh, lam_error *error)
+{
+    const struct ply_header *header = &reader->header;
+    const struct mtl_set set = {0};
+    if (!mesh->texcoords && !reader->tables[FACES].wedges)
+        return true;
+    for (int i = 0; i < header->texture_count; i++) {
+        lam_material material = lam_material_default();
+        material.ambient = (lam_rgb){1, 1, 1};
+        material.diffuse = (lam_rgba){1, 1, 1, 1};
+        material.name = material.map_names[LAM_MAP_DIFFUSE] = arena_string(&reader->scene->arena, header->textures[i]);
+        if (!material.name)
+            return call_memory_error(reader->source->call, strlen(header->textures[i]), error);
+        if (scene_adopt_material(reader->scene, &material, error) < 0)
+            return false;
+    }
+    reader->textures = header->texture_count;
+    return mtl_maps_read(reader->source, reader->scene, &set, reader->scratch, error);
+}
+
+// Warns about the properties and elements that are not drawn.
+static void warn_unused(const struct ply_import *reader)
+{
+    enum { SHOWN = 8 };
+    const struct ply_header *header = &reader->header;
+    char list[SHOWN * (SHOWN_NAME_SIZE + 16)], name[SHOWN_NAME_SIZE];
+    int count = 0, used = 0;
+    for (int i = 0; i < header->element_count; i++) {
+        const struct ply_element *element = &header->elements[i];
+        int kind = 0;
+        while (kind < WANTED && reader->elements[kind] != element)
+            kind++;
+        if (element->count == 0 || (kind == WANTED && strcmp(element->name, element_names[EDGES]) == 0))
+            continue; // check_edges has warned
+        for (int k = 0; k < (kind == WANTED ? 1 : element->property_count); k++)
+            if ((kind == WANTED || !element->properties[k].used) && count++ < SHOWN)
+                used += snprintf(list + used, sizeof list - (size_t)used, "%s%s%s", count > 1 ? ", " : "",
+                                 kind == WANTED ? "element " : "",
+                                 shown_name(kind == WANTED ? element->name : element->properties[k].name, name));
+    }
+    if (header->texture_count && !reader->textures)
+        scene_warn(reader->scene, "%s: the texture '%s' is not drawn, because the file contains no texture coordinates",
+                   reader->source->name, shown_name(header->textures[0], name));
+    if (count > SHOWN)
+        snprintf(list + used, sizeof list - (size_t)used, " and %d more", count - SHOWN);
+    if (count)
+        scene_warn(reader->scene, "%s: contains data that is not drawn: %s", reader->source->name, list);
 }
 
 static bool build(struct ply_import *reader, lam_error *error)
@@ -207,16 +270,19 @@ static bool build(struct ply_import *reader, lam_error *error)
         return false;
 
     lam_mesh mesh = {0};
-    if (!read_vertices(reader, &mesh, error))
+    if (!read_vertices(reader, &mesh, error) || !add_textures(reader, &mesh, error))
         return false;
     lam_mesh lines = mesh;
     bool surface = reader->elements[FACES] || reader->elements[STRIPS];
     if (surface) {
-        bool done = reader->elements[FACES] ? ply_faces(source, &reader->tables[FACES], scene, &mesh, error)
-                                            : ply_strips(source, &reader->tables[STRIPS], scene, &mesh, error);
+        bool done = reader->elements[FACES]
+                        ? ply_faces(source, &reader->tables[FACES], reader->textures, scene, &mesh, error)
+                        : ply_strips(source, &reader->tables[STRIPS], scene, &mesh, error);
         scene->first_all_used = reader->tables[FACES].all_used;
         if (!done || !mesh_add_object(scene, &mesh, NULL, error))
             return false;
+        if (reader->textures && !mesh.part_count && scene->objects.count)
+            ((lam_object *)scene->objects.items)->material = 0; // the first texture
     }
     if (reader->elements[EDGES]) {
         scene->shared_arrays |= surface;
@@ -235,6 +301,8 @@ static bool ply_load(const struct import_source *source, struct lam_scene *scene
     arena_start(&scratch, source->call);
     struct ply_import reader = {.source = source, .scene = scene, .scratch = &scratch};
     bool done = build(&reader, error);
+    if (done)
+        warn_unused(&reader);
     arena_free(&scratch);
     return done;
 }

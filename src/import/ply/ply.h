@@ -25,13 +25,14 @@ struct ply_property {
     enum ply_type type; // for a list, the type of the items
     bool list;
     enum ply_type count_type; // the type of a list's count
+    bool used;                // warn_unused in ply.c names the others
 };
 
 struct ply_element {
     const char *name;
     uint64_t count;
     size_t line; // line in the header
-    const struct ply_property *properties;
+    struct ply_property *properties;
     int property_count;
     int list_count;      // number of properties that are lists
     size_t scalar_bytes; // size in bytes of a binary row without its lists
@@ -42,7 +43,9 @@ struct ply_header {
     enum ply_format format;
     const struct ply_element *elements;
     int element_count;
-    size_t body; // offset of the first byte after the header
+    size_t body;           // offset of the first byte after the header
+    const char **textures; // the names of pictures in comments, "TextureFile NAME"
+    int texture_count;
     // The number of unknown lines, and the line number and the first word of the first unknown line.
     size_t unknown_count, unknown_line;
     const uint8_t *unknown;
@@ -79,15 +82,18 @@ struct ply_table {
     // contain the corners. Rows of fewer than three corners reserve no items.
     uint32_t *items;
     const uint32_t *starts; // one more element than the table has rows
-    bool all_used;          // true if every number below the request's item_limit certainly occurs as an item
+    // The requested list of texture coordinates: two numbers for each item above, with the same layout. 0 if missing.
+    float *wedges;
+    bool all_used; // true if every number below the request's item_limit certainly occurs as an item
 };
 
 // The data that a caller requests from an element.
 struct ply_request {
     bool scalars;
-    int list;            // index of the property, or −1
-    uint32_t item_limit; // items must be below this limit
-    bool restarts;       // a strip: item −1 is valid and becomes PLY_RESTART
+    int list;                          // index of the property, or −1
+    const struct ply_property *wedges; // a list of two texture coordinates per item, or NULL
+    uint32_t item_limit;               // items must be below this limit
+    bool restarts;                     // a strip: item −1 is valid and becomes PLY_RESTART
     enum ply_positions_as positions;
     struct arena *keep, *scratch; // `keep` is for items, except of strips; `scratch` is for everything else
 };
@@ -110,7 +116,7 @@ bool ply_fail_truncated(const struct import_source *source, const struct ply_ele
 // Fails with LAM_LIMIT, because the file contains more elements than 32-bit indices can address.
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error);
 
-// Finds the scalar properties with these names (−1 if missing). Returns whether all exist.
+// Finds the scalar properties with these names (−1 if missing). Returns whether all exist, and marks them as used.
 bool ply_find_all(const struct ply_table *table, const char *const *names, int count, int *properties);
 // Returns whether the properties are adjacent floats in the machine's byte order, so that memcpy can copy them.
 bool ply_contiguous(const struct ply_table *table, const int *properties, int count);
@@ -127,19 +133,21 @@ bool ply_positions(const struct import_source *source, const struct ply_table *t
                    lam_mesh *mesh, bool *needs_doubles, lam_error *error);
 
 // All attributes except positions. A pointer is NULL if the element does not have this attribute.
-enum { PLY_NORMALS = 1, PLY_TANGENTS = 2, PLY_TEXCOORDS = 4, PLY_COLORS = 8, PLY_ALL = 15 };
+enum { PLY_NORMALS = 1, PLY_TANGENTS = 2, PLY_TEXCOORDS = 4, PLY_COLORS = 8, PLY_ALL = 15, PLY_TEXNUMBERS = 16 };
 struct ply_attributes {
-    const float *normals, *tangents, *texcoords;
+    const float *normals, *tangents, *texcoords, *texnumbers;
     const void *colors;
     lam_colors_format colors_format;
 };
-// Reads the wanted attributes in one pass into arrays from `arena`. Numbers that are not finite become 0.
-bool ply_read_attributes(const struct import_source *source, const struct ply_table *table, unsigned wanted,
-                         struct arena *arena, struct ply_attributes *out, lam_error *error);
+// Reads the wanted attributes in one pass into arrays from `arena`. Numbers that are not finite become 0, except of
+// normals. Warns in `scene` if the range of colours is not the usual one of their type.
+bool ply_read_attributes(const struct import_source *source, struct lam_scene *scene, const struct ply_table *table,
+                         unsigned wanted, struct arena *arena, struct ply_attributes *out, lam_error *error);
 
 // Sets indices and triangle_count of a mesh with positions, from faces or from strips. Colours and normals of the faces
-// are used if the vertices have none.
-bool ply_faces(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
+// are used if the vertices have none. The faces' numbers of textures (texnumber) become parts: the scene's materials with
+// an index below `textures` have these textures.
+bool ply_faces(const struct import_source *source, const struct ply_table *faces, int textures, struct lam_scene *scene,
                lam_mesh *mesh, lam_error *error);
 bool ply_strips(const struct import_source *source, const struct ply_table *strips, struct lam_scene *scene,
                 lam_mesh *mesh, lam_error *error);

@@ -1,7 +1,7 @@
 // ply_columns.c: converts columns of a PLY table to normals, tangents, texture coordinates and colours, in parallel
 // chunks.
+#include "mesh_build.h"
 #include "parallel_rows.h"
-#include "srgb.h"
 #include "linear.h"
 #include "ply_load.h"
 
@@ -55,10 +55,12 @@ bool ply_find_all(const struct ply_table *table, const char *const *names, int c
         properties[i] = ply_find(table->element, false, names[i]);
         all &= properties[i] >= 0;
     }
+    for (int i = 0; all && i < count; i++)
+        table->element->properties[properties[i]].used = true;
     return all;
 }
 
-enum kind { NORMALS, TANGENTS, TEXCOORDS, COLORS, COLORS_RAW, COLORS_BYTES, KINDS };
+enum kind { NORMALS, TANGENTS, TEXCOORDS, TEXNUMBERS, COLORS, COLORS_BYTES, COLORS_PACKED, COLORS_SPLAT, KINDS };
 
 // An array of vectors to fill.
 struct column {
@@ -67,7 +69,7 @@ struct column {
     float divisors[4];
     int width; // numbers per vector
     bool contiguous;
-    void *out; // floats, or bytes for COLORS_BYTES
+    void *out; // floats, or bytes for COLORS_BYTES and COLORS_PACKED
 };
 
 // The columns that one pass fills.
@@ -77,21 +79,18 @@ struct columns {
     struct arena *arena;
     struct column columns[KINDS];
     int count;
+    struct color_range ranges[2];
 };
 
 static void clean_vector(enum kind kind, float *v)
 {
-    if (kind == COLORS || kind == COLORS_RAW) {
-        for (int c = 0; c < 4; c++) {
-            v[c] = v[c] >= 0.0f ? (v[c] <= FLT_MAX ? v[c] : FLT_MAX) : 0.0f; // NaN becomes 0
-            if (c == 3)
-                v[c] = v[c] < 1.0f ? v[c] : 1.0f;
-            // the sRGB curve is not defined above 1, so larger values are treated as linear
-            else if (kind == COLORS && v[c] <= 1.0f)
-                v[c] = (float)srgb_linear((double)v[c]);
-        }
-        return;
+    for (int c = 0; kind >= COLORS && c < 4; c++) {
+        // The base colour of a Gaussian splat: the constant spherical harmonic is √(1/4π).
+        float value = kind == COLORS_SPLAT && c < 3 ? 0.5f + 0.2820948f * v[c] : v[c];
+        v[c] = value >= 0.0f ? value : 0.0f; // NaN becomes 0
     }
+    if (kind == NORMALS || kind == TEXNUMBERS || kind >= COLORS)
+        return;
     int numbers = kind == TEXCOORDS ? 2 : 3;
     bool good = true;
     for (int c = 0; c < numbers; c++)
@@ -141,6 +140,25 @@ static void fill_bytes(const struct ply_table *table, const struct column *colum
     }
 }
 
+// Unpacks the colours of the Point Cloud Library, 0xAARRGGBB, in an integer or in the bits of a float.
+static void fill_packed(const struct ply_table *table, const struct column *column, const uint8_t *rows, size_t count,
+                        uint8_t *out)
+{
+    int property = column->properties[0];
+    enum ply_type type = table->types[property];
+    for (size_t i = 0; i < count; i++, rows += table->rows.stride, out += 4) {
+        const uint8_t *at = rows + table->offsets[property];
+        float number = type == PLY_F64 ? (float)ply_load_f64(at, table->swapped) : 0;
+        uint32_t bits = type == PLY_F32 ? ply_load_32(at, table->swapped) : 0;
+        if (type == PLY_F64)
+            memcpy(&bits, &number, sizeof bits);
+        else if (type != PLY_F32)
+            bits = (uint32_t)ply_load_integer(at, type, table->swapped);
+        for (int c = 0; c < 4; c++)
+            out[c] = (uint8_t)(c < 3 ? bits >> (16 - 8 * c) : bits >> 24 | (column->properties[1] < 0 ? 255 : 0));
+    }
+}
+
 static bool columns_chunk(void *user, size_t index, const uint8_t *rows, lam_error *error)
 {
     (void)error;
@@ -152,6 +170,8 @@ static bool columns_chunk(void *user, size_t index, const uint8_t *rows, lam_err
         size_t at = (size_t)column->width * first;
         if (column->kind == COLORS_BYTES)
             fill_bytes(columns->table, column, rows, last - first, (uint8_t *)column->out + at);
+        else if (column->kind == COLORS_PACKED)
+            fill_packed(columns->table, column, rows, last - first, (uint8_t *)column->out + at);
         else
             fill_vectors(columns->table, column, rows, last - first, (float *)column->out + at);
     }
@@ -163,7 +183,8 @@ static bool columns_chunk(void *user, size_t index, const uint8_t *rows, lam_err
 static void *add_column(struct columns *columns, struct column column, int numbers, lam_error *error)
 {
     const struct ply_table *table = columns->table;
-    size_t bytes = table->rows.count * (size_t)column.width * (column.kind == COLORS_BYTES ? 1 : sizeof(float));
+    size_t bytes = table->rows.count * (size_t)column.width *
+                   (column.kind == COLORS_BYTES || column.kind == COLORS_PACKED ? 1 : sizeof(float));
     bool whole = true;
     for (int i = 0; i < 4; i++) {
         if (i >= numbers)
@@ -209,28 +230,49 @@ bool ply_find_colors(const struct ply_table *table, int properties[4])
                                            {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"},
                                            {"r", "g", "b", "a"}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        properties[3] = ply_find(table->element, false, names[i][3]);
-        if (ply_find_all(table, names[i], 3, properties))
-            return true;
+        if (!ply_find_all(table, names[i], 3, properties))
+            continue;
+        ply_find_all(table, names[i] + 3, 1, properties + 3);
+        return true;
     }
     return false;
 }
 
+// The usual end of the range of a colour. For colours of type int or uint, programs use the range 0…255.
+static float usual_range(enum ply_type type) { return type == PLY_I32 || type == PLY_U32 ? 255.0f : divisor_of(type); }
+
 static bool add_colors(struct columns *columns, struct ply_attributes *out, lam_error *error)
 {
     const struct ply_table *table = columns->table;
+    static const char *const packed[][1] = {{"rgba"}, {"rgb"}}, *const splat[] = {"f_dc_0", "f_dc_1", "f_dc_2"};
     bool raw = columns->source->params->color == LAM_COLOR_RAW, all_bytes = true;
-    struct column column = {.kind = raw ? COLORS_RAW : COLORS, .width = 4};
-    if (!ply_find_colors(table, column.properties))
+    struct column column = {.kind = COLORS, .width = 4};
+    int numbers = 3;
+    if (ply_find_colors(table, column.properties)) {
+        numbers = column.properties[3] < 0 ? 3 : 4;
+        enum ply_type first = table->types[column.properties[0]];
+        bool alike = first == table->types[column.properties[1]] && first == table->types[column.properties[2]];
+        for (int c = 0; c < numbers; c++) {
+            enum ply_type type = table->types[column.properties[c]];
+            bool known = ply_type_size(type) == 1 || (c < 3 && !alike); // otherwise, the numbers show the range
+            all_bytes &= type == PLY_U8;
+            column.divisors[c] = known ? usual_range(type) : 1.0f;
+            if (!known)
+                columns->ranges[c == 3] =
+                    (struct color_range){ply_type_is_integer(type) ? 255.0f : 1.0f, usual_range(type)};
+        }
+        column.kind = all_bytes ? COLORS_BYTES : COLORS;
+    } else if (ply_find_all(table, packed[0], 1, column.properties) ||
+               ply_find_all(table, packed[1], 1, column.properties)) {
+        numbers = ply_find(table->element, false, "rgba") < 0 ? 1 : 2; // the second number means alpha
+        column.properties[1] = column.properties[0];
+        column.kind = COLORS_PACKED;
+    } else if (ply_find_all(table, splat, 3, column.properties)) {
+        column.kind = COLORS_SPLAT;
+        all_bytes = false;
+    } else {
         return true;
-    int numbers = column.properties[3] < 0 ? 3 : 4;
-    for (int c = 0; c < numbers; c++) {
-        enum ply_type type = table->types[column.properties[c]];
-        all_bytes &= type == PLY_U8;
-        // For colours of type int or uint, programs use the range 0…255.
-        column.divisors[c] = type == PLY_I32 || type == PLY_U32 ? 255.0f : divisor_of(type);
     }
-    column.kind = all_bytes ? COLORS_BYTES : column.kind;
     out->colors_format = !all_bytes ? LAM_COLORS_LINEAR_F32 : raw ? LAM_COLORS_LINEAR8 : LAM_COLORS_SRGB8;
     return (out->colors = add_column(columns, column, numbers, error)) != NULL;
 }
@@ -242,10 +284,11 @@ static bool add_directions(struct columns *columns, const char *const *names, st
            (*out = add_column(columns, column, 3, error)) != NULL;
 }
 
-bool ply_read_attributes(const struct import_source *source, const struct ply_table *table, unsigned wanted,
-                         struct arena *arena, struct ply_attributes *out, lam_error *error)
+bool ply_read_attributes(const struct import_source *source, struct lam_scene *scene, const struct ply_table *table,
+                         unsigned wanted, struct arena *arena, struct ply_attributes *out, lam_error *error)
 {
-    static const char *const normals[] = {"nx", "ny", "nz"}, *const tangents[] = {"tx", "ty", "tz"};
+    static const char *const normals[] = {"nx", "ny", "nz"}, *const tangents[] = {"tx", "ty", "tz"},
+                             *const texnumber[] = {"texnumber"};
     struct columns columns = {.source = source, .table = table, .arena = arena};
     *out = (struct ply_attributes){0};
     if ((wanted & PLY_NORMALS &&
@@ -255,5 +298,13 @@ bool ply_read_attributes(const struct import_source *source, const struct ply_ta
         (wanted & PLY_TEXCOORDS && !add_texcoords(&columns, &out->texcoords, error)) ||
         (wanted & PLY_COLORS && !add_colors(&columns, out, error)))
         return false;
-    return columns.count == 0 || parallel_rows_read(source, &table->rows, columns_chunk, &columns, error);
+    struct column numbers = {.kind = TEXNUMBERS, .width = 1};
+    if (wanted & PLY_TEXNUMBERS && ply_find_all(table, texnumber, 1, numbers.properties) &&
+        !(out->texnumbers = add_column(&columns, numbers, 1, error)))
+        return false;
+    if (columns.count > 0 && !parallel_rows_read(source, &table->rows, columns_chunk, &columns, error))
+        return false;
+    return !out->colors || out->colors_format != LAM_COLORS_LINEAR_F32 ||
+           mesh_convert_colors(source, scene, (float *)(uintptr_t)out->colors, table->rows.count, columns.ranges,
+                               error);
 }

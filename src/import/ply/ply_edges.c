@@ -46,7 +46,7 @@ bool ply_edges(const struct import_source *source, const struct ply_table *table
     if (!edges.indices)
         return call_memory_error(source->call, count * 2 * sizeof *edges.indices, error);
     if (!parallel_rows_read(source, &table->rows, read_chunk, &edges, error) ||
-        !ply_read_attributes(source, table, mesh->colors ? 0 : PLY_COLORS, &scene->arena, &own, error))
+        !ply_read_attributes(source, scene, table, mesh->colors ? 0 : PLY_COLORS, &scene->arena, &own, error))
         return false;
     mesh->indices = edges.indices;
     mesh->line_count = (uint32_t)count;

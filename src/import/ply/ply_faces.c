@@ -36,7 +36,8 @@ static bool split_polygons(const struct import_source *source, const struct ply_
     if (degenerate > 0)
         scene_warn(scene, "%s: %zu of %zu faces have fewer than three corners and are ignored", source->name,
                    degenerate, rows);
-    struct mesh_polygons split = {polygons, count, mesh->positions, {faces->items}, mesh->triangle_count};
+    uint32_t *wedges = (uint32_t *)(uintptr_t)mesh->texcoord_indices;
+    struct mesh_polygons split = {polygons, count, mesh->positions, {faces->items, wedges}, mesh->triangle_count};
     return mesh_triangulate(source, scene, &split, &mesh->inner_edges, error);
 }
 
@@ -46,7 +47,7 @@ static bool face_normals(const struct import_source *source, const struct ply_ta
                          struct lam_scene *scene, lam_mesh *mesh, lam_error *error)
 {
     struct ply_attributes own;
-    if (!ply_read_attributes(source, faces, PLY_NORMALS, &scene->arena, &own, error))
+    if (!ply_read_attributes(source, scene, faces, PLY_NORMALS, &scene->arena, &own, error))
         return false;
     if (!own.normals)
         return true;
@@ -68,7 +69,7 @@ static bool face_colors(const struct import_source *source, const struct ply_tab
                         struct lam_scene *scene, struct arena *scratch, lam_mesh *mesh, lam_error *error)
 {
     struct ply_attributes own;
-    if (!ply_read_attributes(source, faces, PLY_COLORS, face_of ? scratch : &scene->arena, &own, error))
+    if (!ply_read_attributes(source, scene, faces, PLY_COLORS, face_of ? scratch : &scene->arena, &own, error))
         return false;
     if (!own.colors)
         return true;
@@ -88,34 +89,77 @@ static bool face_colors(const struct import_source *source, const struct ply_tab
     return true;
 }
 
-static bool load_faces(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
-                       struct arena *scratch, lam_mesh *mesh, lam_error *error)
+// Uses the texture coordinates of the corners of faces, in the order of faces->items.
+static bool wedge_texcoords(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
+                            lam_mesh *mesh, lam_error *error)
+{
+    size_t corners = 3 * (size_t)mesh->triangle_count;
+    uint32_t *indices = arena_array(&scene->arena, corners, sizeof *indices);
+    if (!indices)
+        return call_memory_error(source->call, corners * sizeof *indices, error);
+    for (size_t i = 0; i < corners; i++)
+        indices[i] = (uint32_t)i;
+    mesh->texcoords = faces->wedges;
+    mesh->texcoord_count = (uint32_t)corners;
+    mesh->texcoord_indices = indices;
+    return true;
+}
+
+// Makes a part of each sequence of triangles with the same texture. Other numbers mean no texture.
+static bool texture_parts(const struct import_source *source, const struct ply_table *faces, const uint32_t *face_of,
+                          int textures, struct lam_scene *scene, struct arena *scratch, lam_mesh *mesh,
+                          lam_error *error)
+{
+    struct ply_attributes own;
+    struct scene_list parts = {0};
+    if (!ply_read_attributes(source, scene, faces, PLY_TEXNUMBERS, scratch, &own, error))
+        return false;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        float number = own.texnumbers[face_of ? face_of[t] : t];
+        int material = number >= 0 && number < (float)textures ? (int)number : -1;
+        lam_part *last = parts.count ? (lam_part *)parts.items + parts.count - 1 : NULL,
+                 part = {.first_triangle = t, .triangle_count = 1, .material = material};
+        if (last && last->material == material)
+            last->triangle_count++;
+        else if (!scene_list_append(&parts, &part, sizeof part, &scene->arena))
+            return call_memory_error(source->call, (size_t)parts.count * sizeof part, error);
+    }
+    mesh->parts = parts.items;
+    mesh->part_count = (uint32_t)parts.count;
+    return true;
+}
+
+static bool load_faces(const struct import_source *source, const struct ply_table *faces, int textures,
+                       struct lam_scene *scene, struct arena *scratch, lam_mesh *mesh, lam_error *error)
 {
     size_t count = faces->rows.count;
     uint64_t triangles = faces->starts ? faces->starts[count] / 3 : count;
     bool own_normals = !mesh->normals && ply_find(faces->element, false, "nx") >= 0;
     bool own_colors = !mesh->colors && ply_find_colors(faces, (int[4]){0});
+    bool own_textures = textures > 0 && ply_find(faces->element, false, "texnumber") >= 0;
     uint32_t *face_of = NULL;
     if (!check_count(source, triangles, error))
         return false;
     mesh->indices = faces->items;
     mesh->triangle_count = (uint32_t)triangles;
-    if (faces->starts && (own_normals || own_colors)) {
+    if (faces->starts && (own_normals || own_colors || own_textures)) {
         face_of = arena_array(scratch, triangles, sizeof *face_of);
         if (!face_of)
             return call_memory_error(source->call, triangles * sizeof *face_of, error);
     }
-    return (!faces->starts || split_polygons(source, faces, scene, scratch, face_of, mesh, error)) &&
+    return (!faces->wedges || wedge_texcoords(source, faces, scene, mesh, error)) &&
+           (!faces->starts || split_polygons(source, faces, scene, scratch, face_of, mesh, error)) &&
            (!own_normals || face_normals(source, faces, face_of, scene, mesh, error)) &&
-           (!own_colors || face_colors(source, faces, face_of, scene, scratch, mesh, error));
+           (!own_colors || face_colors(source, faces, face_of, scene, scratch, mesh, error)) &&
+           (!own_textures || texture_parts(source, faces, face_of, textures, scene, scratch, mesh, error));
 }
 
-bool ply_faces(const struct import_source *source, const struct ply_table *faces, struct lam_scene *scene,
+bool ply_faces(const struct import_source *source, const struct ply_table *faces, int textures, struct lam_scene *scene,
                lam_mesh *mesh, lam_error *error)
 {
     struct arena scratch;
     arena_start(&scratch, source->call);
-    bool done = load_faces(source, faces, scene, &scratch, mesh, error);
+    bool done = load_faces(source, faces, textures, scene, &scratch, mesh, error);
     arena_free(&scratch);
     return done;
 }

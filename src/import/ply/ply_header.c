@@ -2,7 +2,7 @@
 //
 //   ply
 //   format ascii 1.0                    or binary_little_endian, binary_big_endian
-//   comment …                           or obj_info; on any line
+//   comment …                           or obj_info; on any line. "comment TextureFile NAME" names a picture
 //   element vertex 8
 //   property float x                    scalars: a type and a name
 //   property list uchar int corners     lists: type of the count, type of the items, name
@@ -152,7 +152,7 @@ static bool read_property(struct lines *lines, struct ply_element *element, stru
     return true;
 }
 
-enum keyword { BLANK, REMARK, FORMAT, ELEMENT, PROPERTY, END, UNKNOWN };
+enum keyword { BLANK, REMARK, TEXTURE, FORMAT, ELEMENT, PROPERTY, END, UNKNOWN };
 
 // Reads a line's first word into *word and returns its keyword.
 static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
@@ -166,6 +166,11 @@ static enum keyword read_keyword(struct lines *lines, const uint8_t **word)
     next_word(lines, word, &end);
     if (*word == end)
         return BLANK;
+    const uint8_t *second = text_skip_white(end, lines->end);
+    if (is_word(*word, end, "comment") && text_is_word(second, lines->end, "texturefile")) {
+        lines->at = text_skip_white(text_skip_word(second, lines->end), lines->end);
+        return TEXTURE;
+    }
     for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++) {
         if (is_word(*word, end, keywords[i].word))
             return keywords[i].keyword;
@@ -188,7 +193,7 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
                      lam_error *error)
 {
     // The first pass counts elements and properties, and the second reads them.
-    size_t element_capacity = 0, property_capacity = 0;
+    size_t element_capacity = 0, property_capacity = 0, texture_capacity = 0;
     enum keyword keyword = BLANK;
     const uint8_t *word;
     struct lines lines = start(source, arena);
@@ -196,15 +201,17 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
         keyword = read_keyword(&lines, &word);
         element_capacity += keyword == ELEMENT;
         property_capacity += keyword == PROPERTY;
+        texture_capacity += keyword == TEXTURE;
     }
     struct ply_element *elements = arena_array(arena, element_capacity, sizeof *elements);
     struct ply_property *properties = arena_array(arena, property_capacity, sizeof *properties);
-    if (!elements || !properties)
+    const char **textures = arena_array(arena, texture_capacity, sizeof *textures);
+    if (!elements || !properties || !textures)
         return call_memory_error(source->call,
                                  element_capacity * sizeof *elements + property_capacity * sizeof *properties, error);
 
     bool has_format = false;
-    *header = (struct ply_header){.elements = elements};
+    *header = (struct ply_header){.elements = elements, .textures = textures};
     lines = start(source, arena);
     for (bool first = true;; first = false) {
         if (!first && !next_line(&lines))
@@ -219,6 +226,15 @@ bool ply_read_header(const struct import_source *source, struct arena *arena, st
         case BLANK:
         case REMARK:
             break;
+        case TEXTURE: {
+            const uint8_t *name = lines.at, *end = lines.end;
+            while (end > name && text_white(end[-1]))
+                end--;
+            textures[header->texture_count] = text_name(arena, name, (size_t)(end - name));
+            if (!textures[header->texture_count++])
+                return call_memory_error(source->call, (size_t)(end - name), error);
+            break;
+        }
         case FORMAT:
             if (!read_format(&lines, &header->format, error))
                 return false;

@@ -14,22 +14,9 @@ struct positions {
     float *out;
     struct box {
         double minimum[3], maximum[3];
-        bool finite;
     } *boxes; // one box per chunk
     double origin[3];
 };
-
-static bool fail_position(const struct positions *positions, size_t row, int axis, const char *found, lam_error *error)
-{
-    const struct row_bytes *rows = &positions->table->rows;
-    const struct import_source *source = positions->source;
-    if (!rows->memory)
-        return fail_byte(
-            error, source, rows->offset + row * rows->stride + positions->table->offsets[positions->properties[axis]],
-            "vertex %zu of %zu: found %s as %c, expected a finite number", row + 1, rows->count, found, "xyz"[axis]);
-    return fail(error, LAM_CANNOT_READ, "%s: vertex %zu of %zu: found %s as %c, expected a finite number", source->name,
-                row + 1, rows->count, found, "xyz"[axis]);
-}
 
 static double position_at(const struct positions *positions, const uint8_t *row, int axis)
 {
@@ -38,7 +25,8 @@ static double position_at(const struct positions *positions, const uint8_t *row,
     return ply_load_double(row + table->offsets[property], table->types[property], table->swapped);
 }
 
-static bool is_finite(double value) { return value >= -DBL_MAX && value <= DBL_MAX; }
+// scene_repair leaves out the faces of vertices that do not fit into floats.
+static bool fits_float(double value) { return value >= -(double)FLT_MAX && value <= (double)FLT_MAX; }
 
 // Copies floats, and integers that floats represent exactly.
 static bool copy_chunk(void *user, size_t index, const uint8_t *rows, lam_error *error)
@@ -49,15 +37,9 @@ static bool copy_chunk(void *user, size_t index, const uint8_t *rows, lam_error 
     parallel_rows_range(table->rows.count, index, &first, &last);
     float *out = positions->out + 3 * first;
     size_t stride = table->rows.stride;
-    uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
-    bool only_floats = positions->contiguous && stride == 3 * sizeof(float);
-    if (only_floats) {
-        for (size_t i = 0; i < 3 * (last - first); i++) {
-            uint32_t bits;
-            memcpy(&bits, rows + 4 * i, sizeof bits);
-            memcpy(out + i, &bits, sizeof bits);
-            nonfinite |= (bits & 0x7fffffff) + 0x00800000;
-        }
+    (void)error;
+    if (positions->contiguous && stride == 3 * sizeof(float)) {
+        memcpy(out, rows, (last - first) * stride);
     } else if (positions->contiguous) {
         const uint8_t *at = rows + table->offsets[positions->properties[0]];
         for (size_t row = first; row < last; row++, at += stride, out += 3)
@@ -66,32 +48,16 @@ static bool copy_chunk(void *user, size_t index, const uint8_t *rows, lam_error 
         for (int axis = 0; axis < 3; axis++)
             ply_copy_column(table, positions->properties[axis], rows, last - first, 1.0f, out + axis, 3);
     }
-    for (size_t i = 3 * first; i < 3 * last && !only_floats; i++) {
-        uint32_t bits;
-        memcpy(&bits, &positions->out[i], sizeof bits);
-        nonfinite |= (bits & 0x7fffffff) + 0x00800000;
-    }
-    if (positions->boxes) { // only for an ASCII file; choose_origin needs the boxes
-        struct box *box = &positions->boxes[index];
-        box->finite = !(nonfinite & 0x80000000);
-        for (int axis = 0; axis < 3; axis++) {
-            float minimum = FLT_MAX, maximum = -FLT_MAX;
-            for (size_t row = first; row < last; row++) {
-                float value = positions->out[3 * row + (size_t)axis];
-                minimum = value < minimum ? value : minimum;
-                maximum = value > maximum ? value : maximum;
-            }
-            box->minimum[axis] = (double)minimum;
-            box->maximum[axis] = (double)maximum;
+    // only for an ASCII file; choose_origin needs the boxes
+    for (int axis = 0; positions->boxes && axis < 3; axis++) {
+        float minimum = FLT_MAX, maximum = -FLT_MAX;
+        for (size_t row = first; row < last; row++) {
+            float value = positions->out[3 * row + (size_t)axis];
+            minimum = value < minimum && value >= -FLT_MAX ? value : minimum;
+            maximum = value > maximum && value <= FLT_MAX ? value : maximum;
         }
-        return true;
-    }
-    if (!(nonfinite & 0x80000000))
-        return true;
-    for (size_t i = 3 * first; i < 3 * last; i++) {
-        double value = position_at(positions, rows + (i / 3 - first) * stride, (int)(i % 3));
-        if (!is_finite(value))
-            return fail_position(positions, i / 3, (int)(i % 3), value != value ? "NaN" : "infinity", error);
+        positions->boxes[index].minimum[axis] = (double)minimum;
+        positions->boxes[index].maximum[axis] = (double)maximum;
     }
     return true;
 }
@@ -103,14 +69,14 @@ static bool measure_chunk(void *user, size_t index, const uint8_t *at, lam_error
     const struct positions *positions = user;
     size_t first, last;
     parallel_rows_range(positions->table->rows.count, index, &first, &last);
-    struct box box = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}, true};
+    struct box box = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}};
+    (void)error;
     for (size_t row = first; row < last; row++, at += positions->table->rows.stride) {
         for (int axis = 0; axis < 3; axis++) {
             double value = position_at(positions, at, axis);
-            if (!is_finite(value))
-                return fail_position(positions, row, axis, value != value ? "NaN" : "infinity", error);
-            box.minimum[axis] = value < box.minimum[axis] ? value : box.minimum[axis];
-            box.maximum[axis] = value > box.maximum[axis] ? value : box.maximum[axis];
+            bool fits = fits_float(value);
+            box.minimum[axis] = fits && value < box.minimum[axis] ? value : box.minimum[axis];
+            box.maximum[axis] = fits && value > box.maximum[axis] ? value : box.maximum[axis];
         }
     }
     positions->boxes[index] = box;
@@ -121,13 +87,12 @@ static bool round_chunk(void *user, size_t index, const uint8_t *at, lam_error *
 {
     const struct positions *positions = user;
     size_t first, last;
+    (void)error;
     parallel_rows_range(positions->table->rows.count, index, &first, &last);
     for (size_t row = first; row < last; row++, at += positions->table->rows.stride) {
         for (int axis = 0; axis < 3; axis++) {
             double value = position_at(positions, at, axis) - positions->origin[axis];
-            if (!(value >= -(double)FLT_MAX && value <= (double)FLT_MAX))
-                return fail_position(positions, row, axis, "a number outside a float's range", error);
-            positions->out[3 * row + (size_t)axis] = (float)value;
+            positions->out[3 * row + (size_t)axis] = fits_float(value) ? (float)value : __builtin_nanf("");
         }
     }
     return true;
@@ -146,9 +111,8 @@ static bool choose_origin(struct positions *positions, size_t chunks)
             if (box->maximum[axis] > all.maximum[axis])
                 all.maximum[axis] = box->maximum[axis];
         }
-        all.finite &= box->finite;
     }
-    return !all.finite || origin_choose(all.minimum, all.maximum, positions->origin);
+    return origin_choose(all.minimum, all.maximum, positions->origin);
 }
 
 bool ply_positions(const struct import_source *source, const struct ply_table *table, struct arena *arena,

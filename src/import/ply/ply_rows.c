@@ -82,6 +82,11 @@ bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_chunk, st
         if (!reader->items)
             return call_memory_error(call, total * sizeof *reader->items, error);
     }
+    if (reader->request->wedges) {
+        table->wedges = reader->wedges = arena_alloc_zeroed(keep, 2 * (size_t)reader->total * sizeof(float));
+        if (!reader->wedges)
+            return call_memory_error(call, 2 * (size_t)reader->total * sizeof(float), error);
+    }
     if (reader->request->scalars) {
         table->rows.memory = reader->rows = arena_array(scratch, count, table->rows.stride);
         if (!reader->rows)

@@ -14,9 +14,10 @@ struct ply_reader {
     const uint8_t *first;     // row 0, if it is in memory
     const uint8_t **chunks;   // start of each chunk
     uint32_t *items, *starts; // the contents of the requested list (ply_table)
-    uint8_t *rows;            // scalars; NULL if not requested
-    uint64_t total;           // items so far (ply_table.items)
-    bool has_other_counts;    // a row contains more or fewer than three items
+    float *wedges;
+    uint8_t *rows;         // scalars; NULL if not requested
+    uint64_t total;        // items so far (ply_table.items)
+    bool has_other_counts; // a row contains more or fewer than three items
     // ply_ascii.c
     const uint8_t *end; // the end of the file
     size_t indexed;     // number of rows that index_rows has read without error
@@ -44,6 +45,14 @@ static inline void ply_count_items(struct ply_reader *reader, int64_t items)
 {
     reader->total += items < 3 ? 0 : 3 * ((uint64_t)items - 2);
     reader->has_other_counts |= items != 3;
+}
+
+// Stores number `index` of a row's list of texture coordinates. Numbers without a corner are ignored.
+static inline void ply_put_wedge(const struct ply_reader *reader, size_t row, size_t index, float number)
+{
+    size_t start = reader->starts[row], room = reader->starts[row + 1] - start;
+    if (room > 0 && index < 2 * (room / 3 + 2))
+        reader->wedges[2 * start + index] = number - number == 0 ? number : 0;
 }
 
 // Reads the rows after the serial pass and fills the table.

@@ -24,9 +24,8 @@ struct stl_ascii_parser {
     const struct import_source *source;
     struct lam_scene *scene;
     const uint8_t *start, *at, *end;
-    float *positions;   // 3 per corner
-    double *exact;      // positions in the second pass, for models far from zero; NULL in the first pass
-    bool needs_doubles; // first pass: a number exceeds the range of a float
+    float *positions; // 3 per corner
+    double *exact;    // positions in the second pass, for models far from zero; NULL in the first pass
     float minimum[3], maximum[3];
     lam_part *parts;
     uint32_t part_count;
@@ -36,6 +35,7 @@ struct stl_ascii_parser {
     // position at which "endsolid" was expected.
     uint32_t unclosed;
     const uint8_t *first_unclosed, *end_expected;
+    const uint8_t *remark; // the first line after a solid that does not begin another solid, or NULL
 };
 
 static bool fail_at(const struct stl_ascii_parser *reader, lam_error *error, const char *expected)
@@ -83,16 +83,14 @@ static bool read_corner(struct stl_ascii_parser *reader, size_t corner, lam_erro
                                             : number_float(reader->at, reader->end, &value);
         if (!next || (next < reader->end && !text_white(*next)))
             return fail_at(reader, error, "a number");
+        // scene_repair leaves out facets whose positions do not fit into floats.
         if (reader->exact) {
-            if (!(exact >= -DBL_MAX && exact <= DBL_MAX))
-                return fail_at(reader, error, "a finite number");
-            reader->exact[3 * corner + (size_t)axis] = exact;
+            bool fits = exact >= -(double)FLT_MAX && exact <= (double)FLT_MAX;
+            reader->exact[3 * corner + (size_t)axis] = fits ? exact : __builtin_nan("");
         } else {
-            if (!(value >= -FLT_MAX && value <= FLT_MAX))
-                reader->needs_doubles = true; // the second pass reads doubles, and checks that they are finite
-            if (value < reader->minimum[axis])
+            if (value < reader->minimum[axis] && value >= -FLT_MAX)
                 reader->minimum[axis] = value;
-            if (value > reader->maximum[axis])
+            if (value > reader->maximum[axis] && value <= FLT_MAX)
                 reader->maximum[axis] = value;
             reader->positions[3 * corner + (size_t)axis] = value;
         }
@@ -208,6 +206,9 @@ static bool read_all(struct stl_ascii_parser *reader, lam_error *error)
         } else if (reader->at == reader->end) {
             open_solid(reader, NULL);
             break;
+        } else if (!inside && reader->part_count > 0) { // a remark after a solid
+            reader->remark = reader->remark ? reader->remark : reader->at;
+            reader->at = text_line_end(reader->at, reader->end);
         } else {
             return fail_at(reader, error, "\"facet\", \"endsolid\" or \"solid\"");
         }
@@ -238,11 +239,7 @@ static bool read_doubles(struct stl_ascii_parser *reader, struct arena *scratch,
     }
     origin_choose(minimum, maximum, origin);
     for (size_t i = 0; i < numbers; i++) {
-        double relative = reader->exact[i] - origin[i % 3];
-        if (!(relative >= -(double)FLT_MAX && relative <= (double)FLT_MAX))
-            return fail(error, LAM_CANNOT_READ, "%s: facet %zu: corner %zu is too far from the others for a float",
-                        reader->source->name, i / 9 + 1, i % 9 / 3 + 1);
-        reader->positions[i] = (float)relative;
+        reader->positions[i] = (float)(reader->exact[i] - origin[i % 3]);
     }
     return true;
 }
@@ -278,13 +275,19 @@ bool stl_load_ascii(const struct import_source *source, struct lam_scene *scene,
     if (reader.facets == 0)
         return true;
     warn_unclosed(&reader);
+    char found[TEXT_FOUND_SIZE];
+    if (reader.remark)
+        scene_warn(scene,
+                   "%s:%zu: found %s after \"endsolid\", expected \"solid\" or the end of the file; the line is "
+                   "ignored",
+                   source->name, text_line(source->bytes, reader.remark), text_found(reader.remark, reader.end, found));
 
     double minimum[3], maximum[3];
     for (int axis = 0; axis < 3; axis++) {
         minimum[axis] = (double)reader.minimum[axis];
         maximum[axis] = (double)reader.maximum[axis];
     }
-    if (reader.needs_doubles || origin_choose(minimum, maximum, mesh->origin)) {
+    if (origin_choose(minimum, maximum, mesh->origin)) {
         struct arena scratch;
         arena_start(&scratch, source->call);
         bool done = read_doubles(&reader, &scratch, mesh->origin, error);

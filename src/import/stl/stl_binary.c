@@ -29,40 +29,20 @@ struct stl_binary_reader {
     bool magics;
 };
 
-static bool fail_not_finite(const struct stl_binary_reader *reader, size_t first, size_t last, lam_error *error)
-{
-    for (size_t i = first; i < last; i++) {
-        for (int c = 0; c < 9; c++) {
-            uint32_t bits;
-            memcpy(&bits, &reader->positions[9 * i + (size_t)c], 4);
-            if ((bits & 0x7f800000) != 0x7f800000)
-                continue;
-            return fail_byte(error, reader->source, STL_FACETS + i * STL_FACET + STL_CORNERS + 4 * (size_t)c,
-                             "facet %zu: found %s as %c of corner %d, expected a finite number", i + 1,
-                             bits & 0x007fffff ? "NaN" : "infinity", "xyz"[c % 3], c / 3 + 1);
-        }
-    }
-    return false;
-}
-
 static bool read_chunk(void *user, size_t index, const uint8_t *facet, lam_error *error)
 {
     const struct stl_binary_reader *reader = user;
     size_t first, last;
     parallel_rows_range(reader->facets.count, index, &first, &last);
     struct stl_words words = {0};
-    uint32_t nonfinite = 0; // bit 31: a number is NaN or infinite
     float *corners = reader->positions + 9 * first;
+    (void)error;
     for (size_t i = first; i < last; i++, facet += STL_FACET, corners += 9) {
-        uint32_t bits[9];
-        memcpy(bits, facet + STL_CORNERS, sizeof bits);
-        memcpy(corners, bits, sizeof bits);
-        for (int c = 0; c < 9; c++)
-            nonfinite |= (bits[c] & 0x7fffffff) + 0x00800000;
+        memcpy(corners, facet + STL_CORNERS, 9 * sizeof *corners);
         stl_add_word(&words, stl_word_of(facet));
     }
     reader->words[index] = words;
-    return !(nonfinite & 0x80000000) || fail_not_finite(reader, first, last, error);
+    return true;
 }
 
 static uint8_t five_bits(unsigned value) { return (uint8_t)((value * 255 + 15) / 31); }

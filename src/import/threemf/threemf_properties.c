@@ -215,6 +215,8 @@ bool begin_texcoord(struct threemf_xml *xml, const char *const *attributes)
     if (!row || !threemf_take_float(xml, attributes, "u", &row[0]) ||
         !threemf_take_float(xml, attributes, "v", &row[1]))
         return false;
+    for (int i = 0; i < 2; i++)
+        row[i] = row[i] - row[i] == 0 ? row[i] : 0; // not finite
     row[1] = 1 - row[1];
     model_group(reader)->count++;
     return true;

@@ -401,8 +401,8 @@ bool threemf_take_float(struct threemf_xml *xml, const char *const *attributes, 
         return threemf_xml_fail(xml, "the attribute %s is missing", name);
     const uint8_t *at = (const uint8_t *)text + strspn(text, " \t\r\n");
     const uint8_t *next = number_float(at, at + strlen((const char *)at), out);
-    bool good = next && *out >= -FLT_MAX && *out <= FLT_MAX && !next[strspn((const char *)next, " \t\r\n")];
-    return good || threemf_xml_fail(xml, "found %s=\"%s\", expected a finite number", name, shown_name(text, shown));
+    bool good = next && !next[strspn((const char *)next, " \t\r\n")];
+    return good || threemf_xml_fail(xml, "found %s=\"%s\", expected a number", name, shown_name(text, shown));
 }
 
 #endif

@@ -62,7 +62,7 @@ const char *threemf_attribute_of(const struct threemf_xml *xml, const char *cons
 // otherwise to false. If `found` is NULL, the attribute is required.
 bool threemf_take_number(struct threemf_xml *xml, const char *const *attributes, const char *name, uint32_t *out,
                          bool *found);
-// Parses a required attribute that is a finite number.
+// Parses a required attribute that is a number, possibly one that is not finite.
 bool threemf_take_float(struct threemf_xml *xml, const char *const *attributes, const char *name, float *out);
 
 #endif

@@ -206,7 +206,7 @@ const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gl
         // The load owns the file's bytes and may therefore change the numbers in place.
         float *floats =
             own_bytes ? (float *)(uintptr_t)a->data : convert_all(gltf, a, keep ? &gltf->scene->arena : gltf->scratch);
-        if (!floats || !check_finite(gltf, place, a, floats, flags & GLTF_REQUIRED))
+        if (!floats || (!(flags & GLTF_AS_THEY_ARE) && !check_finite(gltf, place, a, floats, flags & GLTF_REQUIRED)))
             return NULL;
         a->floats[keep] = floats;
     }

@@ -11,6 +11,7 @@ enum {
     GLTF_KEEP = 1, // the array lives as long as the scene, not only until the load ends
     // a number that is not finite is an error at `place`; without this flag, the number becomes 0 with a warning
     GLTF_REQUIRED = 2,
+    GLTF_AS_THEY_ARE = 4, // numbers that are not finite remain, for scene_repair
 };
 const float *gltf_floats(struct gltf *gltf, const struct place *place, struct gltf_accessor *accessor, int flags);
 

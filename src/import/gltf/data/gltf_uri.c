@@ -10,24 +10,6 @@
 
 bool gltf_is_data_uri(const char *uri) { return strncasecmp(uri, "data:", 5) == 0; }
 
-// Returns the byte encoded by '%' and two hexadecimal digits, or −1 if the digits are invalid.
-static int escaped(const char *at)
-{
-    int high = at[0] == '%' ? number_hex_digit(at[1]) : -1, low = high < 0 ? -1 : number_hex_digit(at[2]);
-    return low < 0 ? -1 : high * 16 + low;
-}
-
-// Replaces each %XX with the byte that it encodes, and copies all other characters. `out` must be as large as `uri`.
-static void gltf_uri_unescape(const char *uri, char *out)
-{
-    while (*uri) {
-        int byte = escaped(uri);
-        *out++ = byte > 0 ? (char)byte : *uri; // %00 is not decoded, because a name cannot contain a zero byte
-        uri += byte > 0 ? 3 : 1;
-    }
-    *out = 0;
-}
-
 // --- data URIs
 
 // Decodes base64 (RFC 4648); `text` does not include the padding. Returns the position of the first invalid character,
@@ -71,7 +53,7 @@ static size_t decode_text(const char *text, uint8_t *out)
 {
     size_t size = 0;
     for (; *text; size++) {
-        int byte = escaped(text);
+        int byte = companion_escaped(text);
         if (out)
             out[size] = byte >= 0 ? (uint8_t)byte : (uint8_t)*text;
         text += byte >= 0 ? 3 : 1;
@@ -130,7 +112,7 @@ bool gltf_uri_read(struct gltf *gltf, const struct place *place, const char *uri
     char *name = arena_string(gltf->scratch, uri);
     if (!name)
         return gltf_no_memory(gltf, strlen(uri));
-    gltf_uri_unescape(uri, name);
+    companion_unescape(uri, name);
     lam_error reason = {0};
     struct companion companion;
     if (gltf->source->open(gltf->source, name, gltf->scratch, &companion, &reason)) {

@@ -18,7 +18,7 @@
 struct addition {
     struct gltf *gltf;
     const struct place *place; // the position of the target's accessor in the file
-    bool required;             // whether a sum that is not finite is an error; otherwise it becomes 0
+    bool positions;            // scene_repair needs sums that are not finite; otherwise, they become 0
     const float *base, *target;
     float *out; // may be `base`
     int base_width, width;
@@ -29,19 +29,14 @@ struct addition {
 static bool add_chunk(void *user, size_t index, lam_error *error)
 {
     const struct addition *a = user;
+    (void)error;
     size_t first, last, wide = (size_t)a->base_width, narrow = (size_t)a->width;
     parallel_rows_range(a->count, index, &first, &last);
     for (size_t i = first; i < last; i++)
         for (size_t c = 0; c < wide; c++) {
             float more = c < narrow ? (float)(a->weight * (double)a->target[narrow * i + c]) : 0.0f;
             float sum = a->base[wide * i + c] + more;
-            bool finite = sum - sum == 0;
-            if (!finite && a->required)
-                return error &&
-                       json_fail(&a->gltf->json, a->place,
-                                 "element %zu: with its weight of %g the vertex is out of the range of numbers", i,
-                                 a->weight);
-            a->out[wide * i + c] = finite ? sum : 0;
+            a->out[wide * i + c] = a->positions || sum - sum == 0 ? sum : 0;
         }
     return true;
 }
@@ -79,7 +74,7 @@ static bool add_target(const struct morph_target *t, const char *name, int width
         return false;
     struct addition addition = {.gltf = gltf,
                                 .place = here,
-                                .required = strcmp(name, "POSITION") == 0,
+                                .positions = strcmp(name, "POSITION") == 0,
                                 .base = *values,
                                 .target = gltf_floats(gltf, here, accessor, GLTF_REQUIRED),
                                 .out = (float *)(uintptr_t)*values,

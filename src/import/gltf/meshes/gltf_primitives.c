@@ -79,7 +79,7 @@ static bool take_floats(struct gltf *gltf, const struct place *place, const json
     if (!accessor)
         return true;
     *out = gltf_floats(gltf, KEY_OF(place, rule->name), accessor,
-                       GLTF_KEEP | (rule == &position_rule ? GLTF_REQUIRED : 0));
+                       GLTF_KEEP | (rule == &position_rule || rule == &normal_rule ? GLTF_AS_THEY_ARE : 0));
     *out_count = (uint32_t)accessor->count;
     return *out != NULL;
 }

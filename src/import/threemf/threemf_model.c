@@ -127,24 +127,6 @@ static bool take_property(struct threemf_xml *xml, const char *const *attributes
     return true;
 }
 
-bool model_add_triangle(struct model_reader *reader, const uint32_t corners[3], const struct threemf_property *property)
-{
-    struct threemf *file = reader->file;
-    uint32_t *row = threemf_add(file, &reader->indices, 3 * sizeof *row);
-    struct threemf_property *kept = row ? threemf_add(file, &reader->properties, sizeof *kept) : NULL;
-    if (!kept ||
-        !call_check_triangles(file->source->call, file->source->name, reader->indices.count, "triangles",
-                              file->error) ||
-        (reader->indices.count % 65536 == 0 && !call_should_continue(file->source->call) &&
-         !call_error(file->source->call, file->error)))
-        return false;
-    memcpy(row, corners, 3 * sizeof *row);
-    *kept = *property;
-    reader->has_properties |= property->group != reader->object->group || property->index[0] != reader->object->index ||
-                              property->index[1] != property->index[0] || property->index[2] != property->index[0];
-    return true;
-}
-
 // Returns the painting of a triangle with filaments, as PrusaSlicer or Bambu Studio and OrcaSlicer write it, or NULL.
 static const char *painting_of(struct threemf_xml *xml, const char *const *attributes)
 {

@@ -76,6 +76,9 @@ struct threemf_resource *model_add_resource(struct threemf_xml *xml, const char 
 struct threemf_resource *model_resource(struct threemf_part *part, int32_t index);
 struct threemf_resource *model_group(struct model_reader *reader);
 bool model_add_color(struct threemf *file, struct threemf_part *part, const float color[4]);
+// Adds a triangle to the current object.
+bool model_add_triangle(struct model_reader *reader, const uint32_t corners[3],
+                        const struct threemf_property *property);
 // Reads the next number of a list in an attribute. Returns false if the list has no further whole number below `limit`.
 bool model_next_number(const char **at, uint32_t limit, uint32_t *out);
 bool model_at_end(const char *at); // whether only spaces are left
@@ -103,9 +106,6 @@ bool properties_take_color(struct threemf_xml *xml, const char *const *attribute
 // threemf_layers.c: multiproperties.
 threemf_begin_fn begin_multis, begin_multi;
 threemf_end_fn end_multis;
-// threemf_model.c: adds a triangle to the current object.
-bool model_add_triangle(struct model_reader *reader, const uint32_t corners[3],
-                        const struct threemf_property *property);
 // threemf_paint.c: adds the triangles into which a painting of filaments subdivides a triangle. `property` applies to
 // unpainted ones. paint_finish cuts other triangles at the vertices that subdivisions place on their sides.
 bool paint_triangle(struct model_reader *reader, const char *painting, const uint32_t corners[3],

@@ -1,4 +1,4 @@
-// threemf_resources.c: finds the resources of a model part by their ids.
+// threemf_resources.c: finds the resources of a model part by their ids, and adds colours and triangles.
 #include "threemf_model.h"
 
 #ifdef HAVE_3MF
@@ -22,6 +22,24 @@ bool model_add_color(struct threemf *file, struct threemf_part *part, const floa
     if (row)
         memcpy(row, color, 4 * sizeof *row);
     return row != NULL;
+}
+
+bool model_add_triangle(struct model_reader *reader, const uint32_t corners[3], const struct threemf_property *property)
+{
+    struct threemf *file = reader->file;
+    uint32_t *row = threemf_add(file, &reader->indices, 3 * sizeof *row);
+    struct threemf_property *kept = row ? threemf_add(file, &reader->properties, sizeof *kept) : NULL;
+    if (!kept ||
+        !call_check_triangles(file->source->call, file->source->name, reader->indices.count, "triangles",
+                              file->error) ||
+        (reader->indices.count % 65536 == 0 && !call_should_continue(file->source->call) &&
+         !call_error(file->source->call, file->error)))
+        return false;
+    memcpy(row, corners, 3 * sizeof *row);
+    *kept = *property;
+    reader->has_properties |= property->group != reader->object->group || property->index[0] != reader->object->index ||
+                              property->index[1] != property->index[0] || property->index[2] != property->index[0];
+    return true;
 }
 
 bool model_next_number(const char **at, uint32_t limit, uint32_t *out)

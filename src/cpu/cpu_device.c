@@ -37,7 +37,7 @@ static uint64_t cpu_memory(const struct lam_device *base)
     uint64_t bytes = frame_memory_bytes(&device->memory) + visible->sets.capacity + visible->normals.capacity +
                      visible->fragment_stores.capacity;
     for (int i = 0; i < device->thread_count; i++)
-        bytes += thread_bytes(&device->threads[i], &device->bins[i]);
+        bytes += thread_bytes(&device->threads[i], &device->bins[i], i == 0);
     return bytes;
 }
 

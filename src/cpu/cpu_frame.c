@@ -105,7 +105,8 @@ static bool set_up_thread(struct thread_state *thread, const struct cpu_frame *c
 {
     struct suballocator count = {0};
     lay_out_thread(&count, thread, &cpu->target);
-    if (!buffer_reserve(&thread->storage, count.used, cpu->call, error))
+    // The number of threads must not decide whether the call succeeds, so only the first thread's memory is counted.
+    if (!buffer_reserve(&thread->storage, count.used, thread == cpu->threads ? cpu->call : NULL, error))
         return false;
     lay_out_thread(&(struct suballocator){.block = thread->storage.data}, thread, &cpu->target);
     thread->coverage_ns = thread->lighting_ns = thread->resolve_ns = thread->pixels_covered = 0;
@@ -120,7 +121,7 @@ static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_erro
 {
     size_t of_thread = tile_count(cpu) * TILE_BINS;
     size_t bytes = of_thread * (size_t)cpu->raster.thread_count * sizeof(struct bin_block *);
-    if (!buffer_reserve(heads, bytes, cpu->call, error))
+    if (!buffer_reserve(heads, bytes, NULL, error))
         return false;
     memset(heads->data, 0, bytes);
     for (int i = 0; i < cpu->raster.thread_count; i++) {
@@ -136,10 +137,10 @@ static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_erro
     return true;
 }
 
-uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins)
+uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins, bool first)
 {
     return (uint64_t)thread->shading.ray_layers.capacity * sizeof *thread->shading.ray_layers.list +
-           thread->storage.capacity + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->clipped);
+           (first ? thread->storage.capacity : 0) + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->clipped);
 }
 
 void thread_free(struct thread_state *thread, struct thread_bins *bins)

@@ -84,7 +84,7 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
 
 uint64_t frame_memory_bytes(const struct frame_memory *memory);
 void frame_memory_free(struct frame_memory *memory);
-uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins);
+uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins, bool first);
 void thread_free(struct thread_state *thread, struct thread_bins *bins);
 
 // Runs all steps for a tile, with the state of one thread.

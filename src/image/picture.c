@@ -33,6 +33,9 @@ bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32
     if (!picture_size_check(file, width, height, error))
         return false;
     size_t bytes = (size_t)width * height * pixel_bytes(format);
+    // The time for decoding depends on the pixels more than on the bytes.
+    if (!call_unpack(file->call, (uint64_t)width * height * 4, error))
+        return false;
     if (file->call && !call_charge(file->call, bytes))
         return call_memory_error(file->call, bytes, error);
     if (image_make_larger(image, (int)width, (int)height, format, more, error))

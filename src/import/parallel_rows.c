@@ -76,7 +76,7 @@ bool parallel_rows_read(const struct import_source *source, const struct row_byt
 {
     struct run run = {.source = source, .bytes_task = task, .user = user, .rows = rows};
     struct arena scratch;
-    arena_start(&scratch, source->call);
+    arena_start(&scratch, NULL); // the threads' buffers are not counted, because the number of threads varies
     bool done = true;
     if (source->parts && !rows->memory) {
         size_t bytes = PARALLEL_ROWS * rows->stride, threads = (size_t)pool_threads(source->pool);

@@ -1,5 +1,7 @@
 # test_limits.py: limits for untrusted files: small files that claim to be huge, and each limit with its option.
 import base64
+import io
+import itertools
 import json
 import os
 import pathlib
@@ -7,6 +9,7 @@ import resource
 import struct
 import subprocess
 import sys
+import zipfile
 import zlib
 
 from harness import Case, PROGRAM, chunk, long
@@ -137,6 +140,39 @@ MODELS = {
 }
 
 
+def pictures(files):
+    """A GLB file of a triangle for each picture."""
+    binary, views = struct.pack("<15f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1), [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}]
+    for data in dict.fromkeys(files):
+        views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data)})
+        binary += data + bytes(-len(data) % 4)
+    order = {data: i + 2 for i, data in enumerate(dict.fromkeys(files))}
+    each = range(len(files))
+    tree = json.loads(gltf(
+        buffers=[{"byteLength": len(binary)}], bufferViews=views, images=[{"bufferView": order[f], "mimeType": "image/png"} for f in files],
+        textures=[{"source": i} for i in each], materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in each],
+        accessors=[accessor(bufferView=0, count=3), {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": i} for i in each]}]))
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    return b"glTF" + struct.pack("<IIII", 2, 28 + len(text) + len(binary), len(text), 0x4e4f534a) + text + struct.pack("<II", len(binary), 0x4e4942) + binary
+
+
+def package(model, **parts):
+    """A 3MF file whose model part has these resources, with a triangle."""
+    bytes_of = io.BytesIO()
+    core, relation = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02", "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+    with zipfile.ZipFile(bytes_of, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        archive.writestr("_rels/.rels", '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+                         f'<Relationship Target="/a.model" Id="r" Type="{relation}"/></Relationships>')
+        archive.writestr("a.model", f'<model unit="millimeter" xmlns="{core}" xmlns:m="{core.replace("core/2015", "material/2015")}"><resources>{model}'
+                         '<object id="1"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices>'
+                         '<triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object></resources><build><item objectid="1"/></build></model>')
+        for name, data in parts.items():
+            archive.writestr(name.replace("_", "."), data)
+    return bytes_of.getvalue()
+
+
 class Limits(Case):
     # The system counts the peak resident memory from before exec(), so a small process starts the program and measures it.
     MEASURE = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode; "
@@ -182,6 +218,9 @@ class Limits(Case):
                    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]}
         textured = {"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
                     "accessors": [accessor(bufferView=0, count=3), {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}]}
+        damaged = lambda i: png(8192, 8192, 1, 0, b"\0" * (8192 * 1025 - 1) + bytes([i]))[:-16] + b"\0\0\0\0" + png(1, 1)[-12:]
+        (self.folder / "p.png").write_bytes(damaged(0))
+        (self.folder / "spelled.mtl").write_text("".join(f"newmtl m{i}\nmap_Kd {'./' * i}p.png\n" for i in range(50)))
         lights = [{"type": "point", "position": [i, 2, 3]} for i in range(1500)]
         return {
             "polygon.obj": (square + b"f " + corners + b"\n", "layer-limit"),
@@ -191,6 +230,13 @@ class Limits(Case):
             "one-colour.gltf": (gltf(**texture, **textured), "16383×16383 pixels, expected at most"),
             "bits.gltf": (gltf(**{**texture, "images": [{"uri": "data:image/png;base64," + base64.b64encode(
                 png(16000, 16000, 1, 0, bytes(2001 * 16000))).decode()}]}, **textured), "expansion-limit"),
+            # One content is decoded once, however often and in whatever spelling the file names it; what is decoded and dropped again counts.
+            "shared.glb": (pictures([damaged(0)] * 200), None),
+            "damaged.glb": (pictures([damaged(i) for i in range(11)]), "in total, expected at most"),
+            "spelled.obj": (b"mtllib spelled.mtl\n" + square + b"".join(b"usemtl m%d\nf 1 2 3\n" % i for i in range(50)), None),
+            "shared.3mf": (package("".join(f'<m:texture2d id="{i}" path="/{spelling}.png" contenttype="image/png"/>'
+                                           for i, spelling in enumerate(map("".join, itertools.product(*zip("abcdef", "ABCDEF"))), 2)), abcdef_png=damaged(0)), None),
+            "elements.3mf": (package("<a/>" * 20000000), None),
             "lights.json": (json.dumps({"lambent": 1, "objects": [{"shape": "cube"}], "lights": lights}).encode(), None),
             "spheres.json": (json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}] * 1000}).encode(), None),
         }
@@ -223,6 +269,30 @@ class Limits(Case):
                 self.assertEqual(code, 4, text)
                 self.assertIn("--time-limit", text)
                 self.assertLess(cpu, 2 * 0.7 if not SANITIZED else 10)
+
+    def test_threads_never_decide(self):
+        """Around the smallest sufficient memory limit, every number of threads gives the same exit code, message and picture."""
+        for i in range(24):
+            side, bits, color = 256 + 16 * (i % 9), 16 if i % 3 else 8, 6 if i % 2 else 2
+            row = 1 + side * bits // 8 * (4 if color == 6 else 3)
+            (self.folder / f"{i}.png").write_bytes(png(side, side, bits, color, b"".join(bytes([0]) + bytes([i]) * (row - 1) for _ in range(side))))
+        (self.folder / "m.mtl").write_text("".join(f"newmtl m{i}\nmap_Kd {i}.png\n" for i in range(24)))
+        (self.folder / "m.obj").write_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n" +
+                                           "".join(f"usemtl m{i}\nf 1/1 2/2 3/3\n" for i in range(24)))
+
+        def answer(limit, threads):
+            (self.folder / "m.png").unlink(missing_ok=True)
+            done = subprocess.run([PROGRAM, "m.obj", "-q", "-s", "64", "-o", "m.png", "-j", str(threads), "--memory-limit", str(limit)], cwd=self.folder,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            return done.returncode, done.stderr, (self.folder / "m.png").read_bytes() if done.returncode == 0 else b""
+        low, high = 1 << 20, 1 << 28
+        while high - low > 100000:
+            middle = (low + high) // 2
+            low, high = (middle, high) if answer(middle, 1)[0] else (low, middle)
+        for limit in (high - 6000000, high - 3000000, high - 1000000, low, high, high + 1000000, high + 4000000):
+            expected = answer(limit, 1)
+            for threads in (2, 3, 8, 16, 16):
+                self.assertEqual(answer(limit, threads), expected, (limit, threads))
 
     def test_triangles(self):
         triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 5

@@ -206,7 +206,7 @@ static void test_at_once(void **state)
             // Without memory for it, it is not read in one step, and no error is reported.
             call_start(&call, &(lam_control){.memory_limit_bytes = 1000});
             assert_false(png_read_whole(&picture, kinds[kind].channels, &image));
-            assert_true(call_should_continue(&call) && !call.over_memory && call.memory_used == 0);
+            assert_true(call_should_continue(&call) && !call.refused && call.memory_used == 0);
             lam_image_free(&image);
             free(file.bytes);
         }

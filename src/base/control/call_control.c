@@ -47,7 +47,8 @@ static bool over_time(const struct call_control *call)
 
 bool call_should_continue(struct call_control *call)
 {
-    return !call || (!cancelled(call) && !over_time(call) && !call->unknown_field);
+    return !call || (!cancelled(call) && !over_time(call) && !call->unknown_field &&
+                     __atomic_load_n(&call->together, __ATOMIC_RELAXED) != CALL_STOPPED);
 }
 
 bool call_error(struct call_control *call, lam_error *error)
@@ -101,39 +102,88 @@ bool call_charge_spare(struct call_control *call, size_t bytes)
     return false;
 }
 
-bool call_charge(struct call_control *call, size_t bytes)
+static void note_refusal(struct call_control *call, enum call_budget budget, uint64_t used, uint64_t bytes,
+                         uint64_t limit)
 {
-    if (call_charge_spare(call, bytes))
-        return true;
-    uint64_t limit = call->control.memory_limit_bytes, used = __atomic_load_n(&call->memory_used, __ATOMIC_RELAXED);
-    bool plain = limit && used + bytes > limit;
     __atomic_store_n(&call->refused_used, used, __ATOMIC_RELAXED);
     __atomic_store_n(&call->refused_bytes, bytes, __ATOMIC_RELAXED);
-    __atomic_store_n(&call->refused_limit, plain ? limit : expansion_bytes(call), __ATOMIC_RELAXED);
-    __atomic_store_n(plain ? &call->over_memory : &call->over_expansion, 1, __ATOMIC_RELAXED);
+    __atomic_store_n(&call->refused_limit, limit, __ATOMIC_RELAXED);
+    __atomic_store_n(&call->refused, (int)budget, __ATOMIC_RELAXED);
+}
+
+// Adds to the total of all unpacked bytes.
+static bool add_unpacked(struct call_control *call, uint64_t bytes)
+{
+    uint64_t files = expansion_bytes(call), pixels = grown(0, call_pixel_limit(call), 4);
+    uint64_t limit = files > pixels ? files : pixels;
+    uint64_t total = __atomic_add_fetch(&call->unpacked, bytes, __ATOMIC_RELAXED);
+    // Results of tasks that run together may be discarded, so these tasks may use only half of the limit.
+    if (total <= (__atomic_load_n(&call->together, __ATOMIC_RELAXED) ? limit / 2 : limit))
+        return true;
+    note_refusal(call, TOTAL_BUDGET, total - bytes, bytes, limit);
+    return false;
+}
+
+bool call_charge(struct call_control *call, size_t bytes)
+{
+    if (call_charge_spare(call, bytes)) {
+        if (add_unpacked(call, bytes))
+            return true;
+        __atomic_sub_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
+        return false;
+    }
+    uint64_t limit = call->control.memory_limit_bytes, used = __atomic_load_n(&call->memory_used, __ATOMIC_RELAXED);
+    bool plain = limit && used + bytes > limit;
+    note_refusal(call, plain ? MEMORY_BUDGET : EXPANSION_BUDGET, used, bytes, plain ? limit : expansion_bytes(call));
     return false;
 }
 
 void call_refund(struct call_control *call, size_t bytes)
 {
-    __atomic_sub_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
+    if (__atomic_load_n(&call->together, __ATOMIC_RELAXED))
+        __atomic_add_fetch(&call->refunds, bytes, __ATOMIC_RELAXED);
+    else
+        __atomic_sub_fetch(&call->memory_used, bytes, __ATOMIC_RELAXED);
+}
+
+void call_together(struct call_control *call)
+{
+    call->together = CALL_TOGETHER;
+    call->refunds = 0;
+    call->memory_before = call->memory_used;
+    call->unpacked_before = call->unpacked;
+}
+
+void call_stop_together(struct call_control *call)
+{
+    __atomic_store_n(&call->together, CALL_STOPPED, __ATOMIC_RELAXED);
+}
+
+bool call_apart(struct call_control *call)
+{
+    bool stopped = call->together == CALL_STOPPED;
+    call->memory_used = stopped ? call->memory_before : call->memory_used - call->refunds;
+    call->unpacked = stopped ? call->unpacked_before : call->unpacked;
+    call->together = CALL_ALONE;
+    return stopped;
 }
 
 bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error)
 {
-    if (call && __atomic_load_n(&call->over_memory, __ATOMIC_RELAXED))
+    int budget = call ? __atomic_load_n(&call->refused, __ATOMIC_RELAXED) : NO_BUDGET;
+    if (budget == NO_BUDGET)
+        return fail_memory(error, bytes);
+    double used = (double)call->refused_used / 1e6, more = (double)call->refused_bytes / 1e6;
+    double limit = (double)call->refused_limit / 1e6;
+    if (budget == MEMORY_BUDGET)
         return fail(error, LAM_LIMIT,
                     "the memory limit of %.1f MB is reached: %.1f MB in use, %.1f MB more needed "
                     "(lam_control.memory_limit_bytes)",
-                    (double)call->control.memory_limit_bytes / 1e6, (double)call->refused_used / 1e6,
-                    (double)call->refused_bytes / 1e6);
-    if (call && __atomic_load_n(&call->over_expansion, __ATOMIC_RELAXED))
-        return fail(error, LAM_LIMIT,
-                    "%.1f MB of memory are needed, expected at most %.1f MB for files of %llu bytes "
-                    "(lam_control.expansion_limit)",
-                    (double)(call->refused_used + call->refused_bytes) / 1e6, (double)call->refused_limit / 1e6,
-                    (unsigned long long)call_input_bytes(call));
-    return fail_memory(error, bytes);
+                    limit, used, more);
+    return fail(error, LAM_LIMIT,
+                "%.1f MB %s, expected at most %.1f MB for files of %llu bytes (lam_control.expansion_limit)",
+                used + more, budget == TOTAL_BUDGET ? "are unpacked in total" : "of memory are needed", limit,
+                (unsigned long long)call_input_bytes(call));
 }
 
 uint64_t call_triangle_limit(const struct call_control *call)
@@ -191,13 +241,9 @@ bool call_check_triangles(const struct call_control *call, const char *name, uin
                                   for_files(call, limit < LAM_TRIANGLE_LIMIT ? given : 1, text));
 }
 
-bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)
+bool call_unpack(struct call_control *call, uint64_t bytes, lam_error *error)
 {
-    uint64_t limit = expansion_bytes(call);
-    return bytes <= limit || fail(error, LAM_LIMIT,
-                                  "%s: unpacks to more than %.1f MB, expected at most that for files of %llu bytes "
-                                  "(lam_control.expansion_limit)",
-                                  name, (double)limit / 1e6, (unsigned long long)call_input_bytes(call));
+    return !call || add_unpacked(call, bytes) || call_memory_error(call, bytes, error);
 }
 
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error)

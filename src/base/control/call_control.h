@@ -5,15 +5,24 @@
 
 #include <lambent/base.h>
 
+// The budgets of a call: memory_limit_bytes, the memory that is derived from the file sizes, and the total of all bytes
+// that are unpacked.
+enum call_budget { NO_BUDGET, MEMORY_BUDGET, EXPANSION_BUDGET, TOTAL_BUDGET };
+
 struct call_control {
     lam_control control; // a copy; if all fields are zero, there are no limits
     uint64_t start_ns;
     uint64_t memory_used; // accessed atomically
-    int over_memory;      // set when a request has exceeded the memory budget
-    int over_expansion;   // set when a request has exceeded the budget that is derived from the file sizes
-    // The latest request that exceeded a budget: the bytes in use, the requested bytes and the limit. Accessed
-    // atomically.
+    // The total number of bytes that were charged or unpacked, released memory included. Accessed atomically.
+    uint64_t unpacked;
+    // The latest request that exceeded a budget: the budget, the bytes in use, the requested bytes and the limit.
+    // Accessed atomically.
+    int refused; // enum call_budget
     uint64_t refused_used, refused_bytes, refused_limit;
+    // While tasks run together (call_together): the state of the call, the refunds that are still to be made (both
+    // accessed atomically), and the counts from before.
+    enum { CALL_ALONE, CALL_TOGETHER, CALL_STOPPED } together;
+    uint64_t refunds, memory_before, unpacked_before;
     // The total size in bytes of all files read so far; accessed atomically. If the total size is 0, no file was read,
     // and no limit is derived from file sizes.
     uint64_t input_bytes;
@@ -42,6 +51,16 @@ bool call_charge(struct call_control *call, size_t bytes);
 bool call_charge_spare(struct call_control *call, size_t bytes);
 void call_refund(struct call_control *call, size_t bytes);
 
+// Tasks that run together would charge their memory in a random order. Between call_together and call_apart, refunds are
+// therefore postponed. If the sum of all charges is within the budget, then so is each order of the tasks. Otherwise the
+// caller discards the results, and runs the tasks one after another, so that the order and the number of threads never
+// decide whether the call succeeds. call_stop_together makes call_should_continue return false until call_apart, and
+// call_apart returns whether it was called. In this case call_apart also restores the counts of memory from before
+// call_together.
+void call_together(struct call_control *call);
+void call_stop_together(struct call_control *call);
+bool call_apart(struct call_control *call);
+
 // Reports a failed allocation: either it exceeds the budget, or memory has run out. Returns false.
 bool call_memory_error(struct call_control *call, size_t bytes, lam_error *error);
 
@@ -65,9 +84,10 @@ bool call_check_triangles(const struct call_control *call, const char *name, uin
 // Checks that a model may contain this many objects. Fails with LAM_LIMIT if there are too many.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 
-// Checks the size in bytes of a compressed file's data after decompression. Fails with LAM_LIMIT if this size exceeds
-// the memory that may be used to read the file.
-bool call_check_expanded(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);
+// Counts bytes that a decoder produces or reads again without charging memory for them. Like the bytes that call_charge
+// counts, they add to a total that is never reduced. Fails with LAM_LIMIT if this total exceeds its limit: four bytes
+// for each pixel of the largest picture, or the memory that may be used to read the files, whichever is larger.
+bool call_unpack(struct call_control *call, uint64_t bytes, lam_error *error);
 
 // Checks that a file of this size may be read. Fails with LAM_LIMIT if the file is too large.
 bool call_check_file(const struct call_control *call, const char *name, uint64_t bytes, lam_error *error);

@@ -24,14 +24,14 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
                 list->slabs = slabs;
                 list->capacity = capacity;
             }
-            if (!call_charge(raster->work->call, SLAB))
+            if (list->count > 0 && !call_charge(raster->work->call, SLAB)) // see slabs_bytes
                 goto out_of_memory;
             size_t held;
             // Whether all pages of the slab will be used.
             bool filled = next > 0 || raster->frame->triangle_count / (size_t)raster->thread_count > FILLED;
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
             if (!slab) {
-                call_refund(raster->work->call, SLAB);
+                call_refund(raster->work->call, list->count ? SLAB : 0);
                 goto out_of_memory;
             }
             list->slabs[list->count++] = slab;
@@ -48,7 +48,7 @@ out_of_memory:
     return NULL;
 }
 
-size_t slabs_bytes(const struct slab_list *list) { return (size_t)list->count * SLAB; }
+size_t slabs_bytes(const struct slab_list *list) { return list->count ? (size_t)(list->count - 1) * SLAB : 0; }
 
 size_t slabs_free(struct slab_list *list)
 {

@@ -62,8 +62,9 @@ struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread
 struct clipped_triangle *new_clipped_triangle(const struct raster_frame *raster, struct thread_bins *bins,
                                               uint32_t *number);
 const struct clipped_triangle *clipped_triangle(const struct thread_bins *bins, uint32_t number);
+// Returns the bytes that count towards the call's memory limit: all slabs but the first, which each thread has.
 size_t slabs_bytes(const struct slab_list *list);
-size_t slabs_free(struct slab_list *list); // returns the number of freed bytes
+size_t slabs_free(struct slab_list *list); // returns the number of freed bytes that counted
 
 // The snapped coordinates of a triangle's corners.
 struct snapped {

@@ -5,6 +5,7 @@
 #include "number.h"
 #include "shown_name.h"
 #include "text_cursor.h"
+#include "texture_batch.h"
 
 #include "fail.h"
 
@@ -18,11 +19,8 @@
 // values are colours.
 struct picture {
     const char *name, *folder;
-    lam_texture_values values;
     struct companion file;
-    bool opened;
-    struct lam_texture *texture;
-    lam_error error;
+    struct texture_source source;
 };
 
 struct pictures {
@@ -168,22 +166,12 @@ static struct picture *picture_of(struct pictures *pictures, const lam_material 
     lam_texture_values values =
         is_color(slot) && pictures->source->params->color != LAM_COLOR_RAW ? LAM_TEXTURE_COLOR : LAM_TEXTURE_NUMBERS;
     for (size_t i = 0; i < pictures->count; i++)
-        if (pictures->items[i].values == values && strcmp(pictures->items[i].name, name) == 0 &&
+        if (pictures->items[i].source.values == values && strcmp(pictures->items[i].name, name) == 0 &&
             strcmp(pictures->items[i].folder, folder) == 0)
             return &pictures->items[i];
     struct picture *picture = &pictures->items[pictures->count++];
-    *picture = (struct picture){.name = name, .folder = folder, .values = values};
+    *picture = (struct picture){.name = name, .folder = folder, .source = {.values = values}};
     return picture;
-}
-
-static void decode_picture(void *user, size_t index, int thread)
-{
-    const struct pictures *pictures = user;
-    struct picture *picture = &pictures->items[index];
-    (void)thread;
-    if (picture->opened)
-        picture->texture = texture_decode(picture->file.file.data, picture->file.file.size, picture->file.shown,
-                                          picture->values, pictures->source->call, &picture->error);
 }
 
 // --- materials
@@ -195,25 +183,25 @@ static bool is_own_alpha(const lam_material *m)
            strcmp(m->map_names[LAM_MAP_OPACITY], m->map_names[LAM_MAP_DIFFUSE]) == 0;
 }
 
-static bool add_map(struct lam_scene *scene, const char *file, lam_material *material, int slot,
-                    const struct picture *picture, lam_error *error)
+static bool add_map(struct lam_scene *scene, const char *file, lam_material *material, int slot, lam_texture *texture,
+                    lam_error *error)
 {
     bool channel_given = false;
     lam_texture_map *map = arena_alloc(&scene->arena, sizeof *map);
     if (!map)
         return call_memory_error(scene->arena.call, sizeof *map, error);
     *map = map_of(scene, file, material, slot, &channel_given);
-    map->texture = picture->texture;
+    map->texture = texture;
     // The opacity of a picture is its alpha, or its grey value if it has no alpha.
     if (slot == LAM_MAP_OPACITY && !channel_given)
-        map->channel = picture->texture->opaque ? 0 : 3;
+        map->channel = texture->opaque ? 0 : 3;
     bool nothing = map->scale == 0 && map->offset == 0; // lam_texture_map interprets a scale of 0 as 1
     if (nothing || (slot == LAM_MAP_OPACITY && map->channel == 3 && is_own_alpha(material)))
         return true; // the alpha of the diffuse map is already used
     material->maps[slot] = map;
     if (slot == LAM_MAP_DIFFUSE && material->illum == 0 && !material->map_names[LAM_MAP_EMISSION])
         material->maps[LAM_MAP_EMISSION] = map; // unlit: the surface emits the map's colour
-    return scene_share_texture(scene, picture->texture, error);
+    return scene_share_texture(scene, texture, error);
 }
 
 // Visits all maps, to list their pictures or to set the maps in materials.
@@ -231,8 +219,8 @@ static bool list_map(struct pictures *pictures, struct lam_scene *scene, lam_mat
 static bool give_map(struct pictures *pictures, struct lam_scene *scene, lam_material *material, int slot,
                      lam_error *error)
 {
-    const struct picture *picture = picture_of(pictures, material, slot);
-    return !picture->texture || add_map(scene, pictures->source->name, material, slot, picture, error);
+    lam_texture *texture = picture_of(pictures, material, slot)->source.texture;
+    return !texture || add_map(scene, pictures->source->name, material, slot, texture, error);
 }
 
 static bool for_each_map(struct pictures *pictures, struct lam_scene *scene, map_fn *run, lam_error *error)
@@ -255,18 +243,25 @@ static size_t count_maps(const struct lam_scene *scene)
     return count;
 }
 
-static bool open_pictures(struct pictures *pictures, struct lam_scene *scene, struct arena *memory, lam_error *error)
+// Opens the pictures. Fills `list` with the *count pictures that must be decoded.
+static bool open_pictures(struct pictures *pictures, struct lam_scene *scene, struct arena *memory,
+                          struct texture_source **list, size_t *count, lam_error *error)
 {
     for (size_t i = 0; i < pictures->count; i++) {
         struct picture *picture = &pictures->items[i];
+        struct texture_source *source = &picture->source;
         bool noted = false; // the same name, with values of the other kind
         for (size_t k = 0; k < i; k++)
             noted |= strcmp(pictures->items[k].name, picture->name) == 0;
-        picture->opened = companion_find(pictures->source, noted ? NULL : scene, picture->name, picture->folder, memory,
-                                         &picture->file, &picture->error);
-        if (!picture->opened && !texture_is_optional(&picture->error)) {
+        if (companion_find(pictures->source, noted ? NULL : scene, picture->name, picture->folder, memory,
+                           &picture->file, &source->error)) {
+            source->bytes = picture->file.file.data;
+            source->size = picture->file.file.size;
+            source->name = picture->file.shown;
+            list[(*count)++] = source;
+        } else if (!texture_is_optional(&source->error)) {
             if (error)
-                *error = picture->error;
+                *error = source->error;
             return false;
         }
     }
@@ -276,15 +271,15 @@ static bool open_pictures(struct pictures *pictures, struct lam_scene *scene, st
 static bool check_pictures(const struct pictures *pictures, struct lam_scene *scene, lam_error *error)
 {
     for (size_t i = 0; i < pictures->count; i++) {
-        const struct picture *picture = &pictures->items[i];
-        if (picture->texture)
+        const struct texture_source *source = &pictures->items[i].source;
+        if (source->texture || source->first)
             continue;
-        if (!texture_is_optional(&picture->error)) {
+        if (!texture_is_optional(&source->error)) {
             if (error)
-                *error = picture->error;
+                *error = source->error;
             return false;
         }
-        scene_warn(scene, "%s; drawn without this texture", picture->error.text);
+        scene_warn(scene, "%s; drawn without this texture", source->error.text);
     }
     return true;
 }
@@ -292,22 +287,23 @@ static bool check_pictures(const struct pictures *pictures, struct lam_scene *sc
 bool mtl_maps_read(const struct import_source *source, struct lam_scene *scene, const struct mtl_set *set,
                    struct arena *memory, lam_error *error)
 {
-    size_t most = count_maps(scene);
+    size_t most = count_maps(scene), count = 0;
     if (!most)
         return true;
     struct pictures pictures = {source, arena_array(memory, most, sizeof *pictures.items), 0, set,
                                 scene->materials.items};
-    if (!pictures.items)
+    struct texture_source **list = arena_array(memory, most, sizeof *list);
+    if (!pictures.items || !list)
         return call_memory_error(source->call, most * sizeof *pictures.items, error);
     for_each_map(&pictures, scene, list_map, error);
-    bool ok = open_pictures(&pictures, scene, memory, error);
+    bool ok = open_pictures(&pictures, scene, memory, list, &count, error);
     if (ok) {
-        pool_run(source->pool, pictures.count, decode_picture, &pictures);
+        textures_decode(list, count, source->pool, source->call);
         ok = check_pictures(&pictures, scene, error) && for_each_map(&pictures, scene, give_map, error);
     }
     for (size_t i = 0; i < pictures.count; i++) {
         file_release(&pictures.items[i].file.file);
-        lam_texture_free(pictures.items[i].texture);
+        lam_texture_free(pictures.items[i].source.texture);
     }
     return ok;
 }

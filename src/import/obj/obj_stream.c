@@ -302,9 +302,10 @@ static bool alloc_scratch(struct stream *stream)
     size_t text = OBJ_CHUNK + TAIL + FILE_PADDING, bytes = text;
     for (enum array kind = 0; kind < ARRAYS; kind++)
         bytes += (rows_max(kind, OBJ_CHUNK) + 1) * array_kinds[kind].row / 64 * 64 + 64;
-    if (!stream->scratch || !call_charge(stream->loop.call, threads * bytes))
+    // The memory of one thread is counted, so that the number of threads does not decide whether the call succeeds.
+    if (!stream->scratch || !call_charge(stream->loop.call, bytes))
         return false;
-    stream->scratch_bytes = threads * bytes;
+    stream->scratch_bytes = bytes;
     uint8_t *memory = stream->scratch_memory = pages_malloc(threads * bytes); // the picture may use this memory later
     if (!memory)
         return false;

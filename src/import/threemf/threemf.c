@@ -172,6 +172,7 @@ static bool threemf_load(const struct import_source *source, struct lam_scene *s
     threemf_rows_free(&file, &file.parts);
     threemf_rows_free(&file, &file.volumes);
     threemf_rows_free(&file, &file.filaments);
+    threemf_rows_free(&file, &file.pictures);
     threemf_package_close(&file);
     threemf_xml_close(&file);
     arena_free(&scratch);

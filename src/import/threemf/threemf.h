@@ -139,7 +139,7 @@ struct threemf {
     struct expat_library *expat;
     struct name_table part_names;
     struct threemf_rows parts;              // struct threemf_part *
-    uint64_t expanded;                      // total size of all parts in bytes
+    struct threemf_rows pictures;           // struct texture_source: the pictures that were read so far
     uint64_t part_limit;                    // largest size of one part; 0 means no limit
     uint64_t placed;                        // number of components and items that were followed
     size_t flattened;                       // number of instances whose transform is singular

@@ -199,11 +199,7 @@ static bool mix_texture(struct threemf *file, const struct mixed_layer *layers, 
         width = texture && texture->levels[0].width > width ? texture->levels[0].width : width;
         height = texture && texture->levels[0].height > height ? texture->levels[0].height : height;
     }
-    // Any number of groups may use the same texture, so the sizes of the mixed textures are added to the expanded size,
-    // which is limited.
-    file->expanded += (uint64_t)width * (uint64_t)height * 4;
-    if (!call_check_expanded(picture.call, file->source->name, file->expanded, file->error) ||
-        !picture_make(&picture, (uint32_t)width, (uint32_t)height, LAM_RGBA8, &image, file->error))
+    if (!picture_make(&picture, (uint32_t)width, (uint32_t)height, LAM_RGBA8, &image, file->error))
         return false;
     uint8_t *pixel = image.pixels;
     for (int y = 0; y < height; y++) {

@@ -92,8 +92,7 @@ static bool add_leaf(struct painter *painter, const uint32_t corners[3], unsigne
         painter->damaged = true;
         filament = 0;
     }
-    file->expanded += LEAF_BYTES;
-    return call_check_expanded(file->source->call, file->source->name, file->expanded, file->error) &&
+    return call_unpack(file->source->call, LEAF_BYTES, file->error) &&
            model_add_triangle(painter->reader, corners, filament ? &painted : painter->unpainted);
 }
 

@@ -9,7 +9,7 @@
 #ifdef HAVE_3MF
 
 #include "number.h"
-#include "texture_levels.h"
+#include "texture_batch.h"
 
 #include <lambent/material.h>
 
@@ -128,24 +128,29 @@ static lam_wrap wrap_of(const char *const *attributes, const char *name)
                                                 : LAM_WRAP_CLAMP;
 }
 
-// Decodes a picture of the package; the scene owns the texture. Warns and sets *out to NULL if the picture cannot be
-// read.
+// Decodes a picture of the package, unless a picture with the same contents was read before. The scene owns the texture.
+// Warns and sets *out to NULL if the picture cannot be read.
 static bool decode_picture(struct threemf *file, const char *path, lam_texture **out)
 {
-    const uint8_t *bytes;
-    size_t size;
     char name[SHOWN_NAME_SIZE + 512], shown[SHOWN_NAME_SIZE];
     lam_error *error = file->error, reason = {0};
     bool raw = file->source->params->color == LAM_COLOR_RAW;
+    struct texture_source source = {.values = raw ? LAM_TEXTURE_NUMBERS : LAM_TEXTURE_COLOR}, *found = NULL;
     snprintf(name, sizeof name, "%s: %s", file->source->name, shown_name(path, shown));
     file->error = &reason;
-    *out = NULL;
-    if (threemf_package_read_whole(file, path, &bytes, &size))
-        *out = texture_decode(bytes, size, name, raw ? LAM_TEXTURE_NUMBERS : LAM_TEXTURE_COLOR, file->source->call,
-                              &reason);
+    bool read = threemf_package_read_whole(file, path, &source.bytes, &source.size), known = false;
+    for (size_t i = 0; read && !known && i < file->pictures.count; i++) {
+        found = (struct texture_source *)file->pictures.items + i;
+        known = texture_source_order(found, &source) == 0;
+    }
+    if (!known && (found = read ? threemf_add(file, &file->pictures, sizeof *found) : NULL)) {
+        *found = source;
+        found->texture = texture_decode(source.bytes, source.size, name, source.values, file->source->call, &reason);
+    }
     file->error = error;
-    if (*out)
-        return scene_adopt_texture(file->scene, *out, error);
+    *out = found ? found->texture : NULL;
+    if (known || *out)
+        return known || scene_adopt_texture(file->scene, *out, error);
     if (!texture_is_optional(&reason)) {
         if (error)
             *error = reason;

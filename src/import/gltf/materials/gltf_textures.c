@@ -9,21 +9,17 @@
 #include "fail.h"
 #include "linear.h"
 #include "shown_name.h"
+#include "texture_batch.h"
 #include "webp_library.h"
 
 #include <stdio.h>
 #include <string.h>
 
-// A picture of the file, decoded according to `values`.
+// A picture of the file.
 struct gltf_picture {
     bool wanted;
-    lam_texture_values values;
-    const uint8_t *data;
-    size_t size;
-    struct file_bytes file; // the owner of `data`, unless `data` is in a buffer
-    const char *name;       // for messages
-    struct lam_texture *texture;
-    lam_error error;
+    struct texture_source source;
+    struct file_bytes file; // the owner of the picture's bytes, unless they are in a buffer
 };
 
 struct gltf_map {
@@ -147,23 +143,23 @@ static bool find_bytes(struct gltf *gltf, int image, struct gltf_picture *pictur
     bool is_file = uri && view < 0 && !gltf_is_data_uri(uri);
     snprintf(name, sizeof name, "images[%d]%s%s%s", image, is_file ? " (" : "", is_file ? shown_file(uri, shown) : "",
              is_file ? ")" : "");
-    picture->name = message_name(gltf, name);
-    if (!picture->name)
+    picture->source.name = message_name(gltf, name);
+    if (!picture->source.name)
         return gltf_no_memory(gltf, sizeof name);
     if (view >= 0) {
         const struct gltf_view *bytes = gltf_view_at(gltf, view);
         if (!bytes)
             return false;
-        picture->data = bytes->data;
-        picture->size = bytes->size;
+        picture->source.bytes = bytes->data;
+        picture->source.size = bytes->size;
         return true;
     }
     if (!uri)
         return json_fail(&gltf->json, place, "found neither uri nor bufferView");
     if (!gltf_uri_read(gltf, KEY_OF(place, "uri"), uri, &picture->file))
         return false;
-    picture->data = picture->file.data;
-    picture->size = picture->file.size;
+    picture->source.bytes = picture->file.data;
+    picture->source.size = picture->file.size;
     return true;
 }
 
@@ -258,22 +254,8 @@ int gltf_texcoord_set(const struct gltf *gltf, int32_t material, int which)
 
 // --- the end of the load
 
-struct decoding {
-    struct gltf_picture **pictures;
-    struct call_control *call;
-};
-
-static void decode_picture(void *user, size_t index, int thread)
-{
-    const struct decoding *decoding = user;
-    struct gltf_picture *picture = decoding->pictures[index];
-    (void)thread;
-    picture->texture =
-        texture_decode(picture->data, picture->size, picture->name, picture->values, decoding->call, &picture->error);
-}
-
 // Finds the bytes of the requested pictures. Fills `list` with the *count pictures that must be decoded.
-static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t *count)
+static bool find_pictures(struct gltf *gltf, struct texture_source **list, size_t *count)
 {
     lam_error *error = gltf->json.error, reason;
     bool raw = gltf->source->params->color == LAM_COLOR_RAW;
@@ -281,14 +263,14 @@ static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t 
         struct gltf_picture *picture = &gltf->pictures[i];
         if (!picture->wanted)
             continue;
-        picture->values = raw ? LAM_TEXTURE_NUMBERS : (lam_texture_values)(i % VALUES);
+        picture->source.values = raw ? LAM_TEXTURE_NUMBERS : (lam_texture_values)(i % VALUES);
         gltf->json.error = &reason;
         bool found = find_bytes(gltf, (int)(i / VALUES), picture);
         gltf->json.error = error;
         if (found) {
-            list[(*count)++] = picture;
+            list[(*count)++] = &picture->source;
         } else if (texture_is_optional(&reason)) {
-            picture->error = reason;
+            picture->source.error = reason;
         } else {
             *error = reason;
             return false;
@@ -300,32 +282,33 @@ static bool find_pictures(struct gltf *gltf, struct gltf_picture **list, size_t 
 // Sets a requested map in its material.
 static bool add_map(struct gltf *gltf, const struct gltf_map *item)
 {
-    struct gltf_picture *picture = &gltf->pictures[item->picture];
+    lam_texture *texture = gltf->pictures[item->picture].source.texture;
     lam_texture_map *map = arena_alloc(&gltf->scene->arena, sizeof *map);
     if (!map)
         return gltf_no_memory(gltf, sizeof *map);
     *map = item->map;
-    map->texture = picture->texture;
-    gltf->file_images[item->picture / VALUES].textures[item->picture % VALUES] = picture->texture;
+    map->texture = texture;
+    gltf->file_images[item->picture / VALUES].textures[item->picture % VALUES] = texture;
     lam_material *materials = gltf->scene->materials.items;
     materials[gltf->first_material + item->request.material].maps[item->request.slot] = map;
-    return scene_share_texture(gltf->scene, picture->texture, gltf->json.error);
+    return scene_share_texture(gltf->scene, texture, gltf->json.error);
 }
 
-// Sets, in the materials, all maps whose pictures were read. Warns once for each picture that could not be read.
+// Sets, in the materials, all maps whose pictures were read. Warns once for each content that could not be read.
 static bool add_maps(struct gltf *gltf)
 {
     for (size_t i = 0; i < VALUES * gltf_list_size(gltf, "images"); i++) {
-        struct gltf_picture *picture = &gltf->pictures[i];
-        if (picture->wanted && !picture->texture && !texture_is_optional(&picture->error)) {
-            *gltf->json.error = picture->error;
+        const struct texture_source *source = &gltf->pictures[i].source;
+        if (!gltf->pictures[i].wanted || source->texture || source->first)
+            continue;
+        if (!texture_is_optional(&source->error)) {
+            *gltf->json.error = source->error;
             return false;
         }
-        if (picture->wanted && !picture->texture)
-            scene_warn(gltf->scene, "%s; drawn without it", picture->error.text);
+        scene_warn(gltf->scene, "%s; drawn without it", source->error.text);
     }
     for (const struct gltf_map *item = gltf->maps; item; item = item->next)
-        if (gltf->pictures[item->picture].texture && !add_map(gltf, item))
+        if (gltf->pictures[item->picture].source.texture && !add_map(gltf, item))
             return false;
     return true;
 }
@@ -333,18 +316,17 @@ static bool add_maps(struct gltf *gltf)
 bool gltf_textures_finish(struct gltf *gltf)
 {
     size_t images = gltf_list_size(gltf, "images"), count = 0;
-    struct gltf_picture **list = GLTF_ALLOC(gltf, VALUES * images, struct gltf_picture *);
+    struct texture_source **list = GLTF_ALLOC(gltf, VALUES * images, struct texture_source *);
     if (!list)
         return gltf_no_memory(gltf, VALUES * images * sizeof *list);
     bool ok = find_pictures(gltf, list, &count);
     if (ok) {
-        struct decoding decoding = {list, gltf->source->call};
-        pool_run(gltf->source->pool, count, decode_picture, &decoding);
+        textures_decode(list, count, gltf->source->pool, gltf->source->call);
         ok = add_maps(gltf);
     }
     for (size_t i = 0; i < VALUES * images; i++) {
         file_release(&gltf->pictures[i].file);
-        lam_texture_free(gltf->pictures[i].texture); // the scene keeps its own reference to the texture
+        lam_texture_free(gltf->pictures[i].source.texture); // the scene keeps its own reference to the texture
     }
     return ok;
 }

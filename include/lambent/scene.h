@@ -97,8 +97,8 @@ typedef struct lam_load_params {
     // glTF: the material variant (KHR_materials_variants), by its name or its index (the first is 0). NULL: the
     // materials of the primitives themselves.
     const char *variant;
-    // glTF and 3MF only. true: ignores required extensions that this version does not support, and primitive restart
-    // values among glTF's indices. false: fails with LAM_UNSUPPORTED or LAM_CANNOT_READ.
+    // glTF and 3MF only. true: ignores required extensions that this version does not support, and (glTF) omits
+    // primitives whose geometry is wrong, with a warning. false: fails with LAM_UNSUPPORTED or LAM_CANNOT_READ.
     bool lenient;
     // glTF: the animation whose pose at `time_s` is shown, by its name or its index (the first is 0). NULL: the pose
     // without animation.

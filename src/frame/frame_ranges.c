@@ -12,7 +12,8 @@ static int material_index(int scene_index) { return scene_index < 0 ? 0 : scene_
 static bool sees_through(const lam_material *material, bool varies)
 {
     varies |= material->maps[LAM_MAP_OPACITY] || texture_map_translucent(material->maps[LAM_MAP_DIFFUSE]);
-    return material->alpha_mode != LAM_ALPHA_OPAQUE && (varies || material->diffuse.a < 1);
+    varies |= material->diffuse.a < 1 || (material->alpha_mode == LAM_ALPHA_MASK && material->alpha_cutoff > 1);
+    return material->alpha_mode != LAM_ALPHA_OPAQUE && varies;
 }
 
 // Returns whether a material transmits light.

@@ -179,7 +179,7 @@ static void write_definition(struct text *text, const struct definition *p)
 
 // --- all sources
 
-enum { EQUATIONS = 10, SOURCES_MAX = 24 };
+enum { EQUATIONS = 11, SOURCES_MAX = 24 };
 static const struct stage_source equation_sources[EQUATIONS] = {
     {"functions of vectors and numbers", text_prelude_glsl, .whole = true},
     {"reflection of the light from one direction at a point of a surface", text_lobes_h, .whole = true},
@@ -189,6 +189,7 @@ static const struct stage_source equation_sources[EQUATIONS] = {
     {"a point before lighting: its normal and tangent, and its material after maps", text_point_h, .whole = true},
     {"layers of physical materials", text_layer_kinds_h, .whole = true},
     {"light through the layers of a physical material", text_layers_h, .whole = true},
+    {"refraction", text_refraction_h, .whole = true},
     {"the light of an environment around a point", text_surroundings_h, .whole = true},
     {"tone curves: from light to colours of a screen", text_tone_h, .whole = true}};
 

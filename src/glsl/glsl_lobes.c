@@ -160,13 +160,15 @@ void glsl_add_layers(struct text *text, const struct glsl_facts *f)
                        "    given.stretch = along_surface(s.n, s.t, turned.x, turn * turned.y);\n");
     }
     if (f->layers & LAYER_VOLUME) {
-        text_add(text, "    mat3 axes = mat3(model_view);\n    float scale = square_root((dot3(axes[0], axes[0]) + "
-                       "dot3(axes[1], axes[1]) + dot3(axes[2], axes[2])) / 3.0);\n    float attenuation = ");
+        text_add(text, "    mat3 axes = mat3(model_view);\n"
+                       "    vec3 path = volume_path(s.v, s.n, given.ior, axes[0], axes[1], axes[2]);\n"
+                       "    float attenuation = ");
         add_layer_field(text, f, "attenuation_distance", "attenuation_distance", false);
         text_add(text, ";\n    vec3 left = ");
         add_layer_field(text, f, "attenuation_color", "attenuation_color", true);
         text_add(text, ";\n    given.attenuation_log = vec3(log2_of(left.x), log2_of(left.y), log2_of(left.z));\n"
-                       "    given.path = attenuation > 0.0 ? given.thickness * scale / attenuation : 0.0;\n");
+                       "    given.path = attenuation > 0.0 ? given.thickness * square_root(dot3(path, path)) / "
+                       "attenuation : 0.0;\n");
     }
 }
 

@@ -3,6 +3,7 @@
 #include "fail.h"
 #include "file.h"
 #include "float_state.h"
+#include "picture_kinds.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -33,6 +34,12 @@ static bool read_once(const struct codec *codec, const struct picture_file *file
     return wide && codec->read_wide ? codec->read_wide(file, image, wide, error) : codec->read(file, image, error);
 }
 
+#define ROW(offset, length, magic, name) {offset, length, magic, name}
+static const struct {
+    size_t offset, length;
+    const char *magic, *name;
+} kinds[] = {UNREAD_PICTURES(ROW)};
+
 // Decodes a picture. Keeps all bits of the file if `wide` is not NULL (codec.read_wide).
 static bool decode(const struct picture_file *file, bool *wide, lam_image *image, lam_error *error)
 {
@@ -42,6 +49,11 @@ static bool decode(const struct picture_file *file, bool *wide, lam_image *image
         return call_error(file->call, error);
     if (file->size == 0)
         return fail(error, LAM_CANNOT_READ, "%s: is empty, expected a " KNOWN " picture", file->name);
+    for (size_t i = 0; !codec && i < sizeof kinds / sizeof *kinds; i++)
+        if (file->size >= kinds[i].offset + kinds[i].length &&
+            memcmp(file->bytes + kinds[i].offset, kinds[i].magic, kinds[i].length) == 0)
+            return fail(error, LAM_UNSUPPORTED, "%s: this is %s, expected a " KNOWN " picture", file->name,
+                        kinds[i].name);
     if (!codec)
         return fail(error, LAM_CANNOT_READ, "%s: byte 0: not the start of a " KNOWN " picture", file->name);
     lam_error own = {0};

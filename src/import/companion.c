@@ -149,6 +149,8 @@ static bool open_by_caller(const struct import_source *source, const char *name,
     if (fresh)
         call_add_input(source->call, bytes.size);
     bool ok = file_copy(bytes.data, bytes.size, source->call, &out->file, error);
+    if (ok && !(ok = file_check_pointer(&out->file, out->shown, error)))
+        file_release(&out->file);
     if (companions->release)
         companions->release(companions->user, &bytes);
     else

@@ -172,7 +172,9 @@ static bool load_whole(struct import_source *source, const char *path, const voi
     source->size = source->file_size = file->size;
     source->file = file;
     call_progress(source->call, 0.05, "read");
-    *importer = importer_for(source->name, file, source->params->format, error);
+    *importer = !file_check_pointer(file, source->name, error)
+                    ? NULL
+                    : importer_for(source->name, file, source->params->format, error);
     *scene = *importer ? start_scene(source, *importer, error) : NULL;
     return *scene && (*importer)->load(source, *scene, error);
 }

@@ -1,6 +1,8 @@
 // unsupported_formats.c: recognises unsupported formats by content or name, so that an error can name them.
 #include "unsupported_formats.h"
 
+#include "picture_kinds.h"
+
 #include <stdbool.h>
 #include <string.h>
 #include <strings.h>
@@ -36,10 +38,10 @@ static const struct kind {
     {{"UTF-16 text (save it as UTF-8)", NULL}, 0, 2, "\xfe\xff", NULL},
     {{"a PNG picture", NULL}, 0, 8, "\x89PNG\r\n\x1a\n", NULL},
     {{"a JPEG picture", NULL}, 0, 3, "\xff\xd8\xff", NULL},
-    {{"a GIF picture", NULL}, 0, 4, "GIF8", NULL},
     {{"a WebP picture", NULL}, 8, 4, "WEBP", NULL},
-    {{"a TIFF picture", NULL}, 0, 4, "II*\0", NULL},
-    {{"a TIFF picture", NULL}, 0, 4, "MM\0*", NULL},
+#define ROW(offset, length, magic, name) {{name, NULL}, offset, length, magic, NULL}
+    UNREAD_PICTURES(ROW),
+#undef ROW
     {{"a Radiance picture", NULL}, 0, 10, "#?RADIANCE", NULL},
     {{"an OpenEXR picture", NULL}, 0, 4, "\x76\x2f\x31\x01", NULL},
     {{"a PDF document", NULL}, 0, 5, "%PDF-", NULL},

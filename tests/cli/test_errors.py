@@ -1,4 +1,5 @@
 # test_errors.py: every failure reports one sentence and its exit code, and leaves no files.
+import base64
 import json
 import os
 import struct
@@ -7,6 +8,17 @@ import unittest
 import zlib
 
 from harness import Case, PROGRAM, chunk, pixel, read_png
+
+
+def triangle(buffer, image=None):
+    """A glTF triangle whose data are in a buffer, with a texture if there is an image."""
+    texture = {"materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "textures": [{"source": 0}], "images": [{"uri": image}]}
+    return json.dumps({
+        "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "buffers": [buffer], **(texture if image else {}),
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, **({"material": 0} if image else {})}]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}]}).encode()
 
 
 class Models(Case):
@@ -164,7 +176,7 @@ class Models(Case):
 
     def test_formats_that_come_later(self):
         glb = struct.pack("<4sII", b"glTF", 3, 12 + 8 + 28) + struct.pack("<I4s", 28, b"JSON") + b'{"asset":{"version":"3.0"}} '
-        self.bad(3, self.write("model.glb", glb), says="model.glb: byte 4: this is binary glTF of version 3")
+        self.bad(3, self.write("model.glb", glb), says="model.glb: byte 4: this is binary glTF 3.0, expected glTF 2.0")
         self.bad(3, self.write("model.fbx", b"Kaydara FBX Binary  \0"), says="model.fbx: this is an FBX file")
 
     def test_causes(self):
@@ -180,6 +192,41 @@ class Models(Case):
         self.assertNotIn(b"no built-in shape", done.stderr)
         self.write("tiny.obj", b"v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n")
         self.assertNotIn(b"light", self.run_program("tiny.obj", "--turntable", 2, "-s", 8, "-o", "t.png").stderr)
+
+    def test_pointers_of_git_lfs(self):
+        """A repository without its large files contains pointers instead. Errors and warnings say so, wherever the file is read."""
+        pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:" + b"0" * 64 + b"\nsize 5970\n"
+        said = "is a Git LFS pointer, not the file itself; 'git lfs pull' fetches it"
+        for name in ("m.obj", "m.stl", "m.ply", "m.gltf", "m.glb", "m.3mf", "m.json", "m.fbx"):
+            self.bad(2, self.write(name, pointer), says=f"{name}: {said}")
+        self.bad(2, "-", stdin=pointer, says=f"standard input: {said}")
+        for name in ("p.png", "p.bin", "p.mtl", "p.hdr"):
+            self.write(name, pointer)
+        self.bad(2, "diff", "p.png", "p.png", says=said)
+        self.bad(2, "cube.obj", "--environment", "p.hdr", says=said)
+        self.bad(2, self.write("b.gltf", triangle({"byteLength": 42, "uri": "p.bin"})), says=f"buffers[0].uri: p.bin: {said}")
+        self.bad(2, self.write("s.json", b'{"lambent": 1, "objects": [{"file": "m.obj"}]}'), says=f"m.obj: {said}")
+        inside = "data:;base64," + base64.b64encode(struct.pack("<9f3H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2)).decode()
+        face = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"
+        self.write("t.mtl", b"newmtl a\nmap_Kd p.png\n")
+        for model in (self.write("t.gltf", triangle({"byteLength": 42, "uri": inside}, "p.png")), self.write("t.obj", b"mtllib t.mtl\nusemtl a\n" + face),
+                      self.write("l.obj", b"mtllib p.mtl\n" + face)):
+            done = self.good(model, "-o", "a.png", "-s", "16")
+            self.given.add("a.png")
+            self.assertIn(said.encode(), done.stderr, model)
+
+    def test_pictures_that_are_not_read(self):
+        """A picture of another format is named as what it is."""
+        inside = "data:;base64," + base64.b64encode(struct.pack("<9f3H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2)).decode()
+        model = self.write("t.gltf", triangle({"byteLength": 42, "uri": inside}, "p.png"))
+        self.given.add("a.png")
+        for data, name in ((b"II*\0", "a TIFF"), (b"MM\0*", "a TIFF"), (b"\xabKTX 20\xbb\r\n\x1a\n", "a KTX 2"), (b"\0\0\0\x1cftypavif", "an AVIF"),
+                           (b"\0\0\0\x18ftypheic", "a HEIC"), (b"\xff\x0a", "a JPEG XL"), (b"\0\0\0\x0cJXL \r\n\x87\n", "a JPEG XL"), (b"DDS ", "a DDS"),
+                           (b"8BPS", "a Photoshop"), (b"GIF89a", "a GIF")):
+            self.write("p.png", data + bytes(60))
+            self.bad(3, "diff", "p.png", "p.png", says=f"p.png: this is {name} picture, expected a PNG, JPEG")
+            self.assertIn(f"images[0] (p.png): this is {name} picture, expected".encode(), self.good(model, "-o", "a.png", "-s", "16").stderr)
+            self.bad(2, "p.png", "-o", "b.png", says=f"p.png: this is {name} picture")
 
     def test_bad_place_is_named(self):
         self.write("bad.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n")

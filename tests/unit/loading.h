@@ -86,6 +86,21 @@ static inline void refuse(const void *bytes, size_t size, const char *name, lam_
     assert_int_equal(error.code, code);
 }
 
+// Loading must succeed with exactly this warning.
+static inline void warn_once(const void *bytes, size_t size, const char *name, const lam_load_params *params,
+                             const char *sentence)
+{
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_load_memory(bytes, size, name, params, NULL, &error);
+    assert_string_equal(error.text, "");
+    assert_non_null(scene);
+    assert_non_null(lam_scene_warning(scene, 0));
+    assert_string_equal(lam_scene_warning(scene, 0), sentence);
+    if (lam_scene_warning(scene, 1))
+        fail_msg("%s", lam_scene_warning(scene, 1));
+    lam_scene_free(scene);
+}
+
 static inline void refuse_text(const char *text, const char *name, const char *sentence)
 {
     refuse(text, strlen(text), name, LAM_CANNOT_READ, sentence);

@@ -403,10 +403,11 @@ struct option option_table[OPTIONS_MAX] = {
      "first pose; after the last keyframe, it shows the last pose.",
      NULL, .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time),
      .min = -1e9, .max = 1e9, .others = "seconds", .loads = true},
-    {"lenient", 0, GROUP_MODEL, NULL, NULL, "Ignore unknown extensions that a glTF or 3MF file requires.",
+    {"lenient", 0, GROUP_MODEL, NULL, NULL,
+     "Draw all geometry that can be read: ignore unknown extensions that a glTF or 3MF file requires.",
      "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
-     "extension. With this option, Lambent also accepts index values that glTF reserves (primitive restart) and "
-     "undeclared XML prefixes in 3MF files.",
+     "extension. With this option, Lambent also omits damaged primitives of glTF files, reads later versions of glTF, "
+     "and accepts undeclared XML prefixes in 3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",

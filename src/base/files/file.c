@@ -287,6 +287,14 @@ static int open_regular(const char *path, size_t folder, const char *shown, stru
     return -1;
 }
 
+bool file_check_pointer(const struct file_bytes *file, const char *name, lam_error *error)
+{
+    static const char magic[] = "version https://git-lfs.github.com/spec/";
+    return file->size < sizeof magic || memcmp(file->data, magic, sizeof magic - 1) != 0 ||
+           fail(error, LAM_CANNOT_READ, "%s: is a Git LFS pointer, not the file itself; 'git lfs pull' fetches it",
+                name);
+}
+
 bool file_read_named(const char *path, size_t folder, const char *shown, bool fresh, struct pool *pool,
                      struct call_control *call, struct file_bytes *out, lam_error *error)
 {
@@ -300,6 +308,8 @@ bool file_read_named(const char *path, size_t folder, const char *shown, bool fr
     bool ok = about.st_size > 0 ? read_sized(file, shown, (size_t)about.st_size, fresh, pool, call, out, error)
                                 : read_stream(file, shown, fresh, call, out, error);
     close(file);
+    if (ok && !(ok = file_check_pointer(out, shown, error)))
+        file_release(out);
     return ok;
 }
 

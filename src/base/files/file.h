@@ -26,6 +26,9 @@ struct file_bytes {
 bool file_read(const char *path, struct pool *pool, struct call_control *call, struct file_bytes *out,
                lam_error *error);
 
+// Fails with LAM_CANNOT_READ if the bytes are a pointer of Git LFS, which a repository contains instead of a large file.
+bool file_check_pointer(const struct file_bytes *file, const char *name, lam_error *error);
+
 // Reads a regular file that another file refers to. Messages use `shown` as the path (NULL means the path itself), and
 // "-" is an ordinary name. `folder` is the length of the folder at the start of the path, as path_within returns it.
 // The rest of the path is opened below that folder without following links, even links created since path_within was

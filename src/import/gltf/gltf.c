@@ -36,7 +36,7 @@ static int gltf_probe(const uint8_t *bytes, size_t size, size_t file_size)
     return memmem(bytes + at, size - at, key, sizeof key - 1) ? 2 : 0;
 }
 
-// Warns about primitives that are not drawn. Fails if the file contains no other primitives.
+// Warns about problems, and about primitives that are not drawn. Fails if the file contains no other primitives.
 static bool report_skipped(struct gltf *gltf)
 {
     struct lam_scene *scene = gltf->scene;
@@ -45,14 +45,11 @@ static bool report_skipped(struct gltf *gltf)
         return fail(gltf->json.error, LAM_CANNOT_READ,
                     "%s: contains nothing to draw: its primitives (%zu) have no attribute POSITION", name,
                     gltf->without_positions);
-    if (!scene->objects.count)
-        return fail(gltf->json.error, LAM_CANNOT_READ, "%s: contains no triangles in its scene", name);
+    if (!gltf_warn_problems(gltf, "contains no triangles in its scene"))
+        return false;
     if (gltf->without_positions)
         scene_warn(scene, "%s: not drawn: primitives without the attribute POSITION (%zu)", name,
                    gltf->without_positions);
-    if (gltf->cut_factors)
-        scene_warn(scene, "%s: %s: found %g, which the standard does not allow; %g is used%s", name, gltf->cut_factor,
-                   gltf->cut_from, gltf->cut_to, gltf->cut_factors > 1 ? ", and other factors are clamped too" : "");
     if (gltf->flattened)
         scene_warn(scene, "%s: not drawn: meshes flattened by a node's scale of 0 (%zu)", name, gltf->flattened);
     return true;
@@ -63,11 +60,11 @@ static bool build(struct gltf *gltf)
     const uint8_t *text;
     size_t size;
     return gltf_container_read(gltf, &text, &size) && gltf_json_parse(gltf, text, size) && gltf_check_asset(gltf) &&
-           gltf_check_extensions(gltf) && gltf_file_info_note(gltf) && gltf_buffers_start(gltf) &&
+           gltf_file_info_note(gltf) && gltf_check_extensions(gltf) && gltf_buffers_start(gltf) &&
            gltf_accessors_start(gltf) && gltf_meshes_start(gltf) && gltf_textures_start(gltf) &&
            gltf_materials_read(gltf) && gltf_textures_finish(gltf) && gltf_nodes_read(gltf) &&
-           gltf_animation_apply(gltf) && gltf_nodes_place(gltf) && gltf_objects_add(gltf) && gltf_lights_add(gltf) &&
-           gltf_cameras_add(gltf) && report_skipped(gltf);
+           gltf_animation_apply(gltf) && gltf_objects_add(gltf) && gltf_lights_add(gltf) && gltf_cameras_add(gltf) &&
+           report_skipped(gltf);
 }
 
 static bool gltf_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)

@@ -78,10 +78,7 @@ struct gltf {
     int first_material;   // the scene's index of the file's first material
     int default_material; // the scene's index of the material for primitives without a material; −1 if not created yet
     int variant;          // the requested variant, or −1
-    // The number of clamped factors (gltf_take_factors), and the name and values of the first clamped factor.
-    size_t cut_factors;
-    char cut_factor[160];
-    double cut_from, cut_to;
+    struct gltf_problem *problems; // gltf_json.c: what is wrong in the file but not needed, in the file's order
 
     lam_file_image *file_images;   // one element for each image (gltf_file_info.h)
     struct gltf_picture *pictures; // gltf_textures.h: two for each image of the file

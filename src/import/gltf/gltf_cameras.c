@@ -6,44 +6,9 @@
 
 #include "linear.h"
 
-#include <string.h>
+#include <math.h>
 
-static bool read_perspective(struct gltf *gltf, const struct place *place, const json_t *object, lam_camera *camera)
-{
-    double yfov = 0, near_plane = 0, far_plane = 0;
-    if (!json_take_number(&gltf->json, place, object, "yfov", 1e-6, PI - 1e-6, &yfov) ||
-        !json_take_number(&gltf->json, place, object, "znear", 1e-30, 1e30, &near_plane) ||
-        !json_take_number(&gltf->json, place, object, "zfar", 1e-30, 1e30, &far_plane))
-        return false;
-    if (yfov == 0 || near_plane == 0)
-        return json_fail(&gltf->json, place, "%s is missing", yfov == 0 ? "yfov" : "znear");
-    if (json_object_get(object, "zfar") && far_plane <= near_plane)
-        return json_fail(&gltf->json, KEY_OF(place, "zfar"), "found %.10g, expected more than znear, %.10g", far_plane,
-                         near_plane);
-    camera->fovy_rad = yfov;
-    camera->near_plane = near_plane;
-    camera->far_plane = far_plane; // 0 if zfar is missing; lam_scene_camera then fits the far plane to the scene
-    return true;
-}
-
-static bool read_orthographic(struct gltf *gltf, const struct place *place, const json_t *object, lam_camera *camera)
-{
-    double ymag = 0, near_plane = 0, far_plane = 0;
-    if (!json_take_number(&gltf->json, place, object, "ymag", -1e30, 1e30, &ymag) ||
-        !json_take_number(&gltf->json, place, object, "znear", 0, 1e30, &near_plane) ||
-        !json_take_number(&gltf->json, place, object, "zfar", 0, 1e30, &far_plane))
-        return false;
-    if (ymag == 0)
-        return json_fail(&gltf->json, place,
-                         "ymag is missing or 0; expected half the picture's height in the scene's units");
-    if (far_plane <= near_plane)
-        return json_fail(&gltf->json, KEY_OF(place, "zfar"), "found %.10g, expected more than znear, %.10g", far_plane,
-                         near_plane);
-    camera->ortho_half_height = ymag < 0 ? -ymag : ymag;
-    camera->near_plane = near_plane;
-    camera->far_plane = far_plane;
-    return true;
-}
+#define LIMIT 1e30 // greater numbers mean infinity (some exporters write FLT_MAX)
 
 static bool read_camera(struct gltf *gltf, int index, lam_camera *camera)
 {
@@ -51,17 +16,30 @@ static bool read_camera(struct gltf *gltf, int index, lam_camera *camera)
     const json_t *object = gltf_list_item(gltf, "cameras", index);
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "cameras"), (size_t)index);
     int parallel = -1;
-    bool ok = true;
     if (!json_take_word(&gltf->json, place, object, "type", words, &parallel))
         return false;
     if (parallel < 0)
         return json_fail(&gltf->json, place, "type is missing");
-    const char *key = words[parallel].name;
-    const json_t *numbers = gltf_take_object(gltf, place, object, key, &ok);
-    if (ok && !numbers)
-        return json_fail(&gltf->json, place, "%s is missing", key);
-    return ok && (parallel ? read_orthographic(gltf, KEY_OF(place, key), numbers, camera)
-                           : read_perspective(gltf, KEY_OF(place, key), numbers, camera));
+    const char *key = words[parallel].name, *size_key = parallel ? "ymag" : "yfov";
+    const struct place *here = KEY_OF(place, key);
+    const json_t *numbers = gltf_take_object(gltf, place, object, key);
+    double size = 0, near_plane = parallel ? -1 : 0, far_plane = HUGE_VAL;
+    gltf_take_factors(gltf, here, numbers, size_key, 1, -HUGE_VAL, HUGE_VAL, &size);
+    gltf_take_factors(gltf, here, numbers, "znear", 1, -HUGE_VAL, HUGE_VAL, &near_plane);
+    gltf_take_factors(gltf, here, numbers, "zfar", 1, -HUGE_VAL, HUGE_VAL, &far_plane);
+    size = parallel && size < 0 ? -size : size;
+    if (!(size > 1e-6 && (parallel ? size < LIMIT : size < PI - 1e-6)))
+        return json_fail(&gltf->json, here, "%s is missing or wrong (%.10g)", size_key, size);
+    if (!(near_plane < LIMIT && (parallel ? near_plane >= 0 : near_plane > 0)))
+        return json_fail(&gltf->json, here, "znear is missing or wrong (%.10g)", near_plane);
+    if (far_plane <= near_plane)
+        gltf_note(gltf, KEY_OF(here, "zfar"), "found %.10g, expected more than znear, %.10g; drawn without it",
+                  far_plane, near_plane);
+    *(parallel ? &camera->ortho_half_height : &camera->fovy_rad) = size;
+    camera->near_plane = near_plane;
+    // 0 means that lam_scene_camera fits the far plane to the scene
+    camera->far_plane = far_plane > near_plane && far_plane < LIMIT ? far_plane : 0;
+    return true;
 }
 
 static bool add_camera(struct gltf *gltf, int node_index)
@@ -70,14 +48,12 @@ static bool add_camera(struct gltf *gltf, int node_index)
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)node_index);
     const lam_mat4 *world = &gltf->nodes[node_index].world;
     struct scene_camera camera = {.camera = lam_camera_default()};
-    int index;
+    int index = gltf_take_link(gltf, place, object, "camera", "cameras");
     bool ok = true;
-    if (!gltf_take_index(gltf, place, object, "camera", "cameras", &index))
-        return false;
     if (index < 0)
         return true;
     if (!read_camera(gltf, index, &camera.camera))
-        return false;
+        return gltf_forgive(gltf);
     if (!(camera.name = gltf_name(gltf, object, &ok)) && ok)
         camera.name = gltf_name(gltf, gltf_list_item(gltf, "cameras", index), &ok);
     // The scale of nodes is ignored (section 3.10.1).

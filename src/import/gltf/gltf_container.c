@@ -25,8 +25,8 @@ static bool check_header(struct gltf *gltf, size_t *end)
                     source->name, source->size, HEADER + CHUNK);
     uint32_t version = number_at(bytes + 4), length = number_at(bytes + 8);
     if (version != 2)
-        return fail(error, LAM_UNSUPPORTED, "%s: byte 4: this is binary glTF of version %u, expected version 2",
-                    source->name, version);
+        return fail(error, LAM_UNSUPPORTED, "%s: byte 4: this is binary glTF %u.0, expected glTF 2.0", source->name,
+                    version);
     if (length > source->size)
         return fail(error, LAM_CANNOT_READ, "%s: the file is truncated: its header declares %u bytes, found %zu",
                     source->name, length, source->size);
@@ -69,9 +69,10 @@ bool gltf_container_read(struct gltf *gltf, const uint8_t **text, size_t *size)
             gltf->binary = source->bytes + begin;
             gltf->binary_size = length;
         } // other chunks belong to extensions
-        // The padding of the last chunk may be missing.
-        size_t padded = ((size_t)length + 3) & ~(size_t)3;
-        at = padded < end - begin ? begin + padded : end;
+        // The padding of the last chunk may be missing. Some programs (trimesh) pad no chunk.
+        size_t padded = ((size_t)length + 3) & ~(size_t)3, left = end - begin;
+        bool unpadded = left - length >= CHUNK && number_at(source->bytes + begin + length + 4) == CHUNK_BIN;
+        at = unpadded ? begin + length : padded < left ? begin + padded : end;
     }
     return true;
 }

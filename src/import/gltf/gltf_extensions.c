@@ -18,6 +18,7 @@ static const struct {
 } known[] = {
     {"EXT_mesh_gpu_instancing", READ},
     {"EXT_meshopt_compression", READ},
+    {"EXT_texture_avif", SILENT}, // a texture without a picture in another format is omitted with a warning
     {"EXT_texture_webp", READ},
     {"KHR_draco_mesh_compression", READ},
     {"KHR_lights_punctual", READ},
@@ -35,93 +36,92 @@ static const struct {
     {"KHR_materials_volume", READ},
     {"KHR_mesh_quantization", READ},
     {"KHR_node_visibility", READ},
-    {"KHR_materials_diffuse_transmission", IGNORED},
-    {"KHR_materials_dispersion", IGNORED},
-    {"KHR_texture_basisu", SILENT}, // a texture with this extension needs a fallback picture; otherwise the load fails
+    {"KHR_texture_basisu", SILENT},
     {"KHR_texture_transform", READ},
     {"KHR_xmp", SILENT},
     {"KHR_xmp_json_ld", SILENT},
+    {"MSFT_texture_dds", SILENT},
+    // By convention, a name states what is extended. All other extensions may change geometry.
+    {"_animation_", IGNORED},
+    {"_lights_", IGNORED},
+    {"_materials_", IGNORED},
+    {"_physics", IGNORED},
+    {"_texture_", IGNORED},
 };
 
 lam_extension_support gltf_extension_support(const char *name)
 {
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (strcmp(known[i].name, name) == 0)
+        if (strcmp(known[i].name, name) == 0 || (*known[i].name == '_' && strstr(name, known[i].name)))
             return known[i].support;
     return LAM_EXTENSION_UNKNOWN;
 }
 
-// Parses "2.0" as 2 and 0.
-static bool take_version(struct gltf *gltf, const json_t *asset, const char *key, int version[2])
+// Parses "2.0" as 2 and 0, which are also the values if the text is missing or wrong.
+static void take_version(struct gltf *gltf, const json_t *asset, const char *key, int version[2])
 {
     const json_t *value = json_object_get(asset, key);
     const char *text = json_string_value(value);
     int read = 0;
+    if (value && text && sscanf(text, "%4d.%4d%n", &version[0], &version[1], &read) == 2 && !text[read])
+        return;
     version[0] = 2;
     version[1] = 0;
-    return !value || (text && sscanf(text, "%4d.%4d%n", &version[0], &version[1], &read) == 2 && !text[read]) ||
-           json_unexpected(&gltf->json, KEY_OF(KEY_OF(NULL, "asset"), key), value, "a version such as \"2.0\"");
+    if (value)
+        gltf_note_wrong(gltf, KEY_OF(KEY_OF(NULL, "asset"), key), value, "a version such as \"2.0\"");
 }
 
 bool gltf_check_asset(struct gltf *gltf)
 {
-    bool ok = true;
     int version[2], minimum[2];
-    const json_t *asset = gltf_take_object(gltf, NULL, gltf->root, "asset", &ok);
-    if (!ok)
-        return false;
+    const json_t *asset = gltf_take_object(gltf, NULL, gltf->root, "asset");
+    bool lenient = gltf->source->params->lenient;
+    take_version(gltf, asset, "version", version);
+    take_version(gltf, asset, "minVersion", minimum);
+    if (json_is_object(json_object_get(gltf->root, "meshes"))) // as in glTF 1.0
+        version[0] = 1;
+    if (version[0] < 2 || (version[0] > 2 && !lenient))
+        return fail(gltf->json.error, LAM_UNSUPPORTED, "%s: asset.version: this is glTF %d.%d, expected glTF 2.0%s",
+                    gltf->source->name, version[0], version[1],
+                    version[0] < 2 ? "" : " (lam_load_params.lenient reads on)");
     if (!json_object_get(asset, "version"))
-        return json_fail(&gltf->json, NULL, "asset.version is missing, expected glTF of version 2");
-    if (!take_version(gltf, asset, "version", version) || !take_version(gltf, asset, "minVersion", minimum))
-        return false;
-    if (version[0] != 2)
-        return fail(gltf->json.error, LAM_UNSUPPORTED, "%s: asset.version: this is glTF %d.%d, expected version 2",
-                    gltf->source->name, version[0], version[1]);
+        gltf_note(gltf, NULL, "asset.version is missing; the file is read as glTF 2.0");
     // A file of version 2.1 is read as 2.0, unless minVersion requires a later version (section 3.2).
-    if (minimum[0] != 2 || minimum[1] > 0)
+    if (!lenient && (minimum[0] != 2 || minimum[1] > 0))
         return fail(gltf->json.error, LAM_UNSUPPORTED,
-                    "%s: asset.minVersion: the file needs glTF %d.%d, expected at most 2.0", gltf->source->name,
-                    minimum[0], minimum[1]);
+                    "%s: asset.minVersion: the file needs glTF %d.%d, expected at most 2.0 (lam_load_params.lenient "
+                    "reads on)",
+                    gltf->source->name, minimum[0], minimum[1]);
     return true;
-}
-
-// Returns the list of strings under `key`. Returns NULL if the key is missing; if its value is wrong, also sets *ok to
-// false.
-static const json_t *take_names(struct gltf *gltf, const char *key, bool *ok)
-{
-    const json_t *list = json_object_get(gltf->root, key);
-    if (list && !json_is_array(list))
-        *ok = json_unexpected(&gltf->json, KEY_OF(NULL, key), list, "a list of extensions");
-    for (size_t i = 0; *ok && i < json_array_size(list); i++)
-        if (!json_is_string(json_array_get(list, i)))
-            *ok = json_unexpected(&gltf->json, ELEMENT_OF(KEY_OF(NULL, key), i), json_array_get(list, i),
-                                  "the name of an extension");
-    return *ok ? list : NULL;
 }
 
 bool gltf_check_extensions(struct gltf *gltf)
 {
-    bool ok = true;
-    char ignored[600] = "";
-    const json_t *required = take_names(gltf, "extensionsRequired", &ok);
-    const json_t *used = ok ? take_names(gltf, "extensionsUsed", &ok) : NULL;
-    for (size_t i = 0; ok && i < json_array_size(required); i++) {
-        char shown[SHOWN_NAME_SIZE];
-        const char *name = json_string_value(json_array_get(required, i));
-        if (gltf_extension_support(name) == LAM_EXTENSION_UNKNOWN && !gltf->source->params->lenient)
-            ok = fail(gltf->json.error, LAM_UNSUPPORTED,
-                      "%s: extensionsRequired[%zu]: the file needs the extension '%s', which this version does not "
-                      "know (a lenient load ignores it)",
-                      gltf->source->name, i, shown_name(name, shown));
+    static const char *const lists[] = {"extensionsUsed", "extensionsRequired"};
+    const lam_file_info *info = &gltf->scene->file;
+    char ignored[600] = "", shown[SHOWN_NAME_SIZE];
+    for (int which = 0; which < 2; which++) {
+        const json_t *list = json_object_get(gltf->root, lists[which]);
+        const struct place *place = KEY_OF(NULL, lists[which]);
+        if (list && !json_is_array(list))
+            gltf_note_wrong(gltf, place, list, "a list of extensions");
+        for (size_t i = 0; i < json_array_size(list); i++)
+            if (!json_is_string(json_array_get(list, i)))
+                gltf_note_wrong(gltf, ELEMENT_OF(place, i), json_array_get(list, i), "the name of an extension");
     }
-    for (size_t i = 0, length = 0; ok && i < json_array_size(used); i++) {
-        char shown[SHOWN_NAME_SIZE];
-        const char *name = json_string_value(json_array_get(used, i));
-        if (gltf_extension_support(name) >= LAM_EXTENSION_IGNORED && length < sizeof ignored - SHOWN_NAME_SIZE - 2)
-            length += (size_t)snprintf(ignored + length, sizeof ignored - length, "%s%s", length ? ", " : "",
-                                       shown_name(name, shown));
+    size_t length = 0;
+    for (int i = 0; i < info->extension_count; i++) {
+        const lam_file_extension *extension = &info->extensions[i];
+        shown_name(extension->name, shown);
+        if (extension->required && extension->support == LAM_EXTENSION_UNKNOWN && !gltf->source->params->lenient)
+            return fail(gltf->json.error, LAM_UNSUPPORTED,
+                        "%s: extensionsRequired: the file needs the extension '%s', which this version does not know "
+                        "(lam_load_params.lenient ignores it)",
+                        gltf->source->name, shown);
+        if (extension->support >= LAM_EXTENSION_IGNORED && length < sizeof ignored - SHOWN_NAME_SIZE - 2)
+            length += (size_t)snprintf(ignored + length, sizeof ignored - length, "%s%s", length ? ", " : "", shown);
     }
-    if (ok && *ignored)
+    if (*ignored)
         scene_warn(gltf->scene, "%s: extensions that this version does not draw: %s", gltf->source->name, ignored);
-    return ok;
+    return true;
 }

@@ -4,7 +4,7 @@
 
 #include "gltf.h"
 
-// Checks "asset" (section 3.2), and the extensions that the file requires (section 3.12). Fails with LAM_UNSUPPORTED if
+// Checks "asset" (section 3.2), and the extensions (section 3.12) that gltf_file_info_note found. Fails with LAM_UNSUPPORTED if
 // the file requires a later version, or (unless the load is lenient) an unknown extension.
 bool gltf_check_asset(struct gltf *gltf);
 bool gltf_check_extensions(struct gltf *gltf);

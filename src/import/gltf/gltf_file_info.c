@@ -98,13 +98,14 @@ static bool take_images(struct gltf *gltf, lam_file_info *info)
 
 static bool holds(const json_t *list, const char *name)
 {
-    for (size_t i = 0; i < json_array_size(list); i++)
-        if (strcmp(json_string_value(json_array_get(list, i)), name) == 0)
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        const char *other = json_string_value(json_array_get(list, i));
+        if (other && strcmp(other, name) == 0)
             return true;
+    }
     return false;
 }
 
-// Both lists contain only strings, as gltf_check_extensions has checked.
 static bool take_extensions(struct gltf *gltf, lam_file_info *info)
 {
     const json_t *lists[2] = {json_object_get(gltf->root, "extensionsUsed"),
@@ -115,7 +116,7 @@ static bool take_extensions(struct gltf *gltf, lam_file_info *info)
     for (int which = 0; extensions && which < 2; which++) {
         for (size_t i = 0; i < json_array_size(lists[which]); i++) {
             const char *name = json_string_value(json_array_get(lists[which], i));
-            if (which == 1 && holds(lists[0], name))
+            if (!name || (which == 1 && holds(lists[0], name)))
                 continue;
             lam_file_extension *extension = &extensions[info->extension_count++];
             *extension = (lam_file_extension){.name = arena_string(&gltf->scene->arena, name),

@@ -1,8 +1,9 @@
-// gltf_json.c: reads the JSON text of a glTF file: its lists, and indices into them.
+// gltf_json.c: reads the JSON text of a glTF file: its lists, indices into them, and values; counts what is wrong.
 #include "gltf_json.h"
 
 #include "fail.h"
 #include "json_parse.h"
+#include "texture_levels.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,18 +32,36 @@ static const char *const lists[] = {"accessors", "animations", "buffers", "buffe
 
 static bool check_lists(struct gltf *gltf)
 {
-    if (!json_is_object(gltf->root))
-        return json_unexpected(&gltf->json, NULL, gltf->root, "an object, { … }");
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        bool ok = true;
-        const json_t *list = gltf_take_list(gltf, NULL, gltf->root, lists[i], &ok);
-        if (!ok)
-            return false;
-        if (list && json_array_size(list) > INT32_MAX / 2)
+        size_t size = json_array_size(gltf_take_list(gltf, NULL, gltf->root, lists[i]));
+        if (size > INT32_MAX / 2)
             return fail(gltf->json.error, LAM_LIMIT, "%s: %s: %zu elements are too many", gltf->source->name, lists[i],
-                        json_array_size(list));
+                        size);
     }
     return true;
+}
+
+// Checks what all objects have in common: extensions are objects, and names are strings. Removes other values.
+static void check_members(struct gltf *gltf, const struct place *place, json_t *value)
+{
+    bool extensions = place && place->key && strcmp(place->key, "extensions") == 0;
+    const char *key;
+    json_t *member;
+    void *next;
+    json_object_foreach_safe(value, next, key, member)
+    {
+        const struct place *here = KEY_OF(place, key);
+        bool object = extensions || strcmp(key, "extensions") == 0, name = strcmp(key, "name") == 0;
+        bool right = object ? json_is_object(member) : !name || json_is_string(member);
+        if (right && strcmp(key, "extras") != 0)
+            check_members(gltf, here, member);
+        if (right)
+            continue;
+        gltf_note_wrong(gltf, here, member, object ? "an object, { … }" : "a string");
+        json_object_del(value, key);
+    }
+    for (size_t i = 0; i < json_array_size(value); i++)
+        check_members(gltf, ELEMENT_OF(place, i), json_array_get(value, i));
 }
 
 bool gltf_json_parse(struct gltf *gltf, const uint8_t *text, size_t size)
@@ -54,7 +73,12 @@ bool gltf_json_parse(struct gltf *gltf, const uint8_t *text, size_t size)
         return gltf_no_memory(gltf, bytes);
     gltf->json_bytes = bytes;
     gltf->root = json_parse((const char *)text, size, gltf->source->name, gltf->source->call, gltf->json.error);
-    return gltf->root && check_lists(gltf);
+    if (!gltf->root)
+        return false;
+    if (!json_is_object(gltf->root))
+        return json_unexpected(&gltf->json, NULL, gltf->root, "an object, { … }");
+    check_members(gltf, NULL, gltf->root);
+    return check_lists(gltf);
 }
 
 void gltf_json_free(struct gltf *gltf)
@@ -81,6 +105,16 @@ const json_t *gltf_extension(const json_t *object, const char *name)
     return json_is_object(extension) ? extension : NULL;
 }
 
+// Returns the value of a key, or NULL. A value that is null is noted.
+static const json_t *value_of(struct gltf *gltf, const struct place *place, const json_t *object, const char *key)
+{
+    const json_t *value = json_object_get(object, key);
+    if (!json_is_null(value))
+        return value;
+    gltf_note(gltf, KEY_OF(place, key), "found null; drawn as if it were missing");
+    return NULL;
+}
+
 static bool whole_of(struct gltf *gltf, const struct place *place, const json_t *value, double min, double max,
                      size_t *out)
 {
@@ -100,7 +134,7 @@ static bool whole_of(struct gltf *gltf, const struct place *place, const json_t 
 bool gltf_take_whole(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, double min,
                      double max, size_t *out)
 {
-    const json_t *value = json_object_get(object, key);
+    const json_t *value = value_of(gltf, place, object, key);
     return !value || whole_of(gltf, KEY_OF(place, key), value, min, max, out);
 }
 
@@ -122,36 +156,159 @@ bool gltf_index_of(struct gltf *gltf, const struct place *place, const json_t *v
 bool gltf_take_index(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                      const char *list, int *index)
 {
-    const json_t *value = json_object_get(object, key);
+    const json_t *value = value_of(gltf, place, object, key);
     *index = -1;
     return !value || gltf_index_of(gltf, KEY_OF(place, key), value, list, index);
 }
 
-bool gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
-                       size_t count, double *out)
+// --- problems
+
+struct gltf_problem {
+    struct gltf_problem *next;
+    char kind[100];
+    const char *end;       // the end of the warning
+    lam_error first, last; // the first and the latest problem of this kind
+    size_t count;
+};
+
+// Returns the text of an error without the model's name.
+static const char *sentence_of(const struct gltf *gltf, const lam_error *error)
 {
-    const json_t *value = json_object_get(object, key);
-    return !value || json_numbers_of(&gltf->json, KEY_OF(place, key), value, count, count, out, NULL);
+    size_t length = strlen(gltf->source->name);
+    return strncmp(error->text, gltf->source->name, length) == 0 && error->text[length] == ':'
+               ? error->text + length + 2
+               : error->text;
 }
 
-bool gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
+// Writes the kind of an error: its place without indices and without what stands in parentheses.
+static void kind_of(const struct gltf *gltf, const lam_error *error, char out[100])
+{
+    size_t used = 0, depth = 0;
+    for (const char *at = sentence_of(gltf, error); *at && strncmp(at, ": ", 2) != 0 && used < 99; at++) {
+        depth += *at == '[' || *at == '(';
+        if (!depth)
+            out[used++] = *at;
+        depth -= depth && (*at == ']' || *at == ')');
+    }
+    out[used] = 0;
+}
+
+// Counts the error that was just reported as a problem of a kind (NULL: the error's own), and clears the error.
+static void note_error(struct gltf *gltf, const char *kind, const char *end)
+{
+    lam_error *error = gltf->json.error;
+    struct gltf_problem **at = &gltf->problems;
+    char own[100];
+    kind_of(gltf, error, own);
+    kind = kind ? kind : own;
+    int kinds = 0;
+    for (; *at && strcmp((*at)->kind, kind) != 0; kinds++)
+        at = &(*at)->next;
+    if (!*at && kinds < SCENE_WARNINGS_MAX && (*at = GLTF_ALLOC(gltf, 1, struct gltf_problem))) {
+        snprintf((*at)->kind, sizeof own, "%s", kind);
+        (*at)->end = end;
+        (*at)->first = *error;
+    }
+    if (*at && strcmp((*at)->last.text, error->text) != 0) { // a value that is read twice counts once
+        (*at)->last = *error;
+        (*at)->count++;
+    }
+    *error = (lam_error){0};
+}
+
+void gltf_note(struct gltf *gltf, const struct place *place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    json_vfail(&gltf->json, place, format, arguments);
+    va_end(arguments);
+    note_error(gltf, NULL, "");
+}
+
+void gltf_note_wrong(struct gltf *gltf, const struct place *place, const json_t *found, const char *expected)
+{
+    json_unexpected(&gltf->json, place, found, expected);
+    note_error(gltf, NULL, "; drawn without it");
+}
+
+bool gltf_forgive(struct gltf *gltf)
+{
+    if (!texture_is_optional(gltf->json.error))
+        return false;
+    note_error(gltf, NULL, "; drawn without it");
+    return true;
+}
+
+bool gltf_warn_problems(struct gltf *gltf, const char *otherwise)
+{
+    const struct gltf_problem *first = gltf->problems;
+    if (!gltf->scene->objects.count)
+        return fail(gltf->json.error, first ? first->first.code : LAM_CANNOT_READ, "%s: %s%s%s", gltf->source->name,
+                    otherwise, first ? "; " : "", first ? sentence_of(gltf, &first->first) : "");
+    for (const struct gltf_problem *p = first; p; p = p->next)
+        if (p->count > 1)
+            scene_warn(gltf->scene, "%s%s (and %zu more of this kind)", p->first.text, p->end, p->count - 1);
+        else
+            scene_warn(gltf->scene, "%s%s", p->first.text, p->end);
+    return true;
+}
+
+// --- optional values
+
+int gltf_take_link(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
+                   const char *list)
+{
+    const json_t *all = json_object_get(gltf->root, list);
+    int index = -1;
+    if ((!all || json_is_array(all)) && !gltf_take_index(gltf, place, object, key, list, &index))
+        gltf_forgive(gltf); // a list that is none was noted by check_lists
+    return index;
+}
+
+void gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
+                       size_t count, double *out)
+{
+    double found[16];
+    const json_t *value = json_object_get(object, key);
+    if (!value)
+        return;
+    if (json_numbers_of(&gltf->json, KEY_OF(place, key), value, count, count, found, NULL))
+        memcpy(out, found, count * sizeof *out);
+    else
+        gltf_forgive(gltf);
+}
+
+void gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double min, double max, double *out)
 {
-    const double rounding = 1e-3;
+    const double rounding = 1e-3, standard = 1e6;
     const json_t *value = json_object_get(object, key);
-    if (value && !(count == 1 ? json_number_of(&gltf->json, KEY_OF(place, key), value, -HUGE_VAL, HUGE_VAL, out)
-                              : json_numbers_of(&gltf->json, KEY_OF(place, key), value, count, count, out, NULL)))
-        return false;
+    if (count > 1)
+        gltf_take_numbers(gltf, place, object, key, count, out);
+    else if (value && !json_number_of(&gltf->json, KEY_OF(place, key), value, -HUGE_VAL, HUGE_VAL, out))
+        gltf_forgive(gltf);
     for (size_t i = 0; value && i < count; i++) {
         double found = out[i];
         out[i] = found < min ? min : found > max ? max : found;
-        if (!(fabs(found - out[i]) > rounding) || gltf->cut_factors++)
+        if (!(fabs(found - out[i]) > rounding))
             continue;
-        json_place(KEY_OF(place, key), gltf->cut_factor, sizeof gltf->cut_factor);
-        gltf->cut_from = found;
-        gltf->cut_to = out[i];
+        json_fail(&gltf->json, KEY_OF(place, key), "found %g%s; %g is used", found,
+                  fabs(out[i]) < standard ? ", which the standard does not allow" : "", out[i]);
+        note_error(gltf, "factors", "");
     }
-    return true;
+}
+
+void gltf_take_word(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
+                    const struct json_choice *words, int *out)
+{
+    if (!json_take_word(&gltf->json, place, object, key, words, out))
+        gltf_forgive(gltf);
+}
+
+bool gltf_take_flag(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, bool missing)
+{
+    bool flag = missing;
+    return json_take_bool(&gltf->json, place, object, key, &flag) ? flag : (gltf_forgive(gltf), missing);
 }
 
 bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_t *object, double **out, size_t *count)
@@ -159,36 +316,36 @@ bool gltf_take_weights(struct gltf *gltf, const struct place *place, const json_
     const json_t *value = json_object_get(object, "weights");
     *out = NULL;
     *count = json_array_size(value);
-    if (!value || json_is_null(value))
+    if (!value)
         return true;
     *out = GLTF_ALLOC(gltf, *count, double);
     if (!*out)
         return gltf_no_memory(gltf, *count * sizeof **out);
-    return json_numbers_of(&gltf->json, KEY_OF(place, "weights"), value, 0, SIZE_MAX, *out, count);
+    if (json_numbers_of(&gltf->json, KEY_OF(place, "weights"), value, 0, SIZE_MAX, *out, count))
+        return true;
+    *out = NULL;
+    *count = 0;
+    return gltf_forgive(gltf);
 }
 
-const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
-                               bool *ok)
+const json_t *gltf_take_object(struct gltf *gltf, const struct place *place, const json_t *object, const char *key)
 {
     const json_t *value = json_object_get(object, key);
-    if (!value || json_is_object(value))
-        return value;
-    *ok = json_unexpected(&gltf->json, KEY_OF(place, key), value, "an object, { … }");
-    return NULL;
+    if (value && !json_is_object(value))
+        gltf_note_wrong(gltf, KEY_OF(place, key), value, "an object, { … }");
+    return json_is_object(value) ? value : NULL;
 }
 
-const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
-                             bool *ok)
+const json_t *gltf_take_list(struct gltf *gltf, const struct place *place, const json_t *object, const char *key)
 {
     const json_t *list = json_object_get(object, key);
     const struct place *here = KEY_OF(place, key);
-    if (!list)
-        return NULL;
-    *ok = json_is_array(list) || json_unexpected(&gltf->json, here, list, "a list of objects");
-    for (size_t i = 0; *ok && i < json_array_size(list); i++)
+    if (list && !json_is_array(list))
+        gltf_note_wrong(gltf, here, list, "a list of objects");
+    for (size_t i = 0; i < json_array_size(list); i++)
         if (!json_is_object(json_array_get(list, i)))
-            *ok = json_unexpected(&gltf->json, ELEMENT_OF(here, i), json_array_get(list, i), "an object, { … }");
-    return *ok ? list : NULL;
+            gltf_note_wrong(gltf, ELEMENT_OF(here, i), json_array_get(list, i), "an object, { … }");
+    return list;
 }
 
 const char *gltf_name(struct gltf *gltf, const json_t *object, bool *ok)

@@ -29,48 +29,48 @@ void gltf_unit_quaternion(double q[4])
 
 static bool read_node(struct gltf *gltf, const struct place *place, const json_t *object, struct gltf_node *node)
 {
-    *node = (struct gltf_node){.parent = -1, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}, .visible = true};
-    node->has_matrix = json_object_get(object, "matrix");
+    *node = (struct gltf_node){
+        .parent = -1, .matrix = {[0] = 1, [5] = 1, [10] = 1, [15] = 1}, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+    node->has_matrix = json_is_array(json_object_get(object, "matrix"));
     const json_t *visibility = gltf_extension(object, "KHR_node_visibility");
     const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "KHR_node_visibility");
-    if (!gltf_take_numbers(gltf, place, object, "matrix", 16, node->matrix) ||
-        !gltf_take_numbers(gltf, place, object, "translation", 3, node->translation) ||
-        !gltf_take_numbers(gltf, place, object, "rotation", 4, node->rotation) ||
-        !gltf_take_numbers(gltf, place, object, "scale", 3, node->scale) ||
-        !json_take_bool(&gltf->json, here, visibility, "visible", &node->visible) ||
-        !gltf_take_weights(gltf, place, object, &node->weights, &node->weight_count))
-        return false;
+    gltf_take_numbers(gltf, place, object, "matrix", 16, node->matrix);
+    gltf_take_numbers(gltf, place, object, "translation", 3, node->translation);
+    gltf_take_numbers(gltf, place, object, "rotation", 4, node->rotation);
+    gltf_take_numbers(gltf, place, object, "scale", 3, node->scale);
+    node->visible = gltf_take_flag(gltf, here, visibility, "visible", true);
     gltf_unit_quaternion(node->rotation);
     const double *m = node->matrix;
     // Rounded numbers in the last row are accepted; gltf_nodes_place sets the row to exactly 0 0 0 1.
     bool affine = m[3] * m[3] + m[7] * m[7] + m[11] * m[11] + (m[15] - 1) * (m[15] - 1) < 1e-10;
     if (node->has_matrix && !affine)
-        return json_fail(&gltf->json, KEY_OF(place, "matrix"), "its last row is %.6g %.6g %.6g %.6g, expected 0 0 0 1",
-                         m[3], m[7], m[11], m[15]);
-    return true;
+        gltf_note(gltf, KEY_OF(place, "matrix"), "its last row is %.6g %.6g %.6g %.6g; 0 0 0 1 is used", m[3], m[7],
+                  m[11], m[15]);
+    return gltf_take_weights(gltf, place, object, &node->weights, &node->weight_count);
 }
 
-// Sets `parent` as the parent of each node in its list of children.
-static bool read_children(struct gltf *gltf, int parent)
+// Sets `parent` as the parent of each node in its list of children. A node keeps its first parent.
+static void read_children(struct gltf *gltf, int parent)
 {
     const json_t *object = gltf_list_item(gltf, "nodes", parent), *list = json_object_get(object, "children");
     const struct place *place = KEY_OF(ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)parent), "children");
     if (list && !json_is_array(list))
-        return json_unexpected(&gltf->json, place, list, "a list of nodes");
+        gltf_note_wrong(gltf, place, list, "a list of nodes");
     for (size_t i = 0; i < json_array_size(list); i++) {
         int child;
         const struct place *here = ELEMENT_OF(place, i);
         if (!gltf_index_of(gltf, here, json_array_get(list, i), "nodes", &child))
-            return false;
-        if (gltf->nodes[child].parent >= 0)
-            return json_fail(&gltf->json, here, "node %d is a child of node %d already, expected one parent", child,
-                             gltf->nodes[child].parent);
-        gltf->nodes[child].parent = parent;
+            gltf_forgive(gltf);
+        else if (gltf->nodes[child].parent >= 0)
+            gltf_note(gltf, here, "node %d is a child of node %d already; it is drawn once", child,
+                      gltf->nodes[child].parent);
+        else
+            gltf->nodes[child].parent = parent;
     }
-    return true;
 }
 
-// Sets node_order: depth first, roots in the file's order. Nodes that are not reached from any root form a cycle.
+// Sets node_order: depth first, roots in the file's order. Nodes that are not reached from any root form a cycle, whose
+// first node becomes a root.
 static bool order_nodes(struct gltf *gltf)
 {
     size_t count = (size_t)gltf->node_count;
@@ -79,24 +79,27 @@ static bool order_nodes(struct gltf *gltf)
     int ordered = 0, depth = 0;
     if (!order || !stack || !reached)
         return gltf_no_memory(gltf, count * sizeof *order);
-    for (int root = 0; root < gltf->node_count; root++) {
-        if (gltf->nodes[root].parent >= 0)
+    for (size_t i = 0; i < 2 * count; i++) {
+        int root = (int)(i % count);
+        if (reached[root] || (i < count && gltf->nodes[root].parent >= 0))
             continue;
-        stack[depth++] = root;
-        while (depth > 0) {
+        if (gltf->nodes[root].parent >= 0)
+            gltf_note(gltf, ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)root),
+                      "this node is its own ancestor; it is drawn without a parent");
+        gltf->nodes[root].parent = -1;
+        for (reached[stack[depth++] = root] = true; depth > 0;) {
             int node = stack[--depth];
             const json_t *children = json_object_get(gltf_list_item(gltf, "nodes", node), "children");
             order[ordered++] = node;
-            reached[node] = true;
-            for (size_t i = json_array_size(children); i-- > 0;)
-                stack[depth++] = (int)json_number_value(json_array_get(children, i));
+            for (size_t k = json_array_size(children); k-- > 0;) {
+                double number = json_number_value(json_array_get(children, k)); // wrong children are noted already
+                int child = number >= 0 && number < gltf->node_count ? (int)number : root;
+                if (!reached[child] && gltf->nodes[child].parent == node)
+                    reached[stack[depth++] = child] = true;
+            }
         }
     }
     gltf->node_order = order;
-    for (int i = 0; i < gltf->node_count; i++)
-        if (!reached[i])
-            return json_fail(&gltf->json, ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)i),
-                             "this node is its own ancestor, expected a tree");
     return true;
 }
 
@@ -106,30 +109,25 @@ static bool order_nodes(struct gltf *gltf)
 static bool mark_roots(struct gltf *gltf)
 {
     const char *wanted = gltf->source->params->scene;
-    int scene;
-    if (!gltf_take_index(gltf, NULL, gltf->root, "scene", "scenes", &scene))
-        return false;
+    int scene = gltf_take_link(gltf, NULL, gltf->root, "scene", "scenes");
     if (wanted && (scene = gltf_find_named(gltf, json_object_get(gltf->root, "scenes"), wanted, "scene")) < 0)
         return false;
-    gltf->scene->file.scene = -1;
-    if (scene < 0 && !gltf_list_size(gltf, "scenes")) {
-        for (int i = 0; i < gltf->node_count; i++)
-            gltf->nodes[i].in_scene = gltf->nodes[i].parent < 0;
-        return true;
-    }
-    scene = scene < 0 ? 0 : scene;
+    scene = scene < 0 && gltf_list_size(gltf, "scenes") ? 0 : scene;
     gltf->scene->file.scene = scene;
-    const json_t *list = json_object_get(gltf_list_item(gltf, "scenes", scene), "nodes");
+    const json_t *list = scene < 0 ? NULL : json_object_get(gltf_list_item(gltf, "scenes", scene), "nodes");
     const struct place *place = KEY_OF(ELEMENT_OF(KEY_OF(NULL, "scenes"), (size_t)scene), "nodes");
-    if (list && !json_is_array(list))
-        return json_unexpected(&gltf->json, place, list, "a list of nodes");
+    bool any = false;
     for (size_t i = 0; i < json_array_size(list); i++) {
         int node;
-        const struct place *here = ELEMENT_OF(place, i);
-        if (!gltf_index_of(gltf, here, json_array_get(list, i), "nodes", &node))
-            return false;
-        gltf->nodes[node].in_scene = true;
+        if (gltf_index_of(gltf, ELEMENT_OF(place, i), json_array_get(list, i), "nodes", &node))
+            any = gltf->nodes[node].in_scene = true;
+        else
+            gltf_forgive(gltf);
     }
+    if (!any && scene >= 0)
+        gltf_note(gltf, place, "the scene lists no nodes; all nodes of the file are drawn");
+    for (int i = 0; !any && i < gltf->node_count; i++)
+        gltf->nodes[i].in_scene = gltf->nodes[i].parent < 0;
     return true;
 }
 
@@ -144,8 +142,7 @@ bool gltf_nodes_read(struct gltf *gltf)
                        &gltf->nodes[i]))
             return false;
     for (int i = 0; i < gltf->node_count; i++)
-        if (!read_children(gltf, i))
-            return false;
+        read_children(gltf, i);
     if (!order_nodes(gltf) || !mark_roots(gltf))
         return false;
     for (int i = 0; i < gltf->node_count; i++) {
@@ -155,7 +152,7 @@ bool gltf_nodes_read(struct gltf *gltf)
     return true;
 }
 
-bool gltf_nodes_place(struct gltf *gltf)
+void gltf_nodes_place(struct gltf *gltf)
 {
     for (int i = 0; i < gltf->node_count; i++) {
         struct gltf_node *node = &gltf->nodes[gltf->node_order[i]];
@@ -165,10 +162,14 @@ bool gltf_nodes_place(struct gltf *gltf)
                 own.m[j % 4][j / 4] = node->matrix[j];
         node->world = node->parent >= 0 ? mat4_mul(&gltf->nodes[node->parent].world, &own) : own;
         node->visible &= node->parent < 0 || gltf->nodes[node->parent].visible;
+        bool finite = true;
         for (int j = 0; j < 12; j++)
-            if (!math_finite(node->world.m[j / 4][j % 4]))
-                return json_fail(&gltf->json, ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)gltf->node_order[i]),
-                                 "its transform is not finite");
+            finite &= math_finite(node->world.m[j / 4][j % 4]);
+        if (finite)
+            continue;
+        gltf_note(gltf, ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)gltf->node_order[i]),
+                  "its transform is not finite; drawn without this node");
+        node->world = lam_mat4_identity();
+        node->visible = false;
     }
-    return true;
 }

@@ -21,7 +21,7 @@ struct gltf_node {
 bool gltf_nodes_read(struct gltf *gltf);
 
 // Computes node->world and node->visible for all nodes.
-bool gltf_nodes_place(struct gltf *gltf);
+void gltf_nodes_place(struct gltf *gltf);
 
 // Normalizes a quaternion; a zero quaternion becomes the identity.
 void gltf_unit_quaternion(double q[4]);

@@ -121,11 +121,9 @@ static bool add_instances(struct gltf *gltf, const struct place *place, const js
                           const struct gltf_mesh *mesh, const char *name, const lam_mat4 *world)
 {
     struct instances instances = {0};
-    bool ok = true;
-    const json_t *attributes = gltf_take_object(gltf, place, extension, "attributes", &ok);
+    const json_t *attributes = gltf_take_object(gltf, place, extension, "attributes");
     const struct place *here = KEY_OF(place, "attributes");
-    if (!ok ||
-        !take_instances(gltf, here, attributes, "TRANSLATION", mesh, 3, &instances.translation, &instances.count) ||
+    if (!take_instances(gltf, here, attributes, "TRANSLATION", mesh, 3, &instances.translation, &instances.count) ||
         !take_instances(gltf, here, attributes, "ROTATION", mesh, 4, &instances.rotation, &instances.count) ||
         !take_instances(gltf, here, attributes, "SCALE", mesh, 3, &instances.scale, &instances.count))
         return false;
@@ -142,10 +140,9 @@ static bool add_instances(struct gltf *gltf, const struct place *place, const js
 static const struct gltf_mesh *mesh_of(struct gltf *gltf, const struct place *place, const json_t *object,
                                        const struct gltf_node *node, int mesh)
 {
-    int skin_index;
-    const struct gltf_skin *skin = NULL;
-    if (!gltf_take_index(gltf, place, object, "skin", "skins", &skin_index) ||
-        (skin_index >= 0 && !(skin = gltf_skin_at(gltf, skin_index))))
+    int skin_index = gltf_take_link(gltf, place, object, "skin", "skins");
+    const struct gltf_skin *skin = skin_index >= 0 ? gltf_skin_at(gltf, skin_index) : NULL;
+    if (skin_index >= 0 && !skin && !gltf_forgive(gltf))
         return NULL;
     return skin || node->weights ? gltf_mesh_deformed(gltf, mesh, node, skin) : gltf_mesh_at(gltf, mesh);
 }
@@ -155,10 +152,8 @@ static bool add_node(struct gltf *gltf, int index)
     const struct gltf_node *node = &gltf->nodes[index];
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "nodes"), (size_t)index);
     const json_t *object = gltf_list_item(gltf, "nodes", index);
-    int mesh_index;
+    int mesh_index = gltf_take_link(gltf, place, object, "mesh", "meshes");
     bool ok = true;
-    if (!gltf_take_index(gltf, place, object, "mesh", "meshes", &mesh_index))
-        return false;
     if (mesh_index < 0)
         return true;
     const struct gltf_mesh *mesh = mesh_of(gltf, place, object, node, mesh_index);
@@ -169,12 +164,13 @@ static bool add_node(struct gltf *gltf, int index)
         name = scene_mesh(gltf->scene, mesh->primitives[0].mesh)->name;
     const json_t *instancing = gltf_extension(object, "EXT_mesh_gpu_instancing");
     const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "EXT_mesh_gpu_instancing");
-    return instancing ? add_instances(gltf, here, instancing, mesh, name, &node->world)
+    return instancing ? add_instances(gltf, here, instancing, mesh, name, &node->world) || gltf_skip(gltf)
                       : add_mesh(gltf, mesh, name, &node->world);
 }
 
 bool gltf_objects_add(struct gltf *gltf)
 {
+    gltf_nodes_place(gltf);
     for (int i = 0; i < gltf->node_count; i++) {
         const struct gltf_node *node = &gltf->nodes[gltf->node_order[i]];
         if (!continues(gltf, (size_t)i) || (node->in_scene && node->visible && !add_node(gltf, gltf->node_order[i])))

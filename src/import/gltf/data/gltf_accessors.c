@@ -109,13 +109,9 @@ static const uint8_t *take_run(struct gltf *gltf, const struct place *place, con
 static bool take_sparse(struct gltf *gltf, const struct place *place, const json_t *sparse, size_t element,
                         struct gltf_accessor *accessor)
 {
-    bool ok = true;
     size_t stride;
     int buffer;
-    const json_t *indices = gltf_take_object(gltf, place, sparse, "indices", &ok);
-    const json_t *values = ok ? gltf_take_object(gltf, place, sparse, "values", &ok) : NULL;
-    if (!ok)
-        return false;
+    const json_t *indices = json_object_get(sparse, "indices"), *values = json_object_get(sparse, "values");
     if (!indices || !values)
         return json_fail(&gltf->json, place, "%s is missing", indices ? "values" : "indices");
     accessor->sparse_count = 0;
@@ -148,7 +144,6 @@ static struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index)
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "accessors"), (size_t)index);
     const json_t *object = gltf_list_item(gltf, "accessors", index);
     size_t element = 0;
-    bool ok = true;
     if (accessor->ready)
         return accessor;
     *accessor = (struct gltf_accessor){.buffer = -1};
@@ -156,19 +151,18 @@ static struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index)
         return json_fail(&gltf->json, place, "count is missing"), NULL;
     if (!take_component(gltf, place, object, &accessor->component) ||
         !take_type(gltf, place, object, accessor, &element) ||
-        !gltf_take_whole(gltf, place, object, "count", 1, 4294967295.0, &accessor->count) ||
-        !json_take_bool(&gltf->json, place, object, "normalized", &accessor->normalized))
+        !gltf_take_whole(gltf, place, object, "count", 1, 4294967295.0, &accessor->count))
         return NULL;
     accessor->stride = element;
-    accessor->normalized &= accessor->component != GLTF_F32;
+    accessor->normalized = gltf_take_flag(gltf, place, object, "normalized", false) && accessor->component != GLTF_F32;
     if (json_object_get(object, "bufferView")) {
         accessor->data =
             take_run(gltf, place, object, accessor->count, element, true, &accessor->stride, &accessor->buffer);
         if (!accessor->data)
             return NULL;
     }
-    const json_t *sparse = gltf_take_object(gltf, place, object, "sparse", &ok);
-    if (!ok || (sparse && !take_sparse(gltf, KEY_OF(place, "sparse"), sparse, element, accessor)))
+    const json_t *sparse = gltf_take_object(gltf, place, object, "sparse");
+    if (sparse && !take_sparse(gltf, KEY_OF(place, "sparse"), sparse, element, accessor))
         return NULL;
     accessor->ready = true;
     return accessor;

@@ -27,7 +27,7 @@ static bool read_buffer(struct gltf *gltf, int index)
     if (!json_object_get(object, "byteLength"))
         return json_fail(&gltf->json, place, "byteLength is missing");
     if (!gltf_take_whole(gltf, place, object, "byteLength", 1, 9e15, &length) ||
-        !json_take_text(&gltf->json, place, object, "uri", &uri))
+        (!json_is_null(json_object_get(object, "uri")) && !json_take_text(&gltf->json, place, object, "uri", &uri)))
         return false;
     const uint8_t *data = gltf->binary;
     size_t size = gltf->binary_size;

@@ -3,6 +3,7 @@
 
 #include "gltf_accessors.h"
 #include "gltf_buffers.h"
+#include "gltf_json.h"
 #include "parallel_rows.h"
 
 #include <string.h>
@@ -167,12 +168,8 @@ static bool check_finite(struct gltf *gltf, const struct place *place, const str
     if (a->component == GLTF_F32 &&
         !parallel_rows_run(gltf->source, parallel_rows_count(a->count), check_chunk, &checking, gltf->json.error))
         return false;
-    if (checking.replaced) {
-        char where[200];
-        json_place(place, where, sizeof where);
-        scene_warn(gltf->scene, "%s: %s: %u of its numbers are not finite and became 0", gltf->source->name, where,
-                   checking.replaced);
-    }
+    if (checking.replaced)
+        gltf_note(gltf, place, "%u of its numbers are not finite and became 0", checking.replaced);
     return true;
 }
 

@@ -19,7 +19,7 @@ const struct gltf_view *gltf_view_at(struct gltf *gltf, int index)
     if (!gltf_take_index(gltf, place, object, "buffer", "buffers", &view->buffer) ||
         !gltf_take_whole(gltf, place, object, "byteOffset", 0, 9e15, &offset) ||
         !gltf_take_whole(gltf, place, object, "byteLength", 1, 9e15, &length) ||
-        !gltf_take_whole(gltf, place, object, "byteStride", 1, 1 << 20, &stride))
+        !gltf_take_whole(gltf, place, object, "byteStride", 0, 1 << 20, &stride))
         return NULL;
     if (view->buffer < 0 || !length)
         return json_fail(&gltf->json, place, "%s is missing", view->buffer < 0 ? "buffer" : "byteLength"), NULL;

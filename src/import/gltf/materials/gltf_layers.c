@@ -8,7 +8,7 @@
 #include "khr_layers.h"
 #include "linear.h"
 
-static bool take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, lam_material *material)
+static void take_numbers(struct gltf *gltf, const struct place *place, const json_t *object, lam_material *material)
 {
     for (size_t i = 0; i < KHR_NUMBERS; i++) {
         const json_t *extension = gltf_extension(object, khr_numbers[i].extension);
@@ -19,16 +19,14 @@ static bool take_numbers(struct gltf *gltf, const struct place *place, const jso
             values[k] = (double)member[k];
         if (!extension)
             continue;
-        if (!gltf_take_factors(gltf, here, extension, khr_numbers[i].key, (size_t)khr_numbers[i].count,
-                               khr_numbers[i].min, khr_numbers[i].max, values))
-            return false;
+        gltf_take_factors(gltf, here, extension, khr_numbers[i].key, (size_t)khr_numbers[i].count, khr_numbers[i].min,
+                          khr_numbers[i].max, values);
         for (int k = 0; k < khr_numbers[i].count; k++)
             member[k] = (float)values[k];
     }
     // Removes full rotations, which do not change the direction.
     double turn = 2 * math_radians(180), angle = (double)material->anisotropy_rotation_rad;
     material->anisotropy_rotation_rad = (float)(angle - turn * (double)(int64_t)(angle / turn));
-    return true;
 }
 
 static bool take_maps(struct gltf *gltf, const struct place *place, const json_t *object, int index)
@@ -36,15 +34,14 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
     for (size_t i = 0; i < KHR_MAPS; i++) {
         const json_t *extension = gltf_extension(object, khr_maps[i].extension);
         const struct place *here = KEY_OF(KEY_OF(place, "extensions"), khr_maps[i].extension);
-        bool ok = true;
         double scale = 1;
-        const json_t *info = gltf_take_object(gltf, here, extension, khr_maps[i].key, &ok);
+        const json_t *info = gltf_take_object(gltf, here, extension, khr_maps[i].key);
         if (khr_maps[i].slot == LAM_MAP_CLEARCOAT_NORMAL)
-            ok = ok && json_take_number(&gltf->json, KEY_OF(here, khr_maps[i].key), info, "scale", -1e6, 1e6, &scale);
+            gltf_take_factors(gltf, KEY_OF(here, khr_maps[i].key), info, "scale", 1, -1e6, 1e6, &scale);
         const struct gltf_map_request request = {
             index, khr_maps[i].slot, khr_maps[i].values, khr_maps[i].channel, (float)scale, 0};
         // A scale of 0 disables the map.
-        if (!ok || (scale != 0 && !gltf_take_map(gltf, here, extension, khr_maps[i].key, request, NULL)))
+        if (scale != 0 && !gltf_take_map(gltf, here, extension, khr_maps[i].key, request))
             return false;
     }
     return true;
@@ -56,5 +53,6 @@ bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t
     // Unlit materials and specular-glossiness materials have no layers.
     if (material->unlit || gltf_extension(object, "KHR_materials_pbrSpecularGlossiness"))
         return true;
-    return take_numbers(gltf, place, object, material) && take_maps(gltf, place, object, index);
+    take_numbers(gltf, place, object, material);
+    return take_maps(gltf, place, object, index);
 }

@@ -5,10 +5,6 @@
 #include "gltf_layers.h"
 #include "gltf_textures.h"
 
-#include "fail.h"
-
-#include <string.h>
-
 #define FACTOR_MAX 1e30 // the upper limit for factors that the standard does not limit
 
 // The values of a material in the file, with the defaults of the specification.
@@ -28,53 +24,51 @@ struct factors {
 static const struct json_choice alpha_words[] = {
     {"OPAQUE", LAM_ALPHA_OPAQUE}, {"MASK", LAM_ALPHA_MASK}, {"BLEND", LAM_ALPHA_BLEND}, {NULL, 0}};
 
-static bool take_share(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, double *out)
+static void take_share(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, double *out)
 {
-    return gltf_take_factors(gltf, place, object, key, 1, 0, 1, out);
+    gltf_take_factors(gltf, place, object, key, 1, 0, 1, out);
 }
 
-static bool take_metallic_roughness(struct gltf *gltf, const struct place *place, const json_t *object,
+static void take_metallic_roughness(struct gltf *gltf, const struct place *place, const json_t *object,
                                     struct factors *f)
 {
-    bool ok = true;
-    const json_t *pbr = gltf_take_object(gltf, place, object, "pbrMetallicRoughness", &ok);
+    const json_t *pbr = gltf_take_object(gltf, place, object, "pbrMetallicRoughness");
     const struct place *here = KEY_OF(place, "pbrMetallicRoughness");
-    return ok && (!pbr || (gltf_take_factors(gltf, here, pbr, "baseColorFactor", 4, 0, 1, f->base) &&
-                           take_share(gltf, here, pbr, "metallicFactor", &f->metallic) &&
-                           take_share(gltf, here, pbr, "roughnessFactor", &f->roughness)));
+    gltf_take_factors(gltf, here, pbr, "baseColorFactor", 4, 0, 1, f->base);
+    take_share(gltf, here, pbr, "metallicFactor", &f->metallic);
+    take_share(gltf, here, pbr, "roughnessFactor", &f->roughness);
 }
 
-static bool take_specular_glossiness(struct gltf *gltf, const struct place *place, const json_t *object,
+static void take_specular_glossiness(struct gltf *gltf, const struct place *place, const json_t *object,
                                      struct factors *f)
 {
     const json_t *pbr = gltf_extension(object, "KHR_materials_pbrSpecularGlossiness");
     const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_pbrSpecularGlossiness");
     if (!pbr)
-        return true;
+        return;
     f->has_specular = true;
     for (int i = 0; i < 4; i++)
         f->base[i] = 1;
-    if (!gltf_take_factors(gltf, here, pbr, "diffuseFactor", 4, 0, 1, f->base) ||
-        !gltf_take_factors(gltf, here, pbr, "specularFactor", 3, 0, 1, f->specular) ||
-        !take_share(gltf, here, pbr, "glossinessFactor", &f->glossiness))
-        return false;
+    gltf_take_factors(gltf, here, pbr, "diffuseFactor", 4, 0, 1, f->base);
+    gltf_take_factors(gltf, here, pbr, "specularFactor", 3, 0, 1, f->specular);
+    take_share(gltf, here, pbr, "glossinessFactor", &f->glossiness);
     f->metallic = 0;
     // With a map, the roughness is 1 − glossiness · alpha. The offset and scale of the map express this as offset +
     // scale · alpha.
-    f->roughness = json_object_get(pbr, "specularGlossinessTexture") ? 1 : 1 - f->glossiness;
-    return true;
+    f->roughness = json_is_object(json_object_get(pbr, "specularGlossinessTexture")) ? 1 : 1 - f->glossiness;
 }
 
-static bool take_factors(struct gltf *gltf, const struct place *place, const json_t *object, struct factors *f)
+static void take_factors(struct gltf *gltf, const struct place *place, const json_t *object, struct factors *f)
 {
     const json_t *strength = gltf_extension(object, "KHR_materials_emissive_strength");
     const struct place *in_strength = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_emissive_strength");
     f->unlit = gltf_extension(object, "KHR_materials_unlit") != NULL;
-    return take_metallic_roughness(gltf, place, object, f) && take_specular_glossiness(gltf, place, object, f) &&
-           gltf_take_factors(gltf, place, object, "emissiveFactor", 3, 0, 1, f->emission) &&
-           gltf_take_factors(gltf, in_strength, strength, "emissiveStrength", 1, 0, FACTOR_MAX, &f->strength) &&
-           gltf_take_factors(gltf, place, object, "alphaCutoff", 1, 0, FACTOR_MAX, &f->cutoff) &&
-           json_take_word(&gltf->json, place, object, "alphaMode", alpha_words, &f->alpha);
+    take_metallic_roughness(gltf, place, object, f);
+    take_specular_glossiness(gltf, place, object, f);
+    gltf_take_factors(gltf, place, object, "emissiveFactor", 3, 0, 1, f->emission);
+    gltf_take_factors(gltf, in_strength, strength, "emissiveStrength", 1, 0, FACTOR_MAX, &f->strength);
+    gltf_take_factors(gltf, place, object, "alphaCutoff", 1, 0, FACTOR_MAX, &f->cutoff);
+    gltf_take_word(gltf, place, object, "alphaMode", alpha_words, &f->alpha);
 }
 
 static lam_rgb rgb_of(const double c[3], double factor)
@@ -121,25 +115,23 @@ static bool take_glossy_maps(struct gltf *gltf, const struct place *place, const
     const struct gltf_map_request color = {index, LAM_MAP_DIFFUSE, LAM_TEXTURE_COLOR, 0, 1, 0},
                                   f0 = {index, LAM_MAP_F0_COLOR, LAM_TEXTURE_COLOR, 0, 1, 0},
                                   roughness = {index, LAM_MAP_ROUGHNESS, LAM_TEXTURE_COLOR, 3, -glossiness, 1};
-    return gltf_take_map(gltf, place, glossy, "diffuseTexture", color, NULL) &&
-           gltf_take_map(gltf, place, glossy, "specularGlossinessTexture", f0, NULL) &&
-           (glossiness == 0 || gltf_take_map(gltf, place, glossy, "specularGlossinessTexture", roughness, NULL));
+    return gltf_take_map(gltf, place, glossy, "diffuseTexture", color) &&
+           gltf_take_map(gltf, place, glossy, "specularGlossinessTexture", f0) &&
+           (glossiness == 0 || gltf_take_map(gltf, place, glossy, "specularGlossinessTexture", roughness));
 }
 
 // Requests the maps of material `index`.
 static bool take_maps(struct gltf *gltf, const struct place *place, const json_t *object, int index, float glossiness)
 {
-    bool ok = true;
-    const json_t *pbr = gltf_take_object(gltf, place, object, "pbrMetallicRoughness", &ok);
-    const json_t *normal = gltf_take_object(gltf, place, object, "normalTexture", &ok);
-    const json_t *occlusion = gltf_take_object(gltf, place, object, "occlusionTexture", &ok);
+    const json_t *pbr = gltf_take_object(gltf, place, object, "pbrMetallicRoughness");
+    const json_t *normal = gltf_take_object(gltf, place, object, "normalTexture");
+    const json_t *occlusion = gltf_take_object(gltf, place, object, "occlusionTexture");
     const json_t *glossy = gltf_extension(object, "KHR_materials_pbrSpecularGlossiness");
     const struct place *in_pbr = KEY_OF(place, "pbrMetallicRoughness");
     const struct place *in_glossy = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_pbrSpecularGlossiness");
     double scale = 1, strength = 1;
-    if (!ok || !json_take_number(&gltf->json, KEY_OF(place, "normalTexture"), normal, "scale", -1e6, 1e6, &scale) ||
-        !json_take_number(&gltf->json, KEY_OF(place, "occlusionTexture"), occlusion, "strength", 0, 1, &strength))
-        return false;
+    gltf_take_factors(gltf, KEY_OF(place, "normalTexture"), normal, "scale", 1, -1e6, 1e6, &scale);
+    take_share(gltf, KEY_OF(place, "occlusionTexture"), occlusion, "strength", &strength);
     const struct gltf_map_request color = {index, LAM_MAP_DIFFUSE, LAM_TEXTURE_COLOR, 0, 1, 0},
                                   metallic = {index, LAM_MAP_METALLIC, LAM_TEXTURE_NUMBERS, 2, 1, 0},
                                   roughness = {index, LAM_MAP_ROUGHNESS, LAM_TEXTURE_NUMBERS, 1, 1, 0},
@@ -148,13 +140,13 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
                                   hidden = {index, LAM_MAP_OCCLUSION, LAM_TEXTURE_NUMBERS,
                                             0,     (float)strength,   (float)(1 - strength)};
     // A scale or strength of 0 disables the map.
-    return (scale == 0 || gltf_take_map(gltf, place, object, "normalTexture", bent, NULL)) &&
-           (strength == 0 || gltf_take_map(gltf, place, object, "occlusionTexture", hidden, NULL)) &&
-           gltf_take_map(gltf, place, object, "emissiveTexture", glow, NULL) &&
+    return (scale == 0 || gltf_take_map(gltf, place, object, "normalTexture", bent)) &&
+           (strength == 0 || gltf_take_map(gltf, place, object, "occlusionTexture", hidden)) &&
+           gltf_take_map(gltf, place, object, "emissiveTexture", glow) &&
            (glossy ? take_glossy_maps(gltf, in_glossy, glossy, index, glossiness)
-                   : gltf_take_map(gltf, in_pbr, pbr, "baseColorTexture", color, NULL) &&
-                         gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", metallic, NULL) &&
-                         gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness, NULL));
+                   : gltf_take_map(gltf, in_pbr, pbr, "baseColorTexture", color) &&
+                         gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", metallic) &&
+                         gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness));
 }
 
 // Finds the index of the requested variant; −1 if the caller requests no variant. Returns false if the file does not
@@ -165,11 +157,9 @@ static bool find_variant(struct gltf *gltf)
     gltf->variant = -1;
     if (!wanted)
         return true;
-    bool ok = true;
     const struct place *place = KEY_OF(KEY_OF(NULL, "extensions"), "KHR_materials_variants");
-    const json_t *list =
-        gltf_take_list(gltf, place, gltf_extension(gltf->root, "KHR_materials_variants"), "variants", &ok);
-    gltf->variant = ok ? gltf_find_named(gltf, list, wanted, "variant") : -1;
+    const json_t *list = gltf_take_list(gltf, place, gltf_extension(gltf->root, "KHR_materials_variants"), "variants");
+    gltf->variant = gltf_find_named(gltf, list, wanted, "variant");
     return gltf->variant >= 0;
 }
 
@@ -182,8 +172,8 @@ bool gltf_materials_read(struct gltf *gltf)
         const struct place *place = ELEMENT_OF(KEY_OF(NULL, "materials"), i);
         const json_t *object = gltf_list_item(gltf, "materials", (int)i);
         struct factors factors = default_factors;
-        bool ok = take_factors(gltf, place, object, &factors) &&
-                  take_maps(gltf, place, object, (int)i, (float)factors.glossiness);
+        take_factors(gltf, place, object, &factors);
+        bool ok = take_maps(gltf, place, object, (int)i, (float)factors.glossiness);
         lam_material material = material_of(&factors, ok ? gltf_name(gltf, object, &ok) : NULL);
         ok = ok && gltf_take_layers(gltf, place, object, (int)i, &material);
         if (!ok || scene_adopt_material(gltf->scene, &material, gltf->json.error) < 0)
@@ -192,23 +182,22 @@ bool gltf_materials_read(struct gltf *gltf)
     return find_variant(gltf);
 }
 
-// Gets the material of a primitive in the requested variant. *index is −1 if the variant assigns no material to this
+// Returns the material of a primitive in the requested variant, or −1 if the variant assigns no material to this
 // primitive.
-static bool take_variant(struct gltf *gltf, const struct place *place, const json_t *primitive, int *index)
+static int take_variant(struct gltf *gltf, const struct place *place, const json_t *primitive)
 {
-    bool ok = true;
     const struct place *extension = KEY_OF(KEY_OF(place, "extensions"), "KHR_materials_variants");
     const json_t *mappings =
-        gltf_take_list(gltf, extension, gltf_extension(primitive, "KHR_materials_variants"), "mappings", &ok);
-    *index = -1;
-    for (size_t i = 0; ok && *index < 0 && i < json_array_size(mappings); i++) {
+        gltf_take_list(gltf, extension, gltf_extension(primitive, "KHR_materials_variants"), "mappings");
+    int index = -1;
+    for (size_t i = 0; index < 0 && i < json_array_size(mappings); i++) {
         const json_t *mapping = json_array_get(mappings, i), *variants = json_object_get(mapping, "variants");
-        for (size_t k = 0; ok && *index < 0 && k < json_array_size(variants); k++)
+        for (size_t k = 0; index < 0 && k < json_array_size(variants); k++)
             if (json_number_value(json_array_get(variants, k)) == gltf->variant)
-                ok = gltf_take_index(gltf, ELEMENT_OF(KEY_OF(extension, "mappings"), i), mapping, "material",
-                                     "materials", index);
+                index = gltf_take_link(gltf, ELEMENT_OF(KEY_OF(extension, "mappings"), i), mapping, "material",
+                                       "materials");
     }
-    return ok;
+    return index;
 }
 
 // Returns the material for primitives without a material, which has the defaults of the specification.
@@ -223,30 +212,24 @@ static int default_material(struct gltf *gltf)
 
 bool gltf_take_material(struct gltf *gltf, const struct place *place, const json_t *primitive, int32_t *material)
 {
-    int index = -1;
-    if ((gltf->variant >= 0 && !take_variant(gltf, place, primitive, &index)) ||
-        (index < 0 && !gltf_take_index(gltf, place, primitive, "material", "materials", &index)))
-        return false;
+    int index = gltf->variant >= 0 ? take_variant(gltf, place, primitive) : -1;
+    index = index >= 0 ? index : gltf_take_link(gltf, place, primitive, "material", "materials");
     *material = index >= 0 ? gltf->first_material + index : default_material(gltf);
     return *material >= 0;
 }
 
-static const json_t *object_of(const struct gltf *gltf, int32_t material)
-{
-    return material == gltf->default_material ? NULL
-                                              : gltf_list_item(gltf, "materials", material - gltf->first_material);
-}
-
 bool gltf_material_is_opaque(const struct gltf *gltf, int32_t material)
 {
-    const char *mode = json_string_value(json_object_get(object_of(gltf, material), "alphaMode"));
-    return !mode || strcmp(mode, "OPAQUE") == 0;
+    return ((const lam_material *)gltf->scene->materials.items + material)->alpha_mode == LAM_ALPHA_OPAQUE;
 }
 
-bool gltf_material_is_double_sided(const struct gltf *gltf, int32_t material)
+bool gltf_material_is_double_sided(struct gltf *gltf, int32_t material)
 {
     const lam_material *m = (const lam_material *)gltf->scene->materials.items + material;
+    int index = material - gltf->first_material;
     if (m->transmission > 0 && m->thickness > 0) // the surface is the boundary of a volume (KHR_materials_volume)
         return false;
-    return json_is_true(json_object_get(object_of(gltf, material), "doubleSided"));
+    return material != gltf->default_material &&
+           gltf_take_flag(gltf, ELEMENT_OF(KEY_OF(NULL, "materials"), (size_t)index),
+                          gltf_list_item(gltf, "materials", index), "doubleSided", false);
 }

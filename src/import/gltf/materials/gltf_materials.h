@@ -14,6 +14,6 @@ bool gltf_take_material(struct gltf *gltf, const struct place *place, const json
 // Returns whether the material with this index in the scene is opaque. If so, the alpha values of the material, its
 // textures and the vertex colours are ignored.
 bool gltf_material_is_opaque(const struct gltf *gltf, int32_t material);
-bool gltf_material_is_double_sided(const struct gltf *gltf, int32_t material);
+bool gltf_material_is_double_sided(struct gltf *gltf, int32_t material);
 
 #endif

@@ -48,19 +48,17 @@ bool gltf_textures_start(struct gltf *gltf)
 enum { NEAREST = 9728, LINEAR, NEAREST_MIPMAP_NEAREST = 9984, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR };
 enum { LINEAR_MIPMAP_LINEAR = 9987, CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648, REPEAT = 10497 };
 
-// Gets a number that must be in the list `allowed`, which ends with 0.
-static bool take_code(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
-                      const int *allowed, const char *expected, int *out)
+// Returns a number that must be in the list `allowed`, which begins with the default and ends with 0.
+static int take_code(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
+                     const int *allowed, const char *expected)
 {
     const json_t *value = json_object_get(object, key);
-    if (!value)
-        return true;
-    for (; *allowed; allowed++)
-        if (json_is_number(value) && json_number_value(value) == *allowed) {
-            *out = *allowed;
-            return true;
-        }
-    return json_unexpected(&gltf->json, KEY_OF(place, key), value, expected);
+    for (int i = 0; value && allowed[i]; i++)
+        if (json_is_number(value) && json_number_value(value) == allowed[i])
+            return allowed[i];
+    if (value)
+        gltf_note_wrong(gltf, KEY_OF(place, key), value, expected);
+    return *allowed;
 }
 
 static lam_wrap wrap_of(int code)
@@ -68,21 +66,19 @@ static lam_wrap wrap_of(int code)
     return code == CLAMP_TO_EDGE ? LAM_WRAP_CLAMP : code == MIRRORED_REPEAT ? LAM_WRAP_MIRROR : LAM_WRAP_REPEAT;
 }
 
-static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
+static void take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 {
-    static const int magnify[] = {NEAREST, LINEAR, 0}, wraps[] = {REPEAT, CLAMP_TO_EDGE, MIRRORED_REPEAT, 0};
-    static const int minify[] = {
-        NEAREST, LINEAR, NEAREST_MIPMAP_NEAREST, LINEAR_MIPMAP_NEAREST, NEAREST_MIPMAP_LINEAR, LINEAR_MIPMAP_LINEAR, 0};
+    static const int magnify[] = {LINEAR, NEAREST, 0}, wraps[] = {REPEAT, CLAMP_TO_EDGE, MIRRORED_REPEAT, 0};
+    static const int minify[] = {LINEAR_MIPMAP_LINEAR,  NEAREST, LINEAR, NEAREST_MIPMAP_NEAREST, LINEAR_MIPMAP_NEAREST,
+                                 NEAREST_MIPMAP_LINEAR, 0};
     if (index < 0)
-        return true; // without a sampler, the texture is repeated and filtered trilinearly
+        return; // without a sampler, the texture is repeated and filtered trilinearly
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "samplers"), (size_t)index);
     const json_t *object = gltf_list_item(gltf, "samplers", index);
-    int large = LINEAR, small = LINEAR_MIPMAP_LINEAR, s = REPEAT, t = REPEAT;
-    if (!take_code(gltf, place, object, "magFilter", magnify, "9728 (NEAREST) or 9729 (LINEAR)", &large) ||
-        !take_code(gltf, place, object, "minFilter", minify, "9728, 9729, or 9984 to 9987", &small) ||
-        !take_code(gltf, place, object, "wrapS", wraps, "33071, 33648 or 10497", &s) ||
-        !take_code(gltf, place, object, "wrapT", wraps, "33071, 33648 or 10497", &t))
-        return false;
+    int large = take_code(gltf, place, object, "magFilter", magnify, "9728 (NEAREST) or 9729 (LINEAR)");
+    int small = take_code(gltf, place, object, "minFilter", minify, "9728, 9729, or 9984 to 9987");
+    int s = take_code(gltf, place, object, "wrapS", wraps, "33071, 33648 or 10497");
+    int t = take_code(gltf, place, object, "wrapT", wraps, "33071, 33648 or 10497");
     map->wrap_s = wrap_of(s);
     map->wrap_t = wrap_of(t);
     map->magnify = large == NEAREST ? LAM_FILTER_NEAREST : LAM_FILTER_LINEAR;
@@ -91,31 +87,29 @@ static bool take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
     map->mip = small == NEAREST || small == LINEAR                                 ? LAM_MIP_NONE
                : small == NEAREST_MIPMAP_NEAREST || small == LINEAR_MIPMAP_NEAREST ? LAM_MIP_NEAREST
                                                                                    : LAM_MIP_LINEAR;
-    return true;
 }
 
 // --- pictures
 
 // Returns the image of a texture. If WebP can be decoded, or if there is no fallback image, this is the image of
-// EXT_texture_webp; otherwise, it is the fallback image. Returns −1 on error.
+// EXT_texture_webp; otherwise, it is the fallback image. Returns −1 if there is none.
 static int image_of(struct gltf *gltf, int texture)
 {
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture);
     const json_t *object = gltf_list_item(gltf, "textures", texture);
-    const json_t *webp = gltf_extension(object, "EXT_texture_webp");
-    int image = -1, webp_image = -1;
-    if (!gltf_take_index(gltf, place, object, "source", "images", &image) ||
-        (webp && !gltf_take_index(gltf, KEY_OF(KEY_OF(place, "extensions"), "EXT_texture_webp"), webp, "source",
-                                  "images", &webp_image)))
-        return -1;
+    int image = gltf_take_link(gltf, place, object, "source", "images");
+    int webp_image = gltf_take_link(gltf, KEY_OF(KEY_OF(place, "extensions"), "EXT_texture_webp"),
+                                    gltf_extension(object, "EXT_texture_webp"), "source", "images");
     if (webp_image >= 0 && (image < 0 || webp_is_installed()))
-        image = webp_image;
-    if (image < 0 && gltf_extension(object, "KHR_texture_basisu"))
-        fail(gltf->json.error, LAM_UNSUPPORTED,
-             "%s: textures[%d]: its only picture is KTX 2 (KHR_texture_basisu), which this version cannot decode",
-             gltf->source->name, texture);
-    else if (image < 0)
-        json_fail(&gltf->json, place, "source is missing");
+        return webp_image;
+    const char *format = gltf_extension(object, "KHR_texture_basisu") ? "KTX 2 (KHR_texture_basisu)"
+                         : gltf_extension(object, "EXT_texture_avif") ? "AVIF (EXT_texture_avif)"
+                         : gltf_extension(object, "MSFT_texture_dds") ? "DDS (MSFT_texture_dds)"
+                                                                      : NULL;
+    if (image < 0 && !json_object_get(object, "source") && format)
+        gltf_note(gltf, place, "its only picture is %s, which this version cannot decode; drawn without it", format);
+    else if (image < 0 && !json_object_get(object, "source"))
+        gltf_note(gltf, place, "source is missing; drawn without this texture");
     return image;
 }
 
@@ -137,10 +131,11 @@ static bool find_bytes(struct gltf *gltf, int image, struct gltf_picture *pictur
     const char *uri = NULL;
     char shown[SHOWN_NAME_SIZE], name[2 * SHOWN_NAME_SIZE + 64];
     int view = -1;
-    if (!json_take_text(&gltf->json, place, object, "uri", &uri) ||
-        !gltf_take_index(gltf, place, object, "bufferView", "bufferViews", &view))
+    bool embedded = !json_is_null(json_object_get(object, "bufferView"));
+    if ((embedded && !gltf_take_index(gltf, place, object, "bufferView", "bufferViews", &view)) ||
+        (view < 0 && !json_take_text(&gltf->json, place, object, "uri", &uri)))
         return false;
-    bool is_file = uri && view < 0 && !gltf_is_data_uri(uri);
+    bool is_file = uri && !gltf_is_data_uri(uri);
     snprintf(name, sizeof name, "images[%d]%s%s%s", image, is_file ? " (" : "", is_file ? shown_file(uri, shown) : "",
              is_file ? ")" : "");
     picture->source.name = message_name(gltf, name);
@@ -167,19 +162,19 @@ static bool find_bytes(struct gltf *gltf, int image, struct gltf_picture *pictur
 
 // Reads KHR_texture_transform: offset, rotation, scale, and a set of texture coordinates that replaces the set of the
 // textureInfo.
-static bool take_transform(struct gltf *gltf, const struct place *place, const json_t *info, size_t *set,
+static void take_transform(struct gltf *gltf, const struct place *place, const json_t *info, size_t *set,
                            lam_texture_map *map)
 {
     const json_t *object = gltf_extension(info, "KHR_texture_transform");
     const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "KHR_texture_transform");
     double offset[2] = {0, 0}, scale[2] = {1, 1}, angle = 0;
     if (!object)
-        return true;
-    if (!gltf_take_numbers(gltf, here, object, "offset", 2, offset) ||
-        !gltf_take_numbers(gltf, here, object, "scale", 2, scale) ||
-        !json_take_number(&gltf->json, here, object, "rotation", -1e6, 1e6, &angle) ||
-        !gltf_take_whole(gltf, here, object, "texCoord", 0, 1000, set))
-        return false;
+        return;
+    gltf_take_numbers(gltf, here, object, "offset", 2, offset);
+    gltf_take_numbers(gltf, here, object, "scale", 2, scale);
+    gltf_take_factors(gltf, here, object, "rotation", 1, -1e6, 1e6, &angle);
+    if (!gltf_take_whole(gltf, here, object, "texCoord", 0, 1000, set))
+        gltf_forgive(gltf);
     double c = math_cos(angle), s = math_sin(angle);
     const double m[2][3] = {{c * scale[0], s * scale[1], offset[0]}, {-s * scale[0], c * scale[1], offset[1]}};
     for (int i = 0; i < 6; i++)
@@ -188,7 +183,6 @@ static bool take_transform(struct gltf *gltf, const struct place *place, const j
     // number is stored.
     if (scale[0] == 0 && scale[1] == 0)
         map->transform[0][0] = 1e-30f;
-    return true;
 }
 
 // Assigns the file's set `set` of texture coordinates to the first (0) or second (1) set of a material, and returns 0
@@ -206,35 +200,31 @@ static int place_set(struct gltf *gltf, int material, size_t set)
 }
 
 bool gltf_take_map(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
-                   struct gltf_map_request request, bool *present)
+                   struct gltf_map_request request)
 {
-    bool ok = true;
-    const json_t *info = gltf_take_object(gltf, place, object, key, &ok);
+    const json_t *info = gltf_take_object(gltf, place, object, key);
     const struct place *here = KEY_OF(place, key);
-    int texture = -1, sampler = -1;
     size_t set = 0;
-    if (present)
-        *present = info != NULL;
-    if (!ok || !info)
-        return ok;
     lam_texture_map map = {.channel = request.channel, .scale = request.scale, .offset = request.offset};
-    if (!gltf_take_index(gltf, here, info, "index", "textures", &texture) ||
-        !gltf_take_whole(gltf, here, info, "texCoord", 0, 1000, &set) || !take_transform(gltf, here, info, &set, &map))
-        return false;
-    if (texture < 0)
-        return json_fail(&gltf->json, here, "index is missing");
-    if (!gltf_take_index(gltf, ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture),
-                         gltf_list_item(gltf, "textures", texture), "sampler", "samplers", &sampler) ||
-        !take_sampler(gltf, sampler, &map))
-        return false;
-    int image = image_of(gltf, texture);
+    if (!info)
+        return true;
+    int texture = gltf_take_link(gltf, here, info, "index", "textures");
+    if (!json_object_get(info, "index"))
+        gltf_note(gltf, here, "index is missing; drawn without this texture");
+    if (!gltf_take_whole(gltf, here, info, "texCoord", 0, 1000, &set))
+        gltf_forgive(gltf);
+    take_transform(gltf, here, info, &set, &map);
+    int image = texture < 0 ? -1 : image_of(gltf, texture);
     if (image < 0)
-        return false;
+        return true;
+    take_sampler(gltf,
+                 gltf_take_link(gltf, ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture),
+                                gltf_list_item(gltf, "textures", texture), "sampler", "samplers"),
+                 &map);
     map.texcoords = place_set(gltf, request.material, set);
     if (map.texcoords < 0) {
-        scene_warn(gltf->scene,
-                   "%s: materials[%d]: its %s map is not drawn: it uses a third set of texture coordinates",
-                   gltf->source->name, request.material, lam_map_name(request.slot));
+        gltf_note(gltf, ELEMENT_OF(KEY_OF(NULL, "materials"), (size_t)request.material),
+                  "its %s map is not drawn: it uses a third set of texture coordinates", lam_map_name(request.slot));
         return true;
     }
     struct gltf_map *item = GLTF_ALLOC(gltf, 1, struct gltf_map);
@@ -257,24 +247,18 @@ int gltf_texcoord_set(const struct gltf *gltf, int32_t material, int which)
 // Finds the bytes of the requested pictures. Fills `list` with the *count pictures that must be decoded.
 static bool find_pictures(struct gltf *gltf, struct texture_source **list, size_t *count)
 {
-    lam_error *error = gltf->json.error, reason;
     bool raw = gltf->source->params->color == LAM_COLOR_RAW;
     for (size_t i = 0; i < VALUES * gltf_list_size(gltf, "images"); i++) {
         struct gltf_picture *picture = &gltf->pictures[i];
         if (!picture->wanted)
             continue;
         picture->source.values = raw ? LAM_TEXTURE_NUMBERS : (lam_texture_values)(i % VALUES);
-        gltf->json.error = &reason;
-        bool found = find_bytes(gltf, (int)(i / VALUES), picture);
-        gltf->json.error = error;
-        if (found) {
+        if (find_bytes(gltf, (int)(i / VALUES), picture))
             list[(*count)++] = &picture->source;
-        } else if (texture_is_optional(&reason)) {
-            picture->source.error = reason;
-        } else {
-            *error = reason;
+        else if (!gltf_forgive(gltf))
             return false;
-        }
+        else
+            picture->wanted = false;
     }
     return true;
 }
@@ -294,18 +278,16 @@ static bool add_map(struct gltf *gltf, const struct gltf_map *item)
     return scene_share_texture(gltf->scene, texture, gltf->json.error);
 }
 
-// Sets, in the materials, all maps whose pictures were read. Warns once for each content that could not be read.
+// Sets, in the materials, all maps whose pictures were read. Notes each content that could not be read.
 static bool add_maps(struct gltf *gltf)
 {
     for (size_t i = 0; i < VALUES * gltf_list_size(gltf, "images"); i++) {
         const struct texture_source *source = &gltf->pictures[i].source;
         if (!gltf->pictures[i].wanted || source->texture || source->first)
             continue;
-        if (!texture_is_optional(&source->error)) {
-            *gltf->json.error = source->error;
+        *gltf->json.error = source->error;
+        if (!gltf_forgive(gltf))
             return false;
-        }
-        scene_warn(gltf->scene, "%s; drawn without it", source->error.text);
     }
     for (const struct gltf_map *item = gltf->maps; item; item = item->next)
         if (gltf->pictures[item->picture].source.texture && !add_map(gltf, item))

@@ -170,13 +170,11 @@ static bool apply_channel(struct gltf *gltf, const struct place *place, const js
 {
     static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
     size_t index = SIZE_MAX;
-    int node_index;
-    bool ok = true;
-    const json_t *target = gltf_take_object(gltf, here, channel, "target", &ok);
+    const json_t *target = gltf_take_object(gltf, here, channel, "target");
     const struct place *in_target = KEY_OF(here, "target");
     const char *name = json_string_value(json_object_get(target, "path"));
-    if (!ok || !gltf_take_index(gltf, in_target, target, "node", "nodes", &node_index) ||
-        !gltf_take_whole(gltf, here, channel, "sampler", 0, 1e9, &index))
+    int node_index = gltf_take_link(gltf, in_target, target, "node", "nodes");
+    if (!gltf_take_whole(gltf, here, channel, "sampler", 0, 1e9, &index))
         return false;
     enum path path = TRANSLATION;
     while (name && path <= WEIGHTS && strcmp(paths[path], name) != 0)
@@ -212,11 +210,12 @@ bool gltf_animation_apply(struct gltf *gltf)
         return false;
     const json_t *animation = gltf_list_item(gltf, "animations", index);
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "animations"), (size_t)index);
-    bool ok = true;
-    const json_t *channels = gltf_take_list(gltf, place, animation, "channels", &ok);
-    ok = ok && (gltf_take_list(gltf, place, animation, "samplers", &ok) || ok);
-    for (size_t i = 0; ok && i < json_array_size(channels); i++)
-        ok = apply_channel(gltf, place, animation, json_array_get(channels, i),
-                           ELEMENT_OF(KEY_OF(place, "channels"), i));
-    return ok;
+    const json_t *channels = gltf_take_list(gltf, place, animation, "channels");
+    gltf_take_list(gltf, place, animation, "samplers");
+    for (size_t i = 0; i < json_array_size(channels); i++)
+        if (!apply_channel(gltf, place, animation, json_array_get(channels, i),
+                           ELEMENT_OF(KEY_OF(place, "channels"), i)) &&
+            !gltf_forgive(gltf))
+            return false;
+    return true;
 }

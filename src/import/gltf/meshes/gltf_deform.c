@@ -61,13 +61,14 @@ static bool add_target(const struct morph_target *t, const char *name, int width
     char words[64];
     const struct place *here = KEY_OF(t->place, name);
     if (!gltf_take_accessor(gltf, t->place, t->target, name, &accessor))
-        return false;
+        return gltf_forgive(gltf);
     if (!accessor || !*values)
         return true;
     if (accessor->width != width || accessor->type[0] == 'M' || accessor->component == GLTF_U32 ||
         accessor->count != count)
         return json_fail(&gltf->json, here, "found %zu elements of %s, expected %zu of VEC%d of FLOAT", accessor->count,
-                         gltf_accessor_words(accessor, words), count, width);
+                         gltf_accessor_words(accessor, words), count, width) ||
+               gltf_forgive(gltf);
     gltf->morphed += count;
     if (!call_check_triangles(gltf->source->call, gltf->source->name, gltf->morphed, "vertices of morph targets",
                               gltf->json.error))
@@ -83,7 +84,7 @@ static bool add_target(const struct morph_target *t, const char *name, int width
                                 .count = count,
                                 .weight = t->weight};
     if (!addition.target)
-        return false;
+        return gltf_forgive(gltf);
     if (!*own && !(addition.out = arena_array(&gltf->scene->arena, count * (size_t)base_width, sizeof(float))))
         return gltf_no_memory(gltf, count * (size_t)base_width * sizeof(float));
     *own = true;
@@ -114,7 +115,7 @@ static bool morph(struct gltf *gltf, const struct place *place, const json_t *pr
                   const struct gltf_deformation *deformation, lam_mesh *mesh, struct owned *own)
 {
     bool ok = true;
-    const json_t *targets = gltf_take_list(gltf, place, primitive, "targets", &ok);
+    const json_t *targets = gltf_take_list(gltf, place, primitive, "targets");
     for (size_t i = 0; ok && i < json_array_size(targets) && i < deformation->weight_count; i++) {
         struct morph_target target = {.gltf = gltf,
                                       .place = ELEMENT_OF(KEY_OF(place, "targets"), i),
@@ -249,7 +250,7 @@ static bool take_set(struct gltf *gltf, const struct place *place, const json_t 
     if (j->width != 4 || j->type[0] != 'V' || j->normalized || (j->component != GLTF_U8 && j->component != GLTF_U16))
         return json_fail(&gltf->json, KEY_OF(place, joints),
                          "found %s, expected VEC4 of UNSIGNED_BYTE or UNSIGNED_SHORT", gltf_accessor_words(j, words));
-    bool numbers = w->normalized && (w->component == GLTF_U8 || w->component == GLTF_U16);
+    bool numbers = w->component == GLTF_U8 || w->component == GLTF_U16;
     if (w->width != 4 || w->type[0] != 'V' || (w->component != GLTF_F32 && !numbers))
         return json_fail(&gltf->json, KEY_OF(place, weights),
                          "found %s, expected VEC4 of FLOAT, or of normalized UNSIGNED_BYTE or UNSIGNED_SHORT",
@@ -272,7 +273,7 @@ static bool apply_skin(struct gltf *gltf, const struct place *place, const json_
     size_t count = mesh->vertex_count;
     for (int set = 0; set < SETS_MAX; set++)
         if (!take_set(gltf, s.place, attributes, set, count, &s))
-            return false;
+            return gltf_forgive(gltf);
     if (!s.sets)
         return true;
     s.positions = arena_array(arena, count, 3 * sizeof(float));
@@ -281,7 +282,7 @@ static bool apply_skin(struct gltf *gltf, const struct place *place, const json_
     if (!s.positions || !s.normals != !mesh->normals || !s.tangents != !mesh->tangents)
         return gltf_no_memory(gltf, count * 4 * sizeof(float));
     if (!parallel_rows_run(gltf->source, parallel_rows_count(count), skin_chunk, &s, gltf->json.error))
-        return false;
+        return gltf_forgive(gltf);
     mesh->positions = s.positions;
     mesh->normals = s.normals;
     mesh->tangents = s.tangents;

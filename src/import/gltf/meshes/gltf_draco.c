@@ -227,16 +227,13 @@ bool gltf_draco_decode(struct gltf *gltf, const struct place *place, const json_
 {
     const json_t *object = gltf_extension(primitive, NAME);
     struct decoding d = {.gltf = gltf, .place = KEY_OF(KEY_OF(place, "extensions"), NAME), .view = -1};
-    bool ok = true;
     if (!object)
         return true;
     if (*mode != GLTF_TRIANGLES && *mode != GLTF_TRIANGLE_STRIP)
         return json_fail(&gltf->json, KEY_OF(place, "mode"), "found %zu, expected 4 or 5 for a compressed mesh", *mode);
     if (!gltf_take_index(gltf, d.place, object, "bufferView", "bufferViews", &d.view))
         return false;
-    const json_t *ids = gltf_take_object(gltf, d.place, object, "attributes", &ok);
-    if (!ok)
-        return false;
+    const json_t *ids = gltf_take_object(gltf, d.place, object, "attributes");
     if (d.view < 0 || !ids)
         return json_fail(&gltf->json, d.place, "%s is missing", d.view < 0 ? "bufferView" : "attributes");
     find_functions(gltf, &d.functions);

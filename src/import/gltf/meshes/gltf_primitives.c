@@ -60,9 +60,13 @@ static bool take_attribute(struct gltf *gltf, const struct place *place, const j
 {
     char words[64];
     const struct place *here = KEY_OF(place, rule->name);
-    if (!gltf_take_accessor(gltf, place, attributes, rule->name, out) || !*out)
-        return !json_object_get(attributes, rule->name);
-    const struct gltf_accessor *a = *out;
+    if (!gltf_take_accessor(gltf, place, attributes, rule->name, out))
+        return false;
+    struct gltf_accessor *a = *out;
+    if (!a)
+        return true;
+    if (!(rule->types & BYTES) && a->component != GLTF_F32)
+        a->normalized = true; // integers are never normals or colours; some exporters omit the mark
     if (a->width < rule->min_width || a->width > rule->max_width || a->type[0] != 'V' || !has_type(a, rule->types))
         return json_fail(&gltf->json, here, "found %s, expected %s", gltf_accessor_words(a, words), rule->expected);
     if (count && a->count != count)
@@ -74,14 +78,13 @@ static bool take_floats(struct gltf *gltf, const struct place *place, const json
                         const struct attribute_rule *rule, size_t count, const float **out, uint32_t *out_count)
 {
     struct gltf_accessor *accessor;
-    if (!take_attribute(gltf, place, attributes, rule, count, &accessor))
-        return false;
-    if (!accessor)
+    bool needed = rule == &position_rule, ok = take_attribute(gltf, place, attributes, rule, count, &accessor);
+    if (ok && !accessor)
         return true;
-    *out = gltf_floats(gltf, KEY_OF(place, rule->name), accessor,
-                       GLTF_KEEP | (rule == &position_rule || rule == &normal_rule ? GLTF_AS_THEY_ARE : 0));
-    *out_count = (uint32_t)accessor->count;
-    return *out != NULL;
+    int as_they_are = needed || rule == &normal_rule ? GLTF_AS_THEY_ARE : 0;
+    *out = ok ? gltf_floats(gltf, KEY_OF(place, rule->name), accessor, GLTF_KEEP | as_they_are) : NULL;
+    *out_count = *out ? (uint32_t)accessor->count : 0;
+    return *out || (!needed && gltf_forgive(gltf));
 }
 
 static bool take_colors(struct gltf *gltf, const struct place *place, const json_t *attributes, bool opaque,
@@ -89,12 +92,11 @@ static bool take_colors(struct gltf *gltf, const struct place *place, const json
 {
     struct gltf_accessor *accessor;
     struct gltf_colors colors;
-    if (!take_attribute(gltf, place, attributes, &color_rule, mesh->vertex_count, &accessor))
-        return false;
-    if (!accessor)
+    bool ok = take_attribute(gltf, place, attributes, &color_rule, mesh->vertex_count, &accessor);
+    if (ok && !accessor)
         return true;
-    if (!gltf_colors(gltf, KEY_OF(place, color_rule.name), accessor, opaque, &colors))
-        return false;
+    if (!ok || !gltf_colors(gltf, KEY_OF(place, color_rule.name), accessor, opaque, &colors))
+        return gltf_forgive(gltf);
     mesh->colors = colors.items;
     mesh->colors_format = colors.format;
     mesh->color_count = mesh->vertex_count;
@@ -147,13 +149,13 @@ static bool make_primitive(struct gltf *gltf, const struct place *place, const j
 {
     lam_mesh mesh = {.name = name};
     size_t mode = GLTF_TRIANGLES;
-    bool ok = true;
     *out = (struct gltf_primitive){.mesh = -1};
-    const json_t *attributes = gltf_take_object(gltf, place, primitive, "attributes", &ok);
+    const json_t *attributes = gltf_take_object(gltf, place, primitive, "attributes");
     const struct place *here = KEY_OF(place, "attributes");
-    if (!ok || !gltf_take_whole(gltf, place, primitive, "mode", 0, 6, &mode))
-        return false;
-    if (!json_object_get(attributes, "POSITION")) {
+    if (!gltf_take_whole(gltf, place, primitive, "mode", 0, 6, &mode))
+        gltf_forgive(gltf);
+    const json_t *position = json_object_get(attributes, "POSITION");
+    if (!position || json_is_null(position)) {
         gltf->without_positions++;
         return true;
     }
@@ -161,8 +163,8 @@ static bool make_primitive(struct gltf *gltf, const struct place *place, const j
         return false;
     if (!take_floats(gltf, here, attributes, &position_rule, 0, &mesh.positions, &mesh.vertex_count))
         return false;
-    ok = mode < GLTF_TRIANGLES ? gltf_strokes(gltf, place, primitive, mode, &mesh)
-                               : gltf_triangles(gltf, place, primitive, mode, &mesh);
+    bool ok = mode < GLTF_TRIANGLES ? gltf_strokes(gltf, place, primitive, mode, &mesh)
+                                    : gltf_triangles(gltf, place, primitive, mode, &mesh);
     if (!ok || !add_part(gltf, place, primitive, &mesh) ||
         !take_attributes(gltf, here, attributes, gltf_material_is_opaque(gltf, mesh.parts->material), &mesh))
         return false;
@@ -185,15 +187,16 @@ static bool make_mesh(struct gltf *gltf, int index, struct gltf_deformation defo
     if (!deformation.weights && !gltf_take_weights(gltf, place, object, &weights, &deformation.weight_count))
         return false;
     deformation.weights = deformation.weights ? deformation.weights : weights;
-    const json_t *primitives = gltf_take_list(gltf, place, object, "primitives", &ok);
-    const char *name = ok ? gltf_name(gltf, object, &ok) : NULL;
+    const json_t *primitives = gltf_take_list(gltf, place, object, "primitives");
+    const char *name = gltf_name(gltf, object, &ok);
     mesh->count = (int)json_array_size(primitives);
     mesh->primitives = ok ? GLTF_ALLOC(gltf, mesh->count, struct gltf_primitive) : NULL;
     if (ok && !mesh->primitives)
         ok = gltf_no_memory(gltf, json_array_size(primitives) * sizeof *mesh->primitives);
     for (int i = 0; ok && i < mesh->count; i++)
         ok = make_primitive(gltf, ELEMENT_OF(KEY_OF(place, "primitives"), (size_t)i),
-                            json_array_get(primitives, (size_t)i), name, &deformation, &mesh->primitives[i]);
+                            json_array_get(primitives, (size_t)i), name, &deformation, &mesh->primitives[i]) ||
+             gltf_skip(gltf);
     mesh->ready = ok;
     return ok;
 }

@@ -3,24 +3,19 @@
 #include "gltf_triangles.h"
 
 #include "gltf_accessors.h"
+#include "gltf_json.h"
 #include "gltf_numbers.h"
 
 #include "fail.h"
 
 static bool fail_index(struct gltf *gltf, const struct place *place, const struct gltf_accessor *accessor,
-                       uint32_t vertex_count, uint32_t restart)
+                       uint32_t vertex_count)
 {
-    for (size_t i = 0; i < accessor->count; i++) {
-        uint32_t index = accessor->indices[i];
-        if (index >= vertex_count)
-            return json_fail(&gltf->json, place, "number %zu is %u, expected less than %u, the number of vertices", i,
-                             index, vertex_count);
-        if (index == restart)
-            return json_fail(
-                &gltf->json, place,
-                "number %zu is %u, the greatest of its type, which glTF does not allow (primitive restart)", i, index);
-    }
-    return true;
+    size_t i = 0;
+    while (accessor->indices[i] < vertex_count)
+        i++;
+    return json_fail(&gltf->json, place, "number %zu is %u, expected less than %u, the number of vertices", i,
+                     accessor->indices[i], vertex_count);
 }
 
 // Gets the primitive's indices. Sets *indices to NULL if the primitive has none and uses all vertices in order.
@@ -39,13 +34,11 @@ static bool gltf_corners(struct gltf *gltf, const struct place *place, const jso
     *count = accessor->count;
     if (!*indices)
         return false;
-    bool lenient = gltf->source->params->lenient;
-    uint32_t restart = lenient                           ? UINT32_MAX
-                       : accessor->component == GLTF_U8  ? UINT8_MAX
-                       : accessor->component == GLTF_U16 ? UINT16_MAX
-                                                         : UINT32_MAX;
-    return (accessor->max_index < vertex_count && accessor->max_index != restart) ||
-           fail_index(gltf, here, accessor, vertex_count, restart);
+    uint32_t restart = accessor->component == GLTF_U8 ? UINT8_MAX : UINT16_MAX;
+    if (accessor->max_index < vertex_count && accessor->max_index == restart && accessor->component != GLTF_U32)
+        gltf_note(gltf, here, "found %u, the greatest index of its type, which glTF does not allow (primitive restart)",
+                  restart);
+    return accessor->max_index < vertex_count || fail_index(gltf, here, accessor, vertex_count);
 }
 
 // Gets the corners of triangle i, in the order of the specification.
@@ -92,12 +85,8 @@ bool gltf_triangles(struct gltf *gltf, const struct place *place, const json_t *
         return unroll(gltf, mode, indices, count, mesh);
     mesh->indices = indices;
     mesh->triangle_count = (uint32_t)triangles;
-    if (count % 3) {
-        char where[200];
-        json_place(place, where, sizeof where);
-        scene_warn(gltf->scene, "%s: %s: the last %zu of %zu corners make no triangle", gltf->source->name, where,
-                   count % 3, count);
-    }
+    if (count % 3)
+        gltf_note(gltf, place, "the last %zu of %zu corners make no triangle", count % 3, count);
     return true;
 }
 
@@ -131,10 +120,7 @@ bool gltf_strokes(struct gltf *gltf, const struct place *place, const json_t *pr
     mesh->indices = indices;
     mesh->point_count = mode == GLTF_POINTS ? (uint32_t)count : 0;
     mesh->line_count = mode == GLTF_LINES ? (uint32_t)lines : 0;
-    if (mode == GLTF_LINES && count % 2) {
-        char where[200];
-        json_place(place, where, sizeof where);
-        scene_warn(gltf->scene, "%s: %s: the last of %zu corners makes no line", gltf->source->name, where, count);
-    }
+    if (mode == GLTF_LINES && count % 2)
+        gltf_note(gltf, place, "the last of %zu corners makes no line", count);
     return true;
 }

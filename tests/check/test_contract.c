@@ -94,16 +94,17 @@ static void test_prefix(void **state)
                  {"attribute vec3 pos;\nvoid main() {}", "uniform float a;", false},
                  {"void main() {}", "out vec4 o;", false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct complete_texts texts;
-        struct declarations d;
-        assert_true(prefix_complete(&mine->contract, cases[i].vertex, cases[i].fragment, &texts, &error));
-        assert_int_equal(texts.fragment != cases[i].fragment, cases[i].completed);
-        assert_true(prefix_read(&texts, false, &d, &error));
-        assert_int_equal(d.version, cases[i].completed ? 300 : 0);
-        const struct declaration *a = declarations_find(&d, DECLARED_UNIFORM, "a");
+        struct program_texts program = {.own = {.vertex = cases[i].vertex, .fragment = cases[i].fragment},
+                                        .read = prefix_read};
+        assert_true(prefix_read(NULL, &program.own, &error));
+        const struct complete_texts *texts = prefix_texts(&program, &mine->contract, &error);
+        assert_non_null(texts);
+        assert_int_equal(texts->fragment != cases[i].fragment, cases[i].completed);
+        assert_int_equal(texts->sides[1].version, cases[i].completed ? 300 : 0);
+        const struct declaration *a = declarations_find(&texts->sides[1], DECLARED_UNIFORM, "a");
         assert_int_equal(a ? a->line : 1, 1);
-        declarations_free(&d);
-        prefix_free(&texts);
+        prefix_free(&program.own);
+        prefix_free(&program.completed);
     }
     lam_check_contract_free(mine);
 }

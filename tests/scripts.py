@@ -108,7 +108,7 @@ def main():
     files = tracked()
     check_scripts(files)
     check_yaml(files)
-    check_examples(files, sys.argv[1])
+    check_examples(files, os.path.abspath(sys.argv[1]))
     print("1..%d" % done["number"])
     return 1 if done["failed"] else 0
 

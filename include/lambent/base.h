@@ -54,7 +54,7 @@ typedef enum lam_code {
     // A file is missing, unreadable, truncated, or invalid in its format.
     LAM_CANNOT_READ,
     LAM_UNSUPPORTED,  // understood, but not supported by this build or machine
-    LAM_LIMIT,        // a limit was reached: a size, the memory limit or the time limit
+    LAM_LIMIT,        // a size, the memory limit or the time limit was reached
     LAM_CANNOT_WRITE, // the output cannot be written
     LAM_CANCELLED,    // the caller's cancel flag was raised
     // The machine failed, not the input: it has no memory, file descriptors, processes or threads left, or a disk cannot be

@@ -383,7 +383,8 @@ typedef struct lam_frame_report {
     // processor.
     uint64_t points_lit;
     uint64_t lights_evaluated; // summed over those points
-    uint64_t memory_bytes;     // of the device after the frame; scratch memory that each thread needs is counted once
+    // The memory of the device after the frame. Scratch memory that each thread needs is counted once.
+    uint64_t memory_bytes;
     // LAM_OUTPUT_DEPTH: the distances, in model units, that are white and black in 8 bits. Otherwise 0.
     double depth_near, depth_far;
     // Time for building the bounding volume hierarchy, in milliseconds; 0 if it was not needed, or reused from the last

@@ -408,7 +408,8 @@ static void refusals_say_why(void **state)
         const char *words;
     } cases[] = {
         {"", LAM_CANNOT_READ, "is empty"},
-        {"GIF89a", LAM_CANNOT_READ, "byte 0"},
+        {"GIF89a", LAM_UNSUPPORTED, "is a GIF picture"},
+        {"GIV89a", LAM_CANNOT_READ, "byte 0"},
         {"P6\n0 4\n255\n", LAM_CANNOT_READ, "width of 0"},
         {"P6\n3.5 4\n255\n", LAM_CANNOT_READ, "width of 3.5"},
         {"P6\n3 nan\n255\n", LAM_CANNOT_READ, "height of"},

@@ -337,7 +337,7 @@ static void best_without_memory(void **state)
     bool ok = lam_image_encode(&image, "png", &params, &bytes, &error);
     set_allocator(malloc, free);
     assert_false(ok);
-    assert_int_equal(error.code, LAM_LIMIT);
+    assert_int_equal(error.code, LAM_MACHINE);
     assert_null(bytes.data);
     dlclose(library);
     lam_image_free(&image);

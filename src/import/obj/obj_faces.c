@@ -24,7 +24,7 @@ bool obj_complete_texcoords(struct obj *obj, lam_error *error)
         used |= obj->chunks[c].texcoord_used;
         missing |= obj->chunks[c].texcoord_missing;
     }
-    if (!used) {
+    if (!used || obj->is_cloud) { // a face of two corners may use them
         obj->texcoords = NULL;
         obj->texcoord_indices = NULL;
         obj->total.texcoords = 0;
@@ -53,6 +53,7 @@ void obj_complete_normals(struct obj *obj)
         used |= obj->chunks[c].normal_used;
         missing |= obj->chunks[c].normal_missing;
     }
+    used &= !obj->is_cloud;
     obj->scene->normals_missing |= used && missing; // scene_repair computes these normals
     obj->normal_indices = used ? obj->normal_indices : NULL;
     if (!used && !(obj->is_cloud && obj->total.normals == obj->total.positions)) {

@@ -48,12 +48,10 @@ bool info_textures_list(const lam_scene *scene, struct info_textures *textures, 
             const lam_texture_map *read = lam_scene_material(scene, i)->maps[map];
             if (!read)
                 continue;
-            int index = info_texture_find(textures, read->texture);
-            if (index < 0) {
-                index = textures->count;
+            if (info_texture_find(textures, read->texture) < 0)
                 add(textures, read->texture, NULL);
-            }
-            textures->items[index].slots |= 1u << map;
+            for (int k = 0; k < textures->count; k++) // images with the same contents share a texture
+                textures->items[k].slots |= textures->items[k].texture == read->texture ? 1u << map : 0;
         }
     return true;
 }

@@ -309,9 +309,9 @@ typedef struct lam_draw_params {
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the index of the light in lam_draw_lights.
     int output_light;
     lam_tone tone; // applied after exposure, in 8-bit pictures
-    // For physical materials under an environment: integrates the environment over this many directions at each lit
-    // point, 16..1048576, instead of using the split sum (docs/lighting/environment.md). 0: the split sum. CPU device
-    // only; other devices fail with LAM_UNSUPPORTED.
+    // Physical materials under an environment: integrates over this many directions at each lit point, 16..1048576, and
+    // a quarter more for a coat and for sheen, instead of the split sum (docs/lighting/environment.md). 0: the split sum.
+    // CPU device only; other devices fail with LAM_UNSUPPORTED.
     int reference;
     // The width of lines and the diameter of points, in pixels, up to 1000. 0 for lines: 1.5. 0 for points: 16 % of the
     // picture's shorter side, divided by the square root of the number of points, but at most 2.5 % of the shorter

@@ -34,6 +34,8 @@ typedef struct lam_image {
     lam_pixel_format format; // determines the bytes per pixel
     // true: lam_image_free frees `pixels`. false: the caller owns them, and they are never freed here.
     bool owned;
+    // Set by lam_image_load: the file stores floats without alpha (PFM, HDR, EXR without A); alpha is 1 everywhere.
+    bool no_alpha;
     void *pixels; // float formats: aligned to 4 bytes
     // Bytes from one row to the next lower row. 0: rows without padding; negative: bottom row first.
     ptrdiff_t stride;

@@ -112,24 +112,20 @@ bool environment_samples_make(struct environment_samples *samples, const struct 
         return false;
     struct drawing d = {.cube = cube, .small = cube_chain_near(&chain, DENSITY_SIZE), .to_environment = to_environment};
     size_t size = (size_t)d.small->size, rows = LAM_FACE_COUNT * size, quarter = (size_t)count / 4;
-    *samples = (struct environment_samples){.light_count = count - 2 * (int)quarter,
-                                            .lobe_count = (int)quarter,
-                                            .cosine_count = (int)quarter,
-                                            .size = (int)size};
+    *samples = (struct environment_samples){
+        .light_count = count - 2 * (int)quarter, .disc_count = (int)quarter, .size = (int)size};
     size_t lights = (size_t)samples->light_count;
     size_t bytes = (rows + size) * sizeof(double) + lights * sizeof(struct sampled_light) +
-                   2 * quarter * sizeof(struct disc_point) + rows * size * sizeof(float);
+                   quarter * sizeof(struct disc_point) + rows * size * sizeof(float);
     bool ok = buffer_reserve(storage, bytes, call, error);
     if (ok) {
         d.rows = storage->data;
         d.weights = d.rows + rows;
         samples->light = (struct sampled_light *)(d.weights + size);
-        samples->lobe = (struct disc_point *)(samples->light + lights);
-        samples->cosine = samples->lobe + quarter;
-        float *density = (float *)(samples->cosine + quarter);
+        samples->disc = (struct disc_point *)(samples->light + lights);
+        float *density = (float *)(samples->disc + quarter);
         samples->density = density;
-        draw_disc(samples->lobe, samples->lobe_count);
-        draw_disc(samples->cosine, samples->cosine_count);
+        draw_disc(samples->disc, samples->disc_count);
         weigh(&d, density);
         if (!(d.total > 0)) // a black environment has no directions towards light
             samples->light_count = 0;

@@ -1,7 +1,7 @@
-// environment_samples.h: fixed directions for summing an environment's light over a lobe. Three methods of importance
-// sampling are combined. Half of the directions follow the brightness of the environment, a quarter follow the GGX
-// microfacets that the eye sees, and a quarter follow the cosine. The sum weights each direction by the densities of
-// all three methods (multiple importance sampling), so no single method has to match the whole lobe. The weights are
+// environment_samples.h: fixed directions for summing an environment's light over lobes. Several methods of importance
+// sampling are combined. Half of the directions follow the brightness of the environment, a quarter follow the base's
+// microfacets that the eye sees, and a quarter follow the cosine. A clear coat and sheen add as many
+// directions each. All of these use the points of `disc`. The sum weights each direction by the densities of all methods (multiple importance sampling). The weights are
 // the balance heuristic (Veach and Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
 //
 // Each method uses the points of a Hammersley set. The directions are the same for all points of a picture, and on
@@ -26,8 +26,8 @@ struct disc_point {
 
 struct environment_samples {
     struct sampled_light *light;
-    struct disc_point *lobe, *cosine;
-    int light_count, lobe_count, cosine_count;
+    struct disc_point *disc;
+    int light_count, disc_count;
     int size; // texels per side of the density's faces
     // 6 faces, row by row: the probability density of the directions in `light`, per area; a side of a face has length
     // 2.

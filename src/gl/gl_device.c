@@ -284,7 +284,6 @@ static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusio
 {
     struct frame distances = *f->frame; // a copy that shares the frame's arrays
     distances.settings.output = LAM_OUTPUT_DEPTH;
-    distances.settings.samples = 1;
     distances.settings.occlusion = LAM_OCCLUSION_OFF;
     distances.translucent = distances.masked = distances.environment_lights = distances.settings.shadows = false;
     struct buffer pixels = {0};

@@ -39,7 +39,9 @@ STRUCT(layered)
     num grazing;     // the dielectric's f90
     vec3 metal;      // f0
     num metallic;
-    num gain; // gain by multiple scattering, for f0 = 1
+    num albedo; // of anisotropic microfacets, as single_scattering
+    num bias;   // as schlick_scattering
+    num gain;   // gain by multiple scattering, for f0 = 1
     num roughness;
     num alpha_t; // anisotropy: alpha along `stretch`
     num alpha_b; // and across
@@ -225,14 +227,84 @@ FN num sheen_albedo(num n_dot_v, num roughness)
     return upper + (lower - upper) * p.down;
 }
 
-// Returns the roughness for looking up an anisotropic lobe in the tables of isotropic lobes: alpha is the geometric
-// mean.
-FN num mean_roughness(num roughness, num anisotropy)
+// The microfacets that the eye sees: GGX with two roughnesses. All vectors have the components along t, b and n.
+STRUCT(seen_facets)
 {
-    num rough = max_of(roughness, num_of(ROUGHNESS_MIN));
-    num alpha = rough * rough;
-    num longer = alpha + (1.0f - alpha) * anisotropy * anisotropy;
-    return square_root(square_root(alpha * longer));
+    vec3 v;      // towards the eye, n.v >= 0
+    vec3 alpha;  // alpha along t and along b; 1
+    vec3 middle; // unit: the direction to the eye in the space in which microfacets form a sphere
+    vec3 side;   // unit, perpendicular to `middle` and to n
+    vec3 up;     // unit, perpendicular to both
+};
+
+FN seen_facets seen_facets_of(vec3 v, num alpha_t, num alpha_b)
+{
+    seen_facets f;
+    f.v = v;
+    f.alpha = vec3_of(alpha_t, alpha_b, num_of(1.0f));
+    f.middle = unit3(mul3(f.alpha, v));
+    vec3 across = vec3_of(-f.middle.y, f.middle.x, num_of(0.0f));
+    f.side = unit3(pick3(dot3(across, across) < 1.0e-12f, vec3_of(num_of(0.0f), num_of(1.0f), num_of(0.0f)), across));
+    f.up = cross3(f.middle, f.side);
+    return f;
+}
+
+// Returns the normal of a microfacet that the eye sees. The point (x, y) of the unit disc selects it (Heitz, "Sampling
+// the GGX Distribution of Visible Normals", 2018); evenly distributed points select microfacets by their visible area.
+FN vec3 seen_facet(seen_facets f, num x, num y)
+{
+    num lift = 0.5f * (1.0f + f.middle.z);
+    num up = (1.0f - lift) * square_root(positive(1.0f - x * x)) + lift * y;
+    num front = square_root(positive(1.0f - x * x - up * up));
+    vec3 h = add3(add3(scale3(f.side, x), scale3(f.up, up)), scale3(f.middle, front));
+    return unit3(mul3(f.alpha, vec3_of(h.x, h.y, positive(h.z))));
+}
+
+// Returns the length of w after its components are multiplied by alpha: the root in Smith's shadowing.
+FN num facet_root(seen_facets f, vec3 w)
+{
+    vec3 a = mul3(f.alpha, w);
+    return square_root(dot3(a, a));
+}
+
+// Sets `albedo` and `bias`. Works like single_scattering and schlick_scattering, for two roughnesses. The result is the mean of
+//    G2 / G1 = n.l (n.v + root(v)) / (n.l root(v) + n.v root(l))
+// over the microfacets that 28 points of a disc select. The points form a spiral (Vogel 1979): their angle increases by
+// the golden angle. If the roughnesses are nearly equal, the tables of isotropic lobes replace the mean. Compared with
+// the integral, the largest error is 4 %, and the mean error is 1 %.
+// `v` has the components along t, b and n.
+FN layered stretched_scattering(layered sum, vec3 v)
+{
+    sum.albedo = num_of(0.0f);
+    sum.bias = num_of(0.0f);
+    seen_facets f = seen_facets_of(v, sum.alpha_t, sum.alpha_b);
+    num root_v = facet_root(f, v);
+    num x = num_of(0.0f);
+    num y = num_of(1.0f);
+    num square = num_of(0.5f / 28.0f);
+    for (int i = 0; i < 28; i++) {
+        num radius = square_root(square);
+        vec3 h = seen_facet(f, radius * x, radius * y);
+        num v_dot_h = positive(dot3(v, h));
+        vec3 l = sub3(scale3(h, 2.0f * v_dot_h), v);
+        num n_dot_l = positive(l.z);
+        num shadow = n_dot_l * root_v + v.z * facet_root(f, l);
+        num share = n_dot_l * (v.z + root_v) / max_of(shadow, num_of(1.0e-30f));
+        sum.albedo = sum.albedo + share / 28.0f;
+        sum.bias = sum.bias + share * fifth_power(positive(1.0f - v_dot_h)) / 28.0f;
+        num turned = -0.737368878f * x - 0.675490294f * y;
+        y = 0.675490294f * x - 0.737368878f * y;
+        x = turned;
+        square = square + 1.0f / 28.0f;
+    }
+    num unequal = saturate(4.0f * (1.0f - sum.alpha_b / sum.alpha_t));
+    num roughness = square_root(0.5f * (sum.alpha_t + sum.alpha_b));
+    num albedo = single_scattering(v.z, roughness);
+    num bias = schlick_scattering(v.z, roughness);
+    // The least albedo is 0.3. Only without an eye it is 0.
+    sum.albedo = max_of(albedo + (sum.albedo - albedo) * unequal, num_of(0.1f));
+    sum.bias = bias + (sum.bias - bias) * unequal;
+    return sum;
 }
 
 // `scattering` is 0 without multiple scattering.
@@ -250,7 +322,8 @@ FN layered layered_of(surface s, layer_values m, int scattering, int set)
     y.metal = m.base;
     y.metallic = m.metallic;
     y.roughness = m.roughness;
-    num rough = m.roughness;
+    y.albedo = num_of(1.0f);
+    y.bias = num_of(0.0f);
     y.alpha_t = num_of(1.0f);
     y.alpha_b = num_of(1.0f);
     y.stretch = m.stretch;
@@ -260,12 +333,16 @@ FN layered layered_of(surface s, layer_values m, int scattering, int set)
         y.alpha_b = least * least;
         y.alpha_t = y.alpha_b + (1.0f - y.alpha_b) * m.anisotropy * m.anisotropy;
         y.across = cross3(s.n, m.stretch);
-        rough = mean_roughness(m.roughness, m.anisotropy);
+        vec3 v = vec3_of(dot3(s.v, y.stretch), dot3(s.v, y.across), n_dot_v);
+        y = stretched_scattering(y, v);
     }
     y.gain = num_of(0.0f);
     y.coat_gain = num_of(0.0f);
     if (scattering != 0) {
-        y.gain = scattering_gain(s, rough);
+        y.gain = scattering_gain(s, m.roughness);
+        if ((set & LAYER_ANISOTROPY) != 0) {
+            y.gain = 1.0f / y.albedo - 1.0f;
+        }
     }
     y.iridescence = m.iridescence;
     y.iridescence_ior = max_of(m.iridescence_ior, num_of(1.0f));

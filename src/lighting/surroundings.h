@@ -29,18 +29,14 @@ STRUCT(layered_around)
 FN layered_around layered_around_of(SCENE surface s, layer_values given, layered m, int set)
 {
     layered_around a;
-    num mean = given.roughness;
+    a.base = surroundings_of(IN_SCENE s, given.roughness);
     if ((set & LAYER_ANISOTROPY) != 0) {
-        mean = mean_roughness(given.roughness, given.anisotropy);
+        vec3 bent = mirror3(s.v, bent_surface(s, m, given.anisotropy).n);
+        a.base.prefiltered = prefiltered_at(IN_SCENE bent, prefilter_level(given.roughness));
+        a.base.albedo = m.albedo;
+        a.base.bias = m.bias;
     }
-    surroundings base = surroundings_of(IN_SCENE s, mean);
-    if ((set & LAYER_ANISOTROPY) != 0) {
-        surface bent = bent_surface(s, m, given.anisotropy);
-        surroundings stretched = surroundings_of(IN_SCENE bent, given.roughness);
-        base.prefiltered = stretched.prefiltered;
-    }
-    a.base = base;
-    a.top = base;
+    a.top = a.base;
     if ((set & LAYER_CLEARCOAT) != 0) {
         a.top = surroundings_of(IN_SCENE coat_surface(s, m), m.coat_roughness);
     }

@@ -49,6 +49,21 @@ class Diff(Case):
         for part in ("0.03921569 (10/255)", "36.95 dB", "100 % of 2x1 pixels", "50 %", "different"):
             self.assertIn(part, text)
 
+    def test_missing_alpha(self):
+        """PFM has no alpha: only its colours are compared with those of a picture that has."""
+        words = ("cube.obj", "-s", 24, "--samples", 4, "-q", "-o")
+        for name in ("a.pfm", "a.exr"):
+            done = self.run_program(*words, name)
+            if b"OpenEXR" in done.stderr:
+                self.skipTest("OpenEXR is not there")
+            self.given.add(name)
+        for pair in (("a.pfm", "a.exr"), ("a.exr", "a.pfm")):
+            self.assertEqual(self.numbers(*pair)["maximum"], 0)
+        self.good("cube.obj", "-s", 24, "--samples", 4, "-q", "-b", "black", "-o", "b.exr")
+        self.given.add("b.exr")
+        self.assertEqual(self.numbers("a.exr", "b.exr", code=6)["maximum"], 1)  # both have alpha
+        self.assertEqual(self.numbers("a.pfm", "b.exr")["maximum"], 0)
+
     def test_tolerance_and_equal(self):
         a, b = self.pair()
         self.assertEqual(self.numbers(a, b, "--tolerance", 10)["differ"], 0)

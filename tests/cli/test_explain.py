@@ -67,6 +67,19 @@ class Explain(Case):
         for model in models:
             self.same_as_picture(str(model), "-s", 200)
 
+    def test_opengl_rows(self):
+        """The rows of --gl1 name the lights' ambient terms, and the texture that multiplies interpolated light."""
+        model = SHARED_MODELS / "obj/spot/spot_triangulated.obj"
+        if not model.exists():
+            self.skipTest("the shared models are not there")
+        words = ("explain", model, "-s", 64, "--gl1", "--look", "classic", "--samples", 1, "--light", "point:position=2/3/4,ambient=0.4", "32,32")
+        for shading in ("phong", "gouraud", "flat"):
+            text = self.good(*words, "--shading", shading).stdout.decode()
+            at_point = shading == "phong"
+            self.assertIn("ka ⊙ La_global + Σ of the lights' ambient terms" +
+                          (", times texture and vertex colour" if at_point else "") + " = ka ⊙ (", text)
+            self.assertEqual("; ambient and diffuse times the texture" in text, not at_point)
+
     def test_places(self):
         """Each space follows from the previous one; the point's window position is the position at which the pixel is lit."""
         scene = {"lambent": 1, "objects": [{"shape": "teapot", "transform": [["scale", -1, 1, 1]]}]}

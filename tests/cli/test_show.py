@@ -130,6 +130,20 @@ class Show(Case):
         self.good("cube.obj", "-s", 33, "--show", "depth", "-o", "d.pfm")
         self.assertNotIn("depth_near", self.report("cube.obj", "-s", 33)["image"])
 
+    def test_one_surface_at_several_samples(self):
+        """Two squares, one behind the other: no pixel at an edge stores a mean of both."""
+        corners = [(0.98, -0.2), (0.2, 0.98), (-0.98, 0.2), (-0.2, -0.98)]
+        (self.folder / "two.obj").write_text("".join(f"v {k * x} {k * y} {z}\n" for z, k in ((0, 1), (-5, 3)) for x, y in corners) +
+                                             "o near\nf 4 1 2 3\no far\nf 8 5 6 7\n")
+        has_gl = b"\ngl " in self.good("devices").stdout
+        for device in ("cpu", "gl") if has_gl else ("cpu",):
+            for show, expected in (("depth", 2), ("ids", 3), ("facing", 1), ("base-color", 1), ("normals", 1)):
+                for samples in (1, 2, 4, 8, 16):
+                    found = self.floats("two.obj", "--projection", "orthographic", "--azimuth", 0, "--elevation", 0, "--show", show,
+                                        "--samples", samples, "--device", device)
+                    pixels = {tuple(round(x, 3) for x in found[i:i + 3]) for i in range(0, len(found), 3)} - {(0, 0, 0)}
+                    self.assertLessEqual(len(pixels), expected, (device, show, samples, pixels))
+
     def test_numbers_are_not_srgb(self):
         for what, expected in ("normals", False), ("diffuse", True), ("picture", True):
             self.good("sphere", "-s", 16, "--show", what, "-o", what + ".png")

@@ -14,6 +14,7 @@
 #include <lambent/lambent.h>
 
 #include "environment_scene.h"
+#include "layered_textbook.h"
 
 static double inner(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -152,6 +153,151 @@ static void test_integral(void **state)
     assert_true(out[count / 2] < 0.002 && out[count * 9 / 10] < 0.005);
 }
 
+// --- layers
+
+// Materials with every combination of a clear coat, sheen, anisotropy and iridescence, from dielectrics to metals. The coat is smooth over a rough base, or rough over a smooth one.
+enum { COMBINATIONS = 16, PIXELS = 32, PLACES = 4 };
+static const int layer_bits[4] = {LAYER_CLEARCOAT, LAYER_SHEEN, LAYER_ANISOTROPY, LAYER_IRIDESCENCE};
+
+static struct point layered_point(int number, int *set)
+{
+    *set = LAYER_DIELECTRIC;
+    for (int i = 0; i < 4; i++)
+        *set |= number >> i & 1 ? layer_bits[i] : 0;
+    bool smooth = number % 3 != 0;
+    struct point p = {.base = {0.9, 0.55, 0.2},
+                      .metallic = number % 5 == 4 ? 1 : 0.25 * (number % 5),
+                      .roughness = smooth ? 0.8 : 0.25,
+                      .ior = 1.7,
+                      .weight = 0.75,
+                      .color = {1, 1, 1},
+                      .coat = *set & LAYER_CLEARCOAT ? 1 : 0,
+                      .coat_roughness = smooth ? 0.0625 : 0.5,
+                      .sheen_roughness = number % 2 ? 0.25 : 0.75,
+                      .strength = *set & LAYER_ANISOTROPY ? 0.75 : 0,
+                      .iridescence = *set & LAYER_IRIDESCENCE ? 1 : 0,
+                      .film_ior = 1.5,
+                      .film = 400};
+    for (int i = 0; i < 3; i++)
+        p.sheen[i] = *set & LAYER_SHEEN ? 0.5 + 0.25 * i : 0;
+    return p;
+}
+
+static lam_material material_of(const struct point *p)
+{
+    lam_material m = lam_material_default();
+    m.physical = true;
+    m.diffuse = (lam_rgba){(float)p->base[0], (float)p->base[1], (float)p->base[2], 1};
+    m.metallic = (float)p->metallic;
+    m.roughness = (float)p->roughness;
+    m.ior = (float)p->ior;
+    m.specular_weight = (float)p->weight;
+    m.clearcoat = (float)p->coat;
+    m.clearcoat_roughness = (float)p->coat_roughness;
+    m.sheen_color = (lam_rgb){(float)p->sheen[0], (float)p->sheen[1], (float)p->sheen[2]};
+    m.sheen_roughness = (float)p->sheen_roughness;
+    m.anisotropy = (float)p->strength;
+    m.iridescence = (float)p->iridescence;
+    m.iridescence_ior = (float)p->film_ior;
+    m.iridescence_thickness_max = (float)p->film;
+    return m;
+}
+
+// The light that the point p reflects, over pi: a plain sum over all directions, in double. The rings are denser around
+// the mirrored direction, by the third power.
+static void brute_force(struct point *p, int set, double out[3])
+{
+    enum { CIRCLES = 400, SPOKES = 240 };
+    vector middle = unit(sum(times(2 * dot(p->n, p->v), p->n), times(-1, p->v)));
+    double m[3] = {middle.x, middle.y, middle.z}, x[3], y[3];
+    frame_around(m, x, y);
+    memset(out, 0, 3 * sizeof *out);
+    for (int i = 0; i < CIRCLES; i++) {
+        double u = (i + 0.5) / CIRCLES, angle = PI * u * u * u, step = 3 * PI * u * u / CIRCLES;
+        for (int k = 0; k < SPOKES; k++) {
+            double turn = 2 * PI * (k + (i % 2) * 0.5) / SPOKES, l[3], light[3], diffuse, specular[3];
+            for (int j = 0; j < 3; j++)
+                l[j] = (x[j] * cos(turn) + y[j] * sin(turn)) * sin(angle) + m[j] * cos(angle);
+            p->l = (vector){l[0], l[1], l[2]};
+            if (dot(p->n, p->l) <= 0)
+                continue;
+            layered_textbook(p, set, &diffuse, specular);
+            radiance(l, light);
+            double solid = sin(angle) * step * 2 / SPOKES; // over pi
+            for (int j = 0; j < 3; j++)
+                out[j] += solid * light[j] * (diffuse * p->base[j] * (1 - p->metallic) + specular[j]);
+        }
+    }
+}
+
+// A ball of a material, in linear floats.
+static lam_image draw_ball(const lam_environment *environment, const lam_material *material, lam_draw_params params)
+{
+    lam_error error;
+    lam_scene *scene = lam_scene_make(&error);
+    lam_object object = lam_object_default();
+    object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 256, .stacks = 256}, &error);
+    object.material = lam_scene_add_material(scene, material, &error);
+    assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
+    assert_true(lam_scene_set_environment(scene, environment, 0, &error));
+    lam_camera camera = {.eye = {0, 0, 24}, .up = {0, 1, 0}, .ortho_half_height = 1};
+    lam_image image = {0};
+    lam_device *device = lam_device_cpu(NULL, &error);
+    assert_true(lam_image_make(&image, PIXELS, PIXELS, LAM_RGBA32F, &error));
+    params.samples = 1;
+    params.rig = LAM_RIG_NONE;
+    params.occlusion = LAM_OCCLUSION_OFF;
+    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
+        fail_msg("%s", error.text);
+    lam_device_free(device);
+    lam_scene_free(scene);
+    return image;
+}
+
+// For every combination of layers, 4096 directions are within 0.4 % of the sum over all directions, and within 0.2 % in
+// the mean.
+static void test_layers(void **state)
+{
+    (void)state;
+    static const int places[PLACES][2] = {{16, 16}, {9, 11}, {25, 20}, {3, 14}};
+    lam_environment *environment = make_environment();
+    for (int number = 0; number < COMBINATIONS; number++) {
+        int set, count = 0;
+        struct point p = layered_point(number, &set);
+        lam_material material = material_of(&p);
+        lam_image picture = draw_ball(environment, &material, (lam_draw_params){.reference = 4096}),
+                  normals = draw_ball(environment, &material, (lam_draw_params){.output = LAM_OUTPUT_NORMALS}),
+                  tangents = draw_ball(environment, &material, (lam_draw_params){.output = LAM_OUTPUT_TANGENTS});
+        double worst = 0, mean = 0;
+        for (int i = 0; i < PLACES; i++) {
+            size_t at = 4 * (size_t)(places[i][1] * PIXELS + places[i][0]);
+            const float *n = (const float *)normals.pixels + at, *t = (const float *)tangents.pixels + at,
+                        *found = (const float *)picture.pixels + at;
+            double expected[3];
+            p.n = unit((vector){(double)n[0], (double)n[1], (double)n[2]});
+            p.coat_n = p.n;
+            p.v = (vector){0, 0, 1};
+            p.t = set & LAYER_ANISOTROPY ? (vector){(double)t[0], (double)t[1], (double)t[2]} : p.n;
+            brute_force(&p, set, expected);
+            for (int c = 0; c < 3; c++) {
+                double error = fabs((double)found[c] - expected[c]) / fmax(expected[c], 0.02);
+                if (error > 0.004)
+                    fail_msg("combination %d, pixel %d, %d, channel %d: %.5f, the sum is %.5f", number, places[i][0],
+                             places[i][1], c, (double)found[c], expected[c]);
+                worst = fmax(worst, error);
+                mean += error;
+                count++;
+            }
+        }
+        print_message("combination %2d: off by %.2g in the mean, %.2g at most\n", number, mean / count, worst);
+        assert_true(mean / count < 0.002);
+        lam_image_free(&picture);
+        lam_image_free(&normals);
+        lam_image_free(&tangents);
+    }
+    lam_environment_free(environment);
+}
+
 // In a uniform environment, a white metal returns all light, and half as many directions do not change that.
 static void test_white_furnace(void **state)
 {
@@ -208,7 +354,8 @@ static void test_limits(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_integral), cmocka_unit_test(test_white_furnace),
-                                       cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_limits)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_integral), cmocka_unit_test(test_layers),
+                                       cmocka_unit_test(test_white_furnace), cmocka_unit_test(test_same_bytes),
+                                       cmocka_unit_test(test_limits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -363,6 +363,7 @@ static bool read_part(const struct core *core, exr_context_t file, const struct 
         return fail_pixels(core, name, result, error);
     if (!picture_make(picture, (uint32_t)width, (uint32_t)height, LAM_RGBA32F, image, error))
         return false;
+    image->no_alpha = !(found & 8);
     float *pixels = image->pixels;
     size_t count = (size_t)width * (size_t)height;
     for (size_t i = 0; i < count; i++)

@@ -191,6 +191,7 @@ static bool read_rows(const struct picture_file *file, const struct header *head
                 store_row(header, row, scale, (float *)image->pixels + to);
         }
     }
+    image->no_alpha = true;
     return true;
 }
 

@@ -69,6 +69,7 @@ static bool pfm_read(const struct picture_file *file, lam_image *image, lam_erro
                     file->name, size, header.width, header.height, (unsigned long long)(wanted + header.pixels));
     if (!picture_make(file, (uint32_t)header.width, (uint32_t)header.height, LAM_RGBA32F, image, error))
         return false;
+    image->no_alpha = true;
     const uint8_t *at = bytes + header.pixels;
     for (int y = header.height - 1; y >= 0; y--) {
         if (!picture_continues(file, y, error)) {

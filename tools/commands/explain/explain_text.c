@@ -254,14 +254,21 @@ static void print_environment(const lam_explanation *e, const lam_explained_frag
     }
 }
 
+// Returns whether the point is lit with the texture. With the other methods of shading, the texture multiplies the
+// interpolated light.
+static bool is_textured(const lam_explanation *e, const lam_explained_fragment *f)
+{
+    return f->surface.maps[LAM_MAP_DIFFUSE] && e->shading == LAM_SHADING_PHONG;
+}
+
 static bool is_colored(const lam_explained_point *p) { return p->color.r != 1 || p->color.g != 1 || p->color.b != 1; }
 
 static void print_terms(const lam_explanation *e, const lam_explained_fragment *f, const lam_explained_point *p)
 {
     printf("\n  terms\n");
-    const char *tint = !is_colored(p)                     ? ""
-                       : f->surface.maps[LAM_MAP_DIFFUSE] ? ", times texture and vertex colour"
-                                                          : ", times the vertex colour";
+    const char *tint = !is_colored(p)      ? ""
+                       : is_textured(e, f) ? ", times texture and vertex colour"
+                                           : ", times the vertex colour";
     char text[200];
     if (f->reflection == LAM_REFLECTION_NONE) {
         snprintf(text, sizeof text, "kd: unlit%s", tint);
@@ -272,9 +279,10 @@ static void print_terms(const lam_explanation *e, const lam_explained_fragment *
                        "ambient occlusion: the fraction of surrounding light that arrives; multiplies ambient and "
                        "environment light");
         row_color(4, "emission", p->emission, "");
-        snprintf(text, sizeof text, "ka ⊙ (La_global + Σ La)%s%s = ka ⊙ (%.7g %.7g %.7g)%s",
+        snprintf(text, sizeof text, "%s%s%s = ka ⊙ (%.7g %.7g %.7g)%s",
+                 e->gl1 ? "ka ⊙ La_global + Σ of the lights' ambient terms" : "ka ⊙ (La_global + Σ La)",
                  p->hemisphere_count ? " + Σ hemispheres" : "", tint, (double)p->ambient_light.r,
-                 (double)p->ambient_light.g, (double)p->ambient_light.b, p->hemisphere_count ? " + …" : "");
+                 (double)p->ambient_light.g, (double)p->ambient_light.b, p->hemisphere_count || e->gl1 ? " + …" : "");
         row_color(4, "ambient", p->ambient, text);
         bool around = !is_black(p->environment_diffuse) || !is_black(p->environment_specular);
         snprintf(text, sizeof text, "Σ of the lights' diffuse terms%s%s", tint,
@@ -313,7 +321,7 @@ static void print_point(const lam_explanation *e, const lam_explained_fragment *
     row_vector(2, "v", p->v, e->distant_viewer ? "to the eye, which is infinitely far away" : "to the eye");
     if (!is_zero(p->t) && lam_reflection_describe(f->reflection)->tangents)
         row_vector(2, "t", p->t, "along the threads");
-    const char *tinting = f->surface.maps[LAM_MAP_DIFFUSE] ? "texture and vertex colour" : "vertex colour";
+    const char *tinting = is_textured(e, f) ? "texture and vertex colour" : "vertex colour";
     if (is_colored(p))
         row_color(2, tinting, p->color, "multiplies ambient and diffuse");
     if (p->layers)
@@ -475,9 +483,11 @@ static void print_result(const lam_explanation *e, const lam_explained_fragment 
                    "1 − received / unobstructed");
     }
     lam_rgb c = {f->color.r, f->color.g, f->color.b};
+    const bool mapped = f->surface.maps[LAM_MAP_DIFFUSE] && !is_textured(e, f);
     row_color(2, "colour", c,
-              f->ground == LAM_GROUND_SHADOW   ? "black: the ground's alpha is the blocked share of the light"
-              : f->point_count == 3            ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
+              f->ground == LAM_GROUND_SHADOW ? "black: the ground's alpha is the blocked share of the light"
+              : mapped              ? "the corners' or the triangle's light; ambient and diffuse times the texture"
+              : f->point_count == 3 ? "c0 + weight1 · (c1 − c0) + weight2 · (c2 − c0), the corners' sums"
               : e->shading == LAM_SHADING_FLAT ? "the sum, constant over the triangle"
                                                : "the sum");
     if (f->color.a != 1)

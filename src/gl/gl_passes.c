@@ -235,13 +235,6 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     return true;
 }
 
-// Returns whether the value of a pixel is the value of its covered sample nearest to the centre, instead of an average.
-static bool is_value(lam_output output)
-{
-    return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED && output != LAM_OUTPUT_COVERAGE &&
-           output != LAM_OUTPUT_OVERDRAW;
-}
-
 bool passes_draw(struct gl_frame *f, lam_error *error)
 {
     struct gl_targets *t = &f->device->targets;
@@ -249,6 +242,9 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
     gl_use_viewport(f->device, f->width, f->height);
     const struct gl_target *result = f->layered ? &t->sum : &t->sample;
     bool several = pattern->count > 1;
+    // Whether a pixel has the value of its covered sample nearest to the centre, instead of a mean.
+    lam_output output = f->frame->settings.output;
+    bool value = output_is_value(output) && output != LAM_OUTPUT_COVERAGE && output != LAM_OUTPUT_OVERDRAW;
     if (several)
         clear_target(f, &t->picture, DEPTH_ID_NEAREST);
     for (int i = 0; i < pattern->count; i++) {
@@ -258,10 +254,9 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
         f->sample_x = (float)pattern->x[s] * 0.0625f;
         f->sample_y = (float)pattern->y[s] * 0.0625f;
         clear_target(f, &t->sample, DEPTH_ID_NEAREST);
-        draw_all(f, false, f->frame->settings.output == LAM_OUTPUT_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
+        draw_all(f, false, output == LAM_OUTPUT_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
         if (f->layered && !draw_layers(f, error))
             return false;
-        bool value = is_value(f->frame->settings.output);
         if (several)
             copy_target(f, result, &t->picture, value ? BLENDING_UNDER : BLENDING_ADD,
                         value ? 1 : 1.0f / (float)pattern->count);

@@ -39,11 +39,14 @@ static void measure_drawing(struct info *info, const struct job *job)
     lam_camera camera = lam_camera_fit(job->scene, INFO_SIDE, INFO_SIDE, NULL);
     lam_draw_params params = {.output = LAM_OUTPUT_DEPTH};
     lam_control control = limits_control(job->options);
-    if (device && lam_image_make(&image, INFO_SIDE, INFO_SIDE, LAM_RGBA8, NULL) &&
+    const uint64_t picture = (uint64_t)INFO_SIDE * INFO_SIDE * 4;
+    if (control.memory_limit_bytes && control.memory_limit_bytes <= picture)
+        info->drawing_bytes = 0; // the picture alone exceeds the limit
+    else if (device && lam_image_make(&image, INFO_SIDE, INFO_SIDE, LAM_RGBA8, NULL) &&
         lam_draw(device, job->scene, &camera, &params, &image, &control, NULL)) {
         lam_frame_report report;
         lam_device_report(device, &report);
-        info->drawing_bytes = report.memory_bytes + (uint64_t)INFO_SIDE * INFO_SIDE * 4;
+        info->drawing_bytes = report.memory_bytes + picture;
         info->drawing_threads = lam_device_threads(device);
     }
     lam_image_free(&image);

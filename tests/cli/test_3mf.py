@@ -442,7 +442,11 @@ class Faults(ThreeMF):
         circle = '<object id="1"><components><component objectid="2"/></components></object><object id="2"><components><component objectid="1"/></components></object>'
         self.bad(2, "info", self.save("bad.3mf", model(circle)), says="found objectid=\"1\", an object that contains this one")
         flat = self.save("flat.3mf", model(good, '<item objectid="1"/><item objectid="1" transform="1 0 0 0 1 0 0 0 0 0 0 0"/>'))
-        self.assertIn("whose transform has no volume (1)", " ".join(self.info(flat)["warnings"]))
+        self.assertIn("whose transform has no volume or is above 1e30 (1)", " ".join(self.info(flat)["warnings"]))
+        # A number that leaves the range of float would end in a file without coordinates.
+        far = '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 1e39 0 0"/>'
+        self.assertIn("is above 1e30 (1)", " ".join(self.info(self.save("far.3mf", model(good, '<item objectid="1"/>' + far)))["warnings"]))
+        self.bad(2, "convert", self.save("far.3mf", model(good, far)), "far.obj", says="transforms of all objects have no volume or are above 1e30 (1)")
 
     def test_cut_files(self):
         """A truncated file, or a file with a wrong byte, is read or refused with an error message."""

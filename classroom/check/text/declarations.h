@@ -36,7 +36,7 @@ struct word {
     int constant; // likewise for the first entry: the index of the number after `int NAME =`, or 0
 };
 
-enum { MAX_WORDS = 1 << 16, MAX_DECLARATIONS = 2048 };
+enum { MAX_WORDS = 1 << 18, MAX_DECLARATIONS = 1 << 16 };
 
 struct declarations {
     int version;      // the value of #version, or 0

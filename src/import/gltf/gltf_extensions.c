@@ -78,7 +78,7 @@ bool gltf_check_asset(struct gltf *gltf)
     bool lenient = gltf->source->params->lenient;
     take_version(gltf, asset, "version", version);
     take_version(gltf, asset, "minVersion", minimum);
-    if (json_is_object(json_object_get(gltf->root, "meshes"))) // as in glTF 1.0
+    if (!json_object_get(asset, "version") && json_is_object(json_object_get(gltf->root, "meshes"))) // as in glTF 1.0
         version[0] = 1;
     if (version[0] < 2 || (version[0] > 2 && !lenient))
         return fail(gltf->json.error, LAM_UNSUPPORTED, "%s: asset.version: this is glTF %d.%d, expected glTF 2.0%s",

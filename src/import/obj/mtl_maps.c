@@ -227,6 +227,8 @@ static bool for_each_map(struct pictures *pictures, struct lam_scene *scene, map
 {
     for (int i = 0; i < scene->materials.count; i++) {
         lam_material *material = (lam_material *)scene->materials.items + i;
+        if (!call_should_continue(pictures->source->call)) // `run` looks through all pictures
+            return call_error(pictures->source->call, error);
         for (int slot = 0; slot < LAM_MAP_COUNT; slot++)
             if (is_drawn(slot) && material->map_names[slot] && !run(pictures, scene, material, slot, error))
                 return false;
@@ -250,6 +252,8 @@ static bool open_pictures(struct pictures *pictures, struct lam_scene *scene, st
     for (size_t i = 0; i < pictures->count; i++) {
         struct picture *picture = &pictures->items[i];
         struct texture_source *source = &picture->source;
+        if (!call_should_continue(pictures->source->call))
+            return call_error(pictures->source->call, error);
         bool noted = false; // the same name, with values of the other kind
         for (size_t k = 0; k < i; k++)
             noted |= strcmp(pictures->items[k].name, picture->name) == 0;
@@ -295,8 +299,8 @@ bool mtl_maps_read(const struct import_source *source, struct lam_scene *scene, 
     struct texture_source **list = arena_array(memory, most, sizeof *list);
     if (!pictures.items || !list)
         return call_memory_error(source->call, most * sizeof *pictures.items, error);
-    for_each_map(&pictures, scene, list_map, error);
-    bool ok = open_pictures(&pictures, scene, memory, list, &count, error);
+    bool ok =
+        for_each_map(&pictures, scene, list_map, error) && open_pictures(&pictures, scene, memory, list, &count, error);
     if (ok) {
         textures_decode(list, count, source->pool, source->call);
         ok = check_pictures(&pictures, scene, error) && for_each_map(&pictures, scene, give_map, error);

@@ -241,10 +241,17 @@ bool ply_find_colors(const struct ply_table *table, int properties[4])
 // The usual end of the range of a colour. For colours of type int or uint, programs use the range 0…255.
 static float usual_range(enum ply_type type) { return type == PLY_I32 || type == PLY_U32 ? 255.0f : divisor_of(type); }
 
+// Finds a colour packed in one number of at least 32 bits.
+static bool find_packed(const struct ply_table *table, const char *name, int *property)
+{
+    int found = ply_find(table->element, false, name);
+    return found >= 0 && ply_type_size(table->types[found]) >= 4 && ply_find_all(table, &name, 1, property);
+}
+
 static bool add_colors(struct columns *columns, struct ply_attributes *out, lam_error *error)
 {
     const struct ply_table *table = columns->table;
-    static const char *const packed[][1] = {{"rgba"}, {"rgb"}}, *const splat[] = {"f_dc_0", "f_dc_1", "f_dc_2"};
+    static const char *const splat[] = {"f_dc_0", "f_dc_1", "f_dc_2"};
     bool raw = columns->source->params->color == LAM_COLOR_RAW, all_bytes = true;
     struct column column = {.kind = COLORS, .width = 4};
     int numbers = 3;
@@ -262,8 +269,7 @@ static bool add_colors(struct columns *columns, struct ply_attributes *out, lam_
                     (struct color_range){ply_type_is_integer(type) ? 255.0f : 1.0f, usual_range(type)};
         }
         column.kind = all_bytes ? COLORS_BYTES : COLORS;
-    } else if (ply_find_all(table, packed[0], 1, column.properties) ||
-               ply_find_all(table, packed[1], 1, column.properties)) {
+    } else if (find_packed(table, "rgba", column.properties) || find_packed(table, "rgb", column.properties)) {
         numbers = ply_find(table->element, false, "rgba") < 0 ? 1 : 2; // the second number means alpha
         column.properties[1] = column.properties[0];
         column.kind = COLORS_PACKED;

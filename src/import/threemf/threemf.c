@@ -104,6 +104,9 @@ static bool fail_empty(struct threemf *file, const struct threemf_part *root, co
         return fail(file->error, LAM_UNSUPPORTED,
                     "%s: its objects contain only beams (%zu) and no triangles; lambent does not draw beams", name,
                     file->beams);
+    if (file->flattened)
+        return fail(file->error, LAM_CANNOT_READ,
+                    "%s: the transforms of all objects have no volume or are above 1e30 (%zu)", name, file->flattened);
     return fail(file->error, LAM_CANNOT_READ, "%s: the objects of its build have no triangles%s", name, by);
 }
 
@@ -120,7 +123,8 @@ static bool report_skipped(struct threemf *file, const struct threemf_part *root
         scene_warn(file->scene, "%s: names no colours for the filaments that it uses; drawn in the default colour",
                    name);
     if (file->flattened)
-        scene_warn(file->scene, "%s: not drawn: objects whose transform has no volume (%zu)", name, file->flattened);
+        scene_warn(file->scene, "%s: not drawn: objects whose transform has no volume or is above 1e30 (%zu)", name,
+                   file->flattened);
     if (file->beams)
         scene_warn(file->scene, "%s: not drawn: the beams of its lattices (%zu)", name, file->beams);
     if (file->sliced)

@@ -59,7 +59,10 @@ static bool add_object(struct threemf *file, const struct instance *instance)
         return false;
     if (object.mesh < 0)
         return true;
-    if (determinant == 0 || !math_finite(determinant)) {
+    bool fits = true; // positions beyond this size leave the range of float
+    for (int i = 0; i < 12; i++)
+        fits &= instance->transform.m[i / 4][i % 4] > -1e30 && instance->transform.m[i / 4][i % 4] < 1e30;
+    if (determinant == 0 || !math_finite(determinant) || !fits) {
         file->flattened++;
         return true;
     }

@@ -43,7 +43,7 @@ static void measure_drawing(struct info *info, const struct job *job)
     if (control.memory_limit_bytes && control.memory_limit_bytes <= picture)
         info->drawing_bytes = 0; // the picture alone exceeds the limit
     else if (device && lam_image_make(&image, INFO_SIDE, INFO_SIDE, LAM_RGBA8, NULL) &&
-        lam_draw(device, job->scene, &camera, &params, &image, &control, NULL)) {
+             lam_draw(device, job->scene, &camera, &params, &image, &control, NULL)) {
         lam_frame_report report;
         lam_device_report(device, &report);
         info->drawing_bytes = report.memory_bytes + picture;

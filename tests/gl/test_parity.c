@@ -70,6 +70,8 @@ static const struct {
     {"planes", .floats = 5e-3},
     {"cylinder", .floats = 3e-3},
     {"two-sides-mirrored", .floats = 1e-3},
+    {"culled-front", .floats = 2e-3},
+    {"inside", .floats = 1e-3},
     {"translucent", .floats = 8e-3},
     {"lines", .floats = 2e-2},
     {"teapot", .floats = 1e-3},

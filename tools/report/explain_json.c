@@ -186,6 +186,7 @@ static void write_point(struct json *json, const lam_explanation *e, const lam_e
         color(json, "sky", h->sky);
         color(json, "ground", h->ground);
         real(json, "n_dot_up", h->n_dot_up);
+        json_flag(json, "by_diffuse", h->by_diffuse);
         color(json, "term", h->term);
         json_close(json, '}');
     }

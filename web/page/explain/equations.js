@@ -75,9 +75,9 @@ export function lightEquations(triangle, point, light) {
 export function aroundEquations(triangle, point) {
   const rows = [], add = (name, formula, values, result) => rows.push({ name, formula, values, result });
   if (triangle.model === 'none') return rows;
-  const ka = triangle.material.matrix[0].map((x, i) => x * point.color[i]), terms = point.hemispheres.map(({ term }) => triple(term)), dimmed = point.unoccluded < 1;
-  for (const { name, ground, sky, n_dot_up, term } of point.hemispheres)
-    add(name ?? 'hemisphere', 'ka (ground + (sky − ground) (½ + ½ n·up))', `${triple(ka)} · (${triple(ground)} + (${triple(sky)} − ${triple(ground)}) · (0.5 + 0.5 · ${number(n_dot_up)}))`, term);
+  const [ka, kd] = triangle.material.matrix.map((row) => row.map((x, i) => x * point.color[i])), terms = point.hemispheres.map(({ term }) => triple(term)), dimmed = point.unoccluded < 1;
+  for (const { name, ground, sky, n_dot_up, by_diffuse, term } of point.hemispheres)
+    add(name ?? 'hemisphere', `${by_diffuse ? 'kd' : 'ka'} (ground + (sky − ground) (½ + ½ n·up))`, `${triple(by_diffuse ? kd : ka)} · (${triple(ground)} + (${triple(sky)} − ${triple(ground)}) · (0.5 + 0.5 · ${number(n_dot_up)}))`, term);
   const sum = [`${triple(ka)} · ${triple(point.ambient_light)}`, ...terms].join(' + ');
   if (point.terms.ambient.some((x) => x !== 0))
     add('ambient', `${dimmed ? 'unoccluded · (' : ''}ka La${terms.length ? ' + Σ hemispheres' : ''}${dimmed ? ')' : ''}`, dimmed ? `${number(point.unoccluded)} · (${sum})` : sum, point.terms.ambient);

@@ -180,7 +180,7 @@ static const char *sentence_of(const struct gltf *gltf, const lam_error *error)
                : error->text;
 }
 
-// Writes the kind of an error: its place without indices and without what stands in parentheses.
+// Writes the kind of an error: its position without indices and without text in parentheses.
 static void kind_of(const struct gltf *gltf, const lam_error *error, char out[100])
 {
     size_t used = 0, depth = 0;

@@ -43,7 +43,7 @@ def png():
     return {"encoders": json.loads(measure.output([paths.program("png"), picture, "25"])), "peer": "libpng level 1"}
 
 
-# Floating-point operations of one point light with attenuation at one point, Blinn-Phong, counted in src/lighting and
+# Floating-point operations of one point light with attenuation at one point, Blinn-Phong, counted in src/core/lighting and
 # base/math/functions.h. Each + - x, comparison, selection and division counts as one. Work that a compiler can move out of the
 # loop over the lights, and integer work on a float's bits, is not counted.
 OPERATIONS = {"vector to the light, its square and inverse root": 3 + 5 + 13, "direction, distance": 3 + 1, "attenuation": 7 + 2,

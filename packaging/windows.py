@@ -52,7 +52,7 @@ def build(folder):
     libraries.FLAGS = ["-DNDEBUG", "-D__USE_MINGW_ANSI_STDIO=1", "-DSPNG_STATIC", "-ffp-contract=off", "-w"]
     libraries.make(str(folder), libraries.LIBRARIES + MORE)
     places = folder / "places.ini"
-    places.write_text("[constants]\nroot = '%s'\nheaders = '%s'\n" % (folder / "root", ROOT / "src/base/system/windows/include"))
+    places.write_text("[constants]\nroot = '%s'\nheaders = '%s'\n" % (folder / "root", ROOT / "src/system/windows/include"))
     made = folder / "build"
     if not (made / "build.ninja").exists():
         shutil.rmtree(made, ignore_errors=True)

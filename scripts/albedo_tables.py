@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""albedo_tables.py [--check]: computes the tables of GGX's lobe for src/lighting/lobes.h, and the table of the sheen's lobe for layers.h.
+"""albedo_tables.py [--check]: computes the tables of GGX's lobe for src/core/lighting/lobes.h, and the table of the sheen's lobe for layers.h.
 
 For 32 roughnesses (rows, ROUGHNESS_MIN ... 1, evenly) and 32 cosines n.v (columns, their roots evenly from 0 to 1):
     albedo.table   E = the integral over all l of D V n.l: what mirrors of f0 = 1 return at once

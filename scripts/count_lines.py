@@ -10,7 +10,7 @@ import sys
 
 PRODUCT = ["src", "include", "tools", "web", "classroom", "python", "scripts", "packaging"]
 TESTS = ["tests", "bench"]
-DRAWING = ("src/cpu/", "src/gl/", "src/glsl/", "src/lighting/")
+DRAWING = ("src/core/cpu/", "src/gpu/gl/", "src/gpu/glsl/", "src/core/lighting/")
 C_LIKE = ("c", "h", "cpp", "inc", "glsl", "js", "mjs", "ts")
 # Strings, template literals and the slashes of regular expressions are not comments; the first match wins.
 C_TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|`(?:\\.|[^`\\])*`|//[^\n]*|/\*.*?\*/', re.S)

@@ -11,8 +11,8 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-ROOMS = ["base", "json", "image", "geometry", "environment", "texture", "scene", "export", "shapes", "import", "scene_file", "load", "frame", "rays", "edges", "occlusion", "device", "cpu"]
-INCLUDES = ["include", "src/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
+ROOMS = ["core", "effects", "formats", "system"]
+INCLUDES = ["include", "src/core/lighting"] + [os.path.relpath(path, ROOT) for room in ROOMS
                                          for path, _, _ in os.walk(os.path.join(ROOT, "src", room)) if "windows" not in path]
 FLAGS = ["-std=gnu11", "-fsyntax-only", "-D_GNU_SOURCE", "-DNDEBUG", "-ffp-contract=off", "-fno-math-errno", "-Wall", "-Werror", "-Wno-psabi"]
 MACHINES = {
@@ -32,13 +32,14 @@ def sources(machine, long):
     for room in ROOMS:
         files += sorted(glob.glob(os.path.join(ROOT, "src", room, "**", "*.c"), recursive=True))
     files = [path for path in files if long or PROCESSOR.search(open(path).read())]
+    files = [path for path in files if "/windows/" not in path]
     skipped = LEFT_OUT + machine["without"] + ["kernels.c", "environment_kernels.c", "corner_fan_simd.c", "position_simd.c", "tangent_kernels.c",
                                                   "edge_rays.c"]
-    for_each = [("src/cpu/kernels.c", kernel) for kernel in machine["kernels"]]
-    for_each += [("src/environment/environment_kernels.c", ("scalar", 4))]
-    for_each += [("src/geometry/normals/%s_simd.c" % name, ("scalar", 1)) for name in ("corner_fan", "positions/position")]
-    for_each += [("src/geometry/tangents/tangent_kernels.c", ("scalar", 1))]
-    for_each += [("src/edges/edge_rays.c", ("scalar", 1))]
+    for_each = [("src/core/cpu/kernels.c", kernel) for kernel in machine["kernels"]]
+    for_each += [("src/effects/environment/environment_kernels.c", ("scalar", 4))]
+    for_each += [("src/core/geometry/normals/%s_simd.c" % name, ("scalar", 1)) for name in ("corner_fan", "positions/position")]
+    for_each += [("src/core/geometry/tangents/tangent_kernels.c", ("scalar", 1))]
+    for_each += [("src/effects/edges/edge_rays.c", ("scalar", 1))]
     return [(f, []) for f in files if os.path.basename(f) not in skipped] + [
         (os.path.join(ROOT, path), ["-DISA=" + isa, "-DLANES=%d" % lanes]) for path, (isa, lanes) in for_each]
 
@@ -47,7 +48,7 @@ def main():
     count, bad = 0, 0
     with tempfile.TemporaryDirectory() as folder:
         powers = os.path.join(folder, "number_powers.h")
-        subprocess.run([sys.executable, os.path.join(ROOT, "src/base/text/number_powers.py"), powers], check=True)
+        subprocess.run([sys.executable, os.path.join(ROOT, "src/core/base/text/number_powers.py"), powers], check=True)
         for name, machine in MACHINES.items():
             if not os.path.exists(machine["needs"]):
                 count += 1

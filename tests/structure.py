@@ -3,8 +3,8 @@
 
 Two rules order the folders (docs/architecture.md). Files never depend on one another in a circle, in the library or in the program; and a folder of
 the library or of the program uses none below it in the list. The include paths of the build keep the library's headers to that order; this
-test checks function calls, and the program's headers (a fifth rule). A sixth: no C file outside src/base/system asks for Windows. A seventh: no folder of the library, the program or the web page has more than 25 files. The third rule: every file that a page or a comment names exists.
-The fourth keeps reflection models replaceable: only a lobe's row in src/lighting/lobes.h describes it. The ninth orders the scripts of the web page: they import
+test checks function calls, and the program's headers (a fifth rule). A sixth: no C file outside src/system asks for Windows. A seventh: no folder of the library, the program or the web page has more than 25 files. The third rule: every file that a page or a comment names exists.
+The fourth keeps reflection models replaceable: only a lobe's row in src/core/lighting/lobes.h describes it. The ninth orders the scripts of the web page: they import
 only from their own folder and folders before it in the list FOLDERS of web/bundle.py, and never in a circle. The tenth: only public functions have more
 than 8 parameters."""
 import collections
@@ -19,11 +19,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def library_folders():
-    """The folders in their order: the base's own, the subdir() lines of src/meson.build, and the classroom's library."""
+    """The folders in their order: the base's own, the subdir() lines of src/meson.build with their wings, and the classroom's library."""
     text = open(os.path.join(ROOT, "src", "meson.build")).read()
     inner = re.findall(r"'(\w+)'", re.search(r"^base_folders = \[(.*)\]", text, re.M)[1])
     names = re.findall(r"^(?:subdir\('([\w/]+)'\)|folders .*'lambent-(lecture)')", text, re.M)
-    return ["base/" + name for name in inner] + [name or "classroom/" + part for name, part in names if name != "base"] + ["classroom/check"]
+    return ["core/base/" + name for name in inner] + [name or "classroom/" + part for name, part in names if name != "core/base"] + ["classroom/check"]
 
 
 def floors():
@@ -34,10 +34,11 @@ def floors():
 
 
 def folder_of(file):
-    """base/text/number -> base/text; gl/loader -> gl; import/obj/obj -> import; tools/many/jobs/job_words -> tools/many/jobs."""
-    if file.startswith(("tools/", "classroom/commands/", "glsl/")):
+    """core/base/text/number -> core/base/text; gpu/gl/loader -> gpu/gl; formats/import/obj/obj -> formats/import; system/files/file -> system;
+    tools/many/jobs/job_words -> tools/many/jobs."""
+    if file.startswith(("tools/", "classroom/commands/", "gpu/glsl/")):
         return os.path.dirname(file)
-    return "/".join(file.split("/")[:2 if file.startswith(("base/", "classroom/")) else 1])
+    return "/".join(file.split("/")[:1 if file.startswith("system/") else 3 if file.startswith("core/base/") else 2])
 
 
 @functools.cache
@@ -64,7 +65,7 @@ def objects(build):
 
 
 def source_of(build, path):
-    """src/gl/liblambent-gl.a.p/loader.c.o -> gl/loader; sub-folders are in the object's name, joined by _.
+    """src/gpu/gl/liblambent-gl.a.p/loader.c.o -> gl/loader; sub-folders are in the object's name, joined by _.
     lambent.p/tools_job_job_scene.c.o -> tools/job/job_scene; src/liblambent-lecture.a.p/.._classroom_lecture_lecture.c.o -> classroom/lecture/lecture."""
     if "_classroom_lecture_" in path:
         return "classroom/lecture/" + path.partition("_classroom_lecture_")[2][:-4]
@@ -161,10 +162,10 @@ NAMED_LOBE = re.compile(r"[!=]= *LAM_REFLECTION_(?!NONE\b|AUTO\b)\w+")
 
 
 def windows_elsewhere():
-    """Files of C that ask for Windows outside src/base/system."""
+    """Files of C that ask for Windows outside src/system."""
     for top in ("src", "tools", "classroom", "include"):
         for path, folders, names in os.walk(os.path.join(ROOT, top)):
-            folders[:] = [f for f in folders if os.path.relpath(os.path.join(path, f), ROOT) != os.path.join("src", "base", "system")]
+            folders[:] = [f for f in folders if os.path.relpath(os.path.join(path, f), ROOT) != os.path.join("src", "system")]
             for name in sorted(names):
                 if name.endswith((".c", ".h", ".inc")) and WINDOWS.search(open(os.path.join(path, name), encoding="utf-8").read()):
                     yield os.path.relpath(os.path.join(path, name), ROOT)
@@ -251,7 +252,7 @@ def options_in_messages():
     def read(path):
         return open(os.path.join(ROOT, path), encoding="utf-8").read()
     known = set(re.findall(r'\{"(lam_\w+(?:\.\w+)?)", "--', read("tools/base/option_names.c")))
-    known |= {"lam_draw_params." + member for member in re.findall(r"MEMBER\(\w+, (\w+)\)", read("src/scene/fields/settings.c"))}
+    known |= {"lam_draw_params." + member for member in re.findall(r"MEMBER\(\w+, (\w+)\)", read("src/core/scene/fields/settings.c"))}
     headers = "".join(read("include/lambent/" + name) for name in os.listdir(os.path.join(ROOT, "include/lambent")))
     for field in sorted(known):
         if not re.search(r"\b%s\b" % field.split(".")[-1], headers):
@@ -277,7 +278,7 @@ def main():
         ("what is asked of a lobe is asked of its row", ["src/%s: %s" % one for one in lobes_asked_by_name()]),
         ("no folder of the program includes a header from one below it", ["%s includes %s" % one for one in headers_back(order)]),
         ("no text of the library names an option of the program", ["%s: %s" % one for one in options_in_messages()]),
-        ("Windows is known to src/base/system alone", ["%s asks for it" % file for file in sorted(windows_elsewhere())]),
+        ("Windows is known to src/system alone", ["%s asks for it" % file for file in sorted(windows_elsewhere())]),
         ("no folder has more than 25 files", ["%s has %d" % one for one in sorted(large_folders())]),
         ("no script of the page imports from a folder after its own", ["%s %s" % one for one in imports_back()]),
         ("no internal function has more than 8 parameters", ["%s: %s has %d" % one for one in long_parameter_lists()])]

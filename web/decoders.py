@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """decoders.py FOLDER: compiles the decoders of compressed glTF files for WebAssembly, from Debian's source packages of Draco and meshoptimizer with
-the program's own interface to Draco (src/import/gltf/draco), to FOLDER/decoders.wasm: a separate module, which the page downloads when a file needs
+the program's own interface to Draco (src/formats/import/gltf/draco), to FOLDER/decoders.wasm: a separate module, which the page downloads when a file needs
 it. It does nothing if the module is up to date. C++ exceptions end the module (a trap); the data is then damaged."""
 import concurrent.futures
 import hashlib

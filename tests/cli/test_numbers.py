@@ -71,13 +71,13 @@ def counted(what, count):
     return Source(what, lambda: float(count()))
 
 
-LAYERS = constant("src/cpu/raster/tile.h", "LAYERS_MAX")
-TILE = constant("src/cpu/raster/tile.h", "TILE")
-FEW_LIGHTS = constant("src/cpu/lights/light_bounds.h", "LIGHTS_ALL_SUMMED")
-FOVY = code("src/scene/camera.c", r"fovy_rad = (\d+) \* \(PI / 180\)")
-FILL = constant("src/scene/camera_fit.c", "FILL")
-CREASE = code("src/scene/scene.c", r"math_radians\((\d+)\)")
-SPHERE = constant("src/environment/cube_map.h", "CUBE_SIDE_MOST")
+LAYERS = constant("src/core/cpu/raster/tile.h", "LAYERS_MAX")
+TILE = constant("src/core/cpu/raster/tile.h", "TILE")
+FEW_LIGHTS = constant("src/core/cpu/lights/light_bounds.h", "LIGHTS_ALL_SUMMED")
+FOVY = code("src/core/scene/camera.c", r"fovy_rad = (\d+) \* \(PI / 180\)")
+FILL = constant("src/core/scene/camera_fit.c", "FILL")
+CREASE = code("src/core/scene/scene.c", r"math_radians\((\d+)\)")
+SPHERE = constant("src/effects/environment/cube_map.h", "CUBE_SIDE_MOST")
 PERCENT_FILL = counted("100 times " + FILL.what, lambda: 100 * FILL.look_up())
 TEAPOT = counted("the triangles of `lambent teapot`", lambda: json.loads(subprocess.run(
     [PROGRAM, "teapot", "-s", "8", "-o", "/dev/null", "--json"], stdout=subprocess.PIPE, check=True).stdout)["model"]["triangles"])
@@ -85,17 +85,17 @@ OVER_CHECK = code("classroom/check", r"share_over <= ([\d.]+)")
 PIXELS_OVER_CHECK = counted("1 divided by " + OVER_CHECK.what, lambda: 1 / OVER_CHECK.look_up())
 TOLERANCE = code("classroom/check/check.c", r"p->tolerance : ([\d.]+) / 255")
 
-SAMPLES = [constant("src/frame/frame.c", name) for name in ("TINY_SAMPLES", "TINY_SIDE", "SMALL_SAMPLES", "SMALL_SIDE", "LARGE_SAMPLES")]
-BLOCK = constant("src/cpu/lights/light_cull_blocks.inc", "BLOCK_SHIFT")
-LEAST_ID = code("src/device/encode_values.c", r"uint8_t\)\((\d+) \+")
-OVERDRAW = code("src/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
+SAMPLES = [constant("src/core/frame/frame.c", name) for name in ("TINY_SAMPLES", "TINY_SIDE", "SMALL_SAMPLES", "SMALL_SIDE", "LARGE_SAMPLES")]
+BLOCK = constant("src/core/cpu/lights/light_cull_blocks.inc", "BLOCK_SHIFT")
+LEAST_ID = code("src/core/device/encode_values.c", r"uint8_t\)\((\d+) \+")
+OVERDRAW = code("src/core/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
 
 # A page, a sentence of it in which {} replaces each number determined by the code, and the sources of these
 # numbers.
 ROWS = [
-    ("docs/lighting/shadows.md", "that {} rays, the largest number, produce", constant("src/rays/light_pattern.h", "LIGHT_POINTS_MAX")),
-    ("docs/lighting/pixels.md", "rounds vertices to 1/{} of a pixel", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
-    ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/cpu/raster/tile.h", "SUBPIXEL")),
+    ("docs/lighting/shadows.md", "that {} rays, the largest number, produce", constant("src/effects/rays/light_pattern.h", "LIGHT_POINTS_MAX")),
+    ("docs/lighting/pixels.md", "rounds vertices to 1/{} of a pixel", constant("src/core/cpu/raster/tile.h", "SUBPIXEL")),
+    ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/core/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "uses {} samples in pictures of up to {}² pixels, {} samples up to {}² pixels, and {} samples in larger pictures", *SAMPLES),
     ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} up to {}², {} above |", *SAMPLES),
     ("tools/options/option_table.c", "\"{} up to {}x256 pixels, {} up to {}x512, {} above\"", *SAMPLES),
@@ -110,20 +110,20 @@ ROWS = [
     ("docs/lighting/lights.md", "With more than {} lights, Lambent skips the weakest lights", FEW_LIGHTS),
     ("docs/lighting/surfaces.md", "At most {} translucent triangles may cover one pixel", LAYERS),
     ("docs/lighting/reflection.md", "Cube faces may have up to {} pixels on a side", SPHERE),
-    ("docs/lighting/reflection.md", "built in, computed, with faces of {}×{} pixels", *2 * [constant("src/environment/environment_made.c", "SIDE")]),
+    ("docs/lighting/reflection.md", "built in, computed, with faces of {}×{} pixels", *2 * [constant("src/effects/environment/environment_made.c", "SIDE")]),
     ("docs/internals/cpu.md", "tiles of {}×{} pixels", TILE, TILE),
     ("docs/internals/cpu.md", "A thread can store {} such fragments", LAYERS),
-    ("docs/internals/cpu.md", "shaded in batches of {}", constant("src/cpu/shade/shading_batch.h", "BATCH_MAX")),
-    ("docs/internals/cpu.md", "over up to {} points", constant("src/cpu/shade/shading_batch.h", "LIGHT_BATCH")),
+    ("docs/internals/cpu.md", "shaded in batches of {}", constant("src/core/cpu/shade/shading_batch.h", "BATCH_MAX")),
+    ("docs/internals/cpu.md", "over up to {} points", constant("src/core/cpu/shade/shading_batch.h", "LIGHT_BATCH")),
     ("docs/internals/cpu.md", "With more than {} lights ({} for Gouraud and flat shading)",
-     code("src/cpu/lights/light_bounds.h", r"LAM_SHADING_PHONG \? (\d+) :"), FEW_LIGHTS),
+     code("src/core/cpu/lights/light_bounds.h", r"LAM_SHADING_PHONG \? (\d+) :"), FEW_LIGHTS),
     ("include/lambent/check.h", "32..1024 pixels; 0: {}", code("classroom/check/check.c", r"p->size : (\d+);")),
     ("docs/internals/cpu.md", "With more than {} lights, Lambent also skips the weakest", FEW_LIGHTS),
-    ("docs/internals/cpu.md", "in groups of {}. Lambent tests each group", constant("src/cpu/lights/light_bounds.h", "LIGHTS_IN_GROUP")),
+    ("docs/internals/cpu.md", "in groups of {}. Lambent tests each group", constant("src/core/cpu/lights/light_bounds.h", "LIGHTS_IN_GROUP")),
     ("docs/internals/cpu.md", "one block of {}×{} pixels", *2 * [counted("1 << BLOCK_SHIFT of light_cull_blocks.inc", lambda: 2 ** BLOCK.look_up())]),
-    ("docs/internals/normals.md", "If {} positions have the same small number of corners", constant("src/geometry/normals/corner_fan_simd.h", "FAN_POSITIONS")),
-    ("docs/show.md", "front blue (0, {}, 255), back red (255, {}, 0)", code("src/device/encode_values.c", r"front\[3\] = \{0, (\d+)"),
-     code("src/device/encode_values.c", r"back\[3\] = \{255, (\d+)")),
+    ("docs/internals/normals.md", "If {} positions have the same small number of corners", constant("src/core/geometry/normals/corner_fan_simd.h", "FAN_POSITIONS")),
+    ("docs/show.md", "front blue (0, {}, 255), back red (255, {}, 0)", code("src/core/device/encode_values.c", r"front\[3\] = \{0, (\d+)"),
+     code("src/core/device/encode_values.c", r"back\[3\] = \{255, (\d+)")),
     ("docs/show.md", "no channel below {}", LEAST_ID),
     ("docs/show.md", "c/(c + {}): 1 is {}, 2 is {}, 3 is {}", OVERDRAW, *[counted(f"the byte of {n} of {n} + OVERDRAW",
      lambda n=n: math.floor(255 * n / (n + OVERDRAW.look_up()) + 0.5)) for n in (1, 2, 3)]),
@@ -132,17 +132,17 @@ ROWS = [
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, [\d.]+, ([\d.]+)\]')),
     ("tools/options/option_table.c", "c/(c + {}) for a pixel that c triangles cover", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
-    ("docs/opengl.md", "in tiles of {}×{} pixels", *2 * [constant("src/gl/gl_device.h", "PART_SIZE_MAX")]),
+    ("docs/opengl.md", "in tiles of {}×{} pixels", *2 * [constant("src/gpu/gl/gl_device.h", "PART_SIZE_MAX")]),
     ("docs/opengl.md", "the teapot ({} triangles)", TEAPOT),
-    ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
-    ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
-    ("src/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/glsl/glsl.h", "GLSL_LIST_WIDTH")),
-    ("docs/formats.md", "on any axis is more than {} times its size", constant("src/geometry/origin.h", "ORIGIN_RATIO")),
-    ("docs/formats.md", "| `Ns` | shininess, 0 to {}; by default {}. With exactly 0,", code("src/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
+    ("docs/shaders.md", "RGBA32F, {} texels wide", constant("src/gpu/glsl/glsl.h", "GLSL_LIST_WIDTH")),
+    ("src/gpu/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the lights", constant("src/gpu/glsl/glsl.h", "GLSL_LIST_WIDTH")),
+    ("src/gpu/glsl/glsl_rows.c", "float texture, {} texels wide, no filter: the products", constant("src/gpu/glsl/glsl.h", "GLSL_LIST_WIDTH")),
+    ("docs/formats.md", "on any axis is more than {} times its size", constant("src/core/geometry/origin.h", "ORIGIN_RATIO")),
+    ("docs/formats.md", "| `Ns` | shininess, 0 to {}; by default {}. With exactly 0,", code("src/formats/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
     ("docs/check.md", "at most one pixel in {} differs by more than `--tolerance` ({} steps of 1/255)", PIXELS_OVER_CHECK, TOLERANCE),
     ("docs/check.md", "the shader exceeded `--stop-after` ({} seconds)", option("stop-after")),
     ("docs/lighting.md", "about {} hundred lines", counted("the hundreds of lines of lobes.h, lights.h and sum.h", lambda: round(sum(
-        len((ROOT / "src/lighting" / name).read_text().splitlines()) for name in ("lobes.h", "lights.h", "sum.h")) / 100))),
+        len((ROOT / "src/core/lighting" / name).read_text().splitlines()) for name in ("lobes.h", "lights.h", "sum.h")) / 100))),
     ("tools/help/topics.c", "`--tolerance` (default {}) applies to each channel of a pixel. At most one pixel in {} may exceed",
      TOLERANCE, PIXELS_OVER_CHECK),
     ("tools/options/option_table.c", "fills {} % of the picture's width or height", PERCENT_FILL),
@@ -157,7 +157,7 @@ ROWS = [
     ("include/lambent/device.h", "more than {} translucent triangles over one pixel", LAYERS),
     ("include/lambent/check.h", "1 = full range; 0: {}/255. A scene passes if at most one pixel in {}", TOLERANCE, PIXELS_OVER_CHECK),
     ("include/lambent/words.h", "A text is at most {} bytes long",
-     counted("WORDS_MAX - 1", lambda: constant("src/words/word_values.h", "WORDS_MAX").look_up() - 1)),
+     counted("WORDS_MAX - 1", lambda: constant("src/core/words/word_values.h", "WORDS_MAX").look_up() - 1)),
 ]
 
 

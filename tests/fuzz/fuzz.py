@@ -36,28 +36,28 @@ SEEDS = {
 WITH_OPTIONS = ("render", "library", "file")
 SEED_BYTES = 16384
 
-# The words of a format are the string literals of the files that read it, by default the files in its folder in src/import; other dictionaries are in
+# The words of a format are the string literals of the files that read it, by default the files in its folder in src/formats/import; other dictionaries are in
 # dictionaries/.
 WORDS = {
-    "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
-    "3mf": ["src/import/threemf"],
-    "scene": ["src/scene_file", "src/scene", "src/words"],
-    "render": ["src/import/obj", "src/import/ply", "src/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/words"], "formula": ["src/shapes/formula_parse.c"],
-    "library": ["src/import/obj", "src/import/ply", "src/import/gltf"], "file": ["src/import"],
-    "settings": ["tools/options", "src/scene/fields", "src/words"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal", "tools/many/unit"],
+    "obj": ["src/formats/import/obj"], "mtl": ["src/formats/import/obj/mtl.c", "src/formats/import/obj/mtl_maps.c"], "gltf": ["src/formats/import/gltf"], "glb": ["src/formats/import/gltf"],
+    "3mf": ["src/formats/import/threemf"],
+    "scene": ["src/core/scene_file", "src/core/scene", "src/core/words"],
+    "render": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/core/words"], "formula": ["src/formats/shapes/formula_parse.c"],
+    "library": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "file": ["src/formats/import"],
+    "settings": ["tools/options", "src/core/scene/fields", "src/core/words"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal", "tools/many/unit"],
     "request": ["tools/view", "tools/options"], "shader": ["classroom/check/text", "classroom/check/contract"],
 }
 NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", "library", "file", "job", "formula", "settings", "shader")
 
-# The sources of each reader, for `coverage`: a target's own folder in src/import by default.
+# The sources of each reader, for `coverage`: a target's own folder in src/formats/import by default.
 READERS = {
-    "obj": ["src/import/obj"], "mtl": ["src/import/obj/mtl.c", "src/import/obj/mtl_maps.c"], "gltf": ["src/import/gltf"], "glb": ["src/import/gltf"],
-    "3mf": ["src/import/threemf"], "scene": ["src/scene_file", "src/json"], "png": ["src/image/png/png_read.c", "src/image/png/png_whole.c"],
-    "file": ["src/load", "src/import", "src/base/files/file.c"], "formula": ["src/shapes"], "job": ["tools/many/jobs"],
+    "obj": ["src/formats/import/obj"], "mtl": ["src/formats/import/obj/mtl.c", "src/formats/import/obj/mtl_maps.c"], "gltf": ["src/formats/import/gltf"], "glb": ["src/formats/import/gltf"],
+    "3mf": ["src/formats/import/threemf"], "scene": ["src/core/scene_file", "src/formats/json"], "png": ["src/formats/image/png/png_read.c", "src/formats/image/png/png_whole.c"],
+    "file": ["src/formats/load", "src/formats/import", "src/system/files/file.c"], "formula": ["src/formats/shapes"], "job": ["tools/many/jobs"],
     "settings": ["tools/options/settings_file.c"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal/journal.c", "tools/many/journal/journal_sum.c"],
     "request": ["tools/view/view_routes.c", "tools/view/view_answer.c", "tools/view/view_events.c", "tools/view/drawing/view_words.c", "tools/view/drawing/view_files.c"],
     "shader": ["classroom/check/text", "classroom/check/contract"],
-    "library": ["src/export", "src/glsl", "src/device"], "render": ["src/frame", "src/cpu"], "picture": ["src/frame", "src/cpu"],
+    "library": ["src/formats/export", "src/gpu/glsl", "src/core/device"], "render": ["src/core/frame", "src/core/cpu"], "picture": ["src/core/frame", "src/core/cpu"],
 }
 
 # A slow input also counts as a find: SECONDS on a busy machine, with sanitizers, for an input of at most
@@ -100,7 +100,7 @@ def build(out, options, jobs, wanted):
 def dictionary(target):
     """Writes the target's dictionary; returns its path."""
     lines = []
-    for place in WORDS.get(target, [os.path.join("src/import", target)]):
+    for place in WORDS.get(target, [os.path.join("src/formats/import", target)]):
         path = os.path.join(ROOT, place)
         sources = [path] if os.path.isfile(path) else sorted(glob.glob(os.path.join(path, "**", "*.c"), recursive=True))
         for source in sources:
@@ -181,7 +181,7 @@ def coverage(target):
     lines = reached = 0
     for file in json.loads(listed.stdout)["data"][0]["files"]:
         name = os.path.relpath(os.path.realpath(os.path.join(out, file["filename"])), ROOT)
-        if any(name == place or name.startswith(place + "/") for place in READERS.get(target, ["src/import/" + target, "src/image/formats/%s.c" % target])):
+        if any(name == place or name.startswith(place + "/") for place in READERS.get(target, ["src/formats/import/" + target, "src/formats/image/formats/%s.c" % target])):
             lines += file["summary"]["lines"]["count"]
             reached += file["summary"]["lines"]["covered"]
     return sum(len(os.listdir(folder)) for folder in folders), lines, reached

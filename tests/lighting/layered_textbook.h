@@ -1,4 +1,4 @@
-// layered_textbook.h: the layers of physical materials (src/lighting/layers.h) in double precision, written from the
+// layered_textbook.h: the layers of physical materials (src/core/lighting/layers.h) in double precision, written from the
 // formulas of the Khronos extensions independently with libm.
 #ifndef LAYERED_TEXTBOOK_H
 #define LAYERED_TEXTBOOK_H

@@ -1,4 +1,4 @@
-// test_equations.c: compares src/lighting with the textbook version in double (textbook.c): random points, then every
+// test_equations.c: compares src/core/lighting with the textbook version in double (textbook.c): random points, then every
 // degenerate case in the conventions.
 //
 // The promise: each term is within 2e-6 + 4e-7·α of its largest value. If a light's own law amplifies the last digits

@@ -1,4 +1,4 @@
-// test_layers.c: compares the layers of physical materials (src/lighting/layers.h) with the formulas of the Khronos
+// test_layers.c: compares the layers of physical materials (src/core/lighting/layers.h) with the formulas of the Khronos
 // extensions in double precision, implemented independently with libm: random materials under random light, for every
 // set of layers; then numbers that can be checked by hand, and the table of the sheen's albedo.
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-// test_words.c: the dialect of src/lighting contains only the listed words, each of which means the same in C and
+// test_words.c: the dialect of src/core/lighting contains only the listed words, each of which means the same in C and
 // exists in GLSL, and the reference compiler (glslangValidator) accepts the whole text as GLSL 120, 330 and 300 es.
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,7 +41,7 @@ static void test_meaning_in_c(void **state)
 #undef WORD
 }
 
-// A file of src/lighting as GLSL sees it; the caller frees it.
+// A file of src/core/lighting as GLSL sees it; the caller frees it.
 static char *read_text(const char *name)
 {
     char path[4096];

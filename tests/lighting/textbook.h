@@ -1,5 +1,5 @@
 // textbook.h: the lighting equations in double precision, implemented from docs/lighting.md independently with libm, as
-// a reference for src/lighting. It computes one point and one light.
+// a reference for src/core/lighting. It computes one point and one light.
 #ifndef TEXTBOOK_H
 #define TEXTBOOK_H
 

@@ -28,7 +28,7 @@ def commands(build):
 def cppcheck(files):
     done = subprocess.run(["cppcheck", "-q", "-j", str(len(os.sched_getaffinity(0))), "--enable=warning,portability,performance", "--inline-suppr", "--std=c11",
                            "--language=c", "--suppressions-list=tests/lint/cppcheck.txt", "--suppress=missingIncludeSystem", "--suppress=unmatchedSuppression",
-                           "-Iinclude", *["-I" + path for path in sorted(glob.glob("src/base/*/", root_dir=ROOT))], "-Isrc/lighting", "--template={file}:{line}: {id}: {message}", *files],
+                           "-Iinclude", *["-I" + path for path in sorted(glob.glob("src/core/base/*/", root_dir=ROOT))], "-Isrc/system", "-Isrc/system/files", "-Isrc/core/lighting", "--template={file}:{line}: {id}: {message}", *files],
                           cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return [line for line in done.stdout.splitlines() if line.strip()]
 

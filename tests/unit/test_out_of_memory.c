@@ -136,7 +136,7 @@ static int make_files(void **state)
                                                      "libmeshoptimizer.so.2d", "libfreetype.so.6"};
     for (int i = 0; i < LIBRARIES; i++)
         dlopen(libraries[i], RTLD_NOW | RTLD_NODELETE);
-    // libwebp 1.2 dereferences a null pointer in some places if memory is insufficient (src/image/formats/webp.c).
+    // libwebp 1.2 dereferences a null pointer in some places if memory is insufficient (src/formats/image/formats/webp.c).
     memory_spare("libwebp");
     return 0;
 }

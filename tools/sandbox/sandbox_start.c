@@ -109,7 +109,7 @@ static void add_system(struct sandbox_paths *paths)
         sandbox_add(paths, folders[i], SANDBOX_READ);
     add_list(paths, getenv("LD_LIBRARY_PATH"), ':');
     add_list(paths, getenv("LAMBENT_FONT"), 0);
-    // The Draco module in the library's search path (src/base/system/dynamic_library.c).
+    // The Draco module in the library's search path (src/system/dynamic_library.c).
     static const char *const modules[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
     char own[PATH_MAX], path[PATH_MAX + 100];
     ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);

@@ -105,7 +105,7 @@ static void add_hemispheres(struct text *text, const struct frame *frame)
 }
 
 // Appends the lights, with the members that at least one of them needs.
-static void add_lights(struct text *text, const struct glsl_facts *f, const struct frame *frame, const int *order)
+static void add_lights(struct text *text, const struct glsl_stage *f, const struct frame *frame, const int *order)
 {
     text_print(text, "\nstatic const struct {\n%s%s%s%s    vec3 diffuse%s;\n} lights[] = {\n",
                f->positions ? "    vec3 position;\n" : "",
@@ -182,48 +182,48 @@ static void add_draws(struct text *text, const struct frame *frame, const struct
 
 // --- the complete source
 
-static void add_body(struct text *text, const struct glsl_facts *f, bool origin)
+static void add_body(struct text *text, const struct glsl_stage *f, bool origin)
 {
     const struct glsl_choices *c = f->choices;
     bool tints = c->colors, tangents = f->needs_tangent && c->tangents, translucent = c->alpha[0] != LAM_ALPHA_OPAQUE;
     bool reads_point = (f->has_lights && f->positions) || (f->highlights && !c->distant_viewer);
     bool reads_normal = f->has_lights || f->has_hemispheres, weakened = f->has_cone || f->has_falloff;
     const char *sum = f->highlights ? "add(diffuse, specular)" : "diffuse";
-    struct known_table t = {.count = 0};
+    struct constant_table t = {.count = 0};
     lecture_add_flags(&t, f);
-    known_flag(&t, "flat", f->shading == LAM_SHADING_FLAT);
-    known_flag(&t, "has_origin", origin);
-    known_flag(&t, "reads_point", reads_point);
-    known_flag(&t, "reads_normal", reads_normal);
-    text_print(known_made(&t, "PARAMETERS"), "const struct draw *draw%s%s%s%s", reads_point ? ", vec3 P" : "",
+    constant_flag(&t, "flat", f->shading == LAM_SHADING_FLAT);
+    constant_flag(&t, "has_origin", origin);
+    constant_flag(&t, "reads_point", reads_point);
+    constant_flag(&t, "reads_normal", reads_normal);
+    text_print(constant_made(&t, "PARAMETERS"), "const struct draw *draw%s%s%s%s", reads_point ? ", vec3 P" : "",
                reads_normal ? ", vec3 N" : "", tangents ? ", vec3 T" : "", tints ? ", vec3 tint" : "");
     for (int back = 0; back < 2; back++)
-        text_print(known_made(&t, back ? "BACK_ARGUMENTS" : "FRONT_ARGUMENTS"), "draw%s%s%s%s",
+        text_print(constant_made(&t, back ? "BACK_ARGUMENTS" : "FRONT_ARGUMENTS"), "draw%s%s%s%s",
                    reads_point ? ", P" : "",
                    !reads_normal ? ""
                    : back        ? ", scale(-1.0, N)"
                                  : ", N",
                    tangents ? ", T" : "", tints ? ", vector(color)" : "");
     text_print(
-        known_made(&t, "VERTEX_PARAMETERS"),
+        constant_made(&t, "VERTEX_PARAMETERS"),
         "int number, const float position[3], const float normal[3],%s%s\n                  float front_color[4]%s",
         tangents ? " const float tangent[3]," : "", tints ? " const float color[4]," : "",
         c->two_sided ? ", float back_color[4]" : "");
-    known_text(&t, "KA", tints ? "times(tint, draw->ka)" : "draw->ka");
-    known_text(&t, "KD", tints ? "times(tint, draw->kd)" : "draw->kd");
-    lecture_add_way(known_made(&t, "WAY"), c, "scale(-1.0, lights[i].direction)", "subtract(lights[i].position, P)");
-    lecture_add_spots(known_made(&t, "SPOTS"), c, "double");
-    known_number(&t, "LIGHTS", c->light_count);
-    known_number(&t, "HEMISPHERES", c->hemisphere_count);
-    glsl_add_sky_color(known_made(&t, "SKY_COLOR"), c, "ka", "kd");
-    text_print(known_made(&t, "ARRIVING"), "%s%s%s%s%s%s%s", weakened ? "scale(" : "", f->has_cone ? "spot" : "",
+    constant_text(&t, "KA", tints ? "times(tint, draw->ka)" : "draw->ka");
+    constant_text(&t, "KD", tints ? "times(tint, draw->kd)" : "draw->kd");
+    lecture_add_way(constant_made(&t, "WAY"), c, "scale(-1.0, lights[i].direction)", "subtract(lights[i].position, P)");
+    lecture_add_spots(constant_made(&t, "SPOTS"), c, "double");
+    constant_number(&t, "LIGHTS", c->light_count);
+    constant_number(&t, "HEMISPHERES", c->hemisphere_count);
+    glsl_add_sky_color(constant_made(&t, "SKY_COLOR"), c, "ka", "kd");
+    text_print(constant_made(&t, "ARRIVING"), "%s%s%s%s%s%s%s", weakened ? "scale(" : "", f->has_cone ? "spot" : "",
                f->has_cone && f->has_falloff ? " * " : "", f->has_falloff ? "attenuation" : "", weakened ? ", " : "",
                sum, weakened ? ")" : "");
-    known_text(&t, "OPACITY", !translucent ? "1.0" : tints ? "draw->opacity * color[3]" : "draw->opacity");
-    known_specialize(text, text_application_c_in, &t);
+    constant_text(&t, "OPACITY", !translucent ? "1.0" : tints ? "draw->opacity * color[3]" : "draw->opacity");
+    constant_specialize(text, text_application_c_in, &t);
 }
 
-static void add_all(struct text *text, const struct glsl_facts *f, const char *body, const struct frame *frame,
+static void add_all(struct text *text, const struct glsl_stage *f, const char *body, const struct frame *frame,
                     const int *order, const struct frame_draw_range *const *ranges, int count, struct members has)
 {
     text_add(text,
@@ -249,7 +249,7 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
 {
     struct glsl_choices lit = *choices;
     lit.stage = LAM_STAGE_VERTEX; // the facts of the vertex stage include all facts about the lighting
-    const struct glsl_facts f = glsl_facts_of(&lit);
+    const struct glsl_stage f = glsl_stage_of(&lit);
     if (!lecture_check(&lit, &f, error))
         return NULL;
     if (f.has_environment) {

@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-bool lecture_check(const struct glsl_choices *c, const struct glsl_facts *f, lam_error *error)
+bool lecture_check(const struct glsl_choices *c, const struct glsl_stage *f, lam_error *error)
 {
     bool masked = c->alpha[0] == LAM_ALPHA_MASK || c->alpha[1] == LAM_ALPHA_MASK;
     bool other = f->lit && c->reflection != LAM_REFLECTION_LAMBERT && c->reflection != LAM_REFLECTION_PHONG &&
@@ -71,18 +71,18 @@ static bool has_kind(const struct glsl_choices *c, int kind)
     return lights_of(c, kind, condition) > 0;
 }
 
-void lecture_add_flags(struct known_table *t, const struct glsl_facts *f)
+void lecture_add_flags(struct constant_table *t, const struct glsl_stage *f)
 {
     const struct glsl_choices *c = f->choices;
     bool any_range = false;
     for (int i = 0; i < c->group_count; i++)
         any_range |= c->groups[i].falloff == FALLOFF_RANGE;
-    known_facts(t, f);
-    known_flag(t, "has_range", any_range);
-    known_flag(t, "has_cutoff", has_kind(c, LIGHT_SPOT_CUTOFF));
-    known_flag(t, "gated_threads", c->reflection == LAM_REFLECTION_KAJIYA_KAY);
-    known_flag(t, "phong", f->highlights && c->reflection == LAM_REFLECTION_PHONG);
-    known_flag(t, "blinn_phong", f->highlights && c->reflection == LAM_REFLECTION_BLINN_PHONG);
+    constant_stage(t, f);
+    constant_flag(t, "has_range", any_range);
+    constant_flag(t, "has_cutoff", has_kind(c, LIGHT_SPOT_CUTOFF));
+    constant_flag(t, "gated_threads", c->reflection == LAM_REFLECTION_KAJIYA_KAY);
+    constant_flag(t, "phong", f->highlights && c->reflection == LAM_REFLECTION_PHONG);
+    constant_flag(t, "blinn_phong", f->highlights && c->reflection == LAM_REFLECTION_BLINN_PHONG);
 }
 
 void lecture_add_way(struct text *text, const struct glsl_choices *c, const char *against, const char *towards)
@@ -119,45 +119,45 @@ void lecture_add_spots(struct text *text, const struct glsl_choices *c, const ch
 }
 
 // Adds the values of the material and of the vertex colour.
-static void add_material(struct known_table *t, const struct glsl_facts *f)
+static void add_material(struct constant_table *t, const struct glsl_stage *f)
 {
     const struct glsl_choices *c = f->choices;
     const char *tint = !f->vertex_colors ? "" : f->per_fragment ? "tint" : "color", *p = c->products ? "" : "material.";
     bool opaque = c->alpha[0] == LAM_ALPHA_OPAQUE;
-    text_print(known_made(t, "OPACITY"), "%s%s%s%s%s", opaque ? "" : p, opaque ? "1.0" : "diffuse.a",
+    text_print(constant_made(t, "OPACITY"), "%s%s%s%s%s", opaque ? "" : p, opaque ? "1.0" : "diffuse.a",
                opaque || !*tint ? "" : " * ", opaque ? "" : tint, opaque || !*tint ? "" : ".a");
-    text_print(known_made(t, "DIFFUSE_LIGHT"), "%s%s", *tint ? "tint.rgb * " : "",
+    text_print(constant_made(t, "DIFFUSE_LIGHT"), "%s%s", *tint ? "tint.rgb * " : "",
                c->products ? "diffuse_product[i].rgb" : "kd * lights[i].diffuse.rgb");
-    known_text(t, "SPECULAR_LIGHT", c->products ? "specular_product[i].rgb" : "ks * lights[i].specular.rgb");
-    text_print(known_made(t, "EMISSION"), "%semission.rgb", p);
-    text_print(known_made(t, "SHININESS"), "%sshininess", p);
-    text_print(known_made(t, "FIBRE"), "%sfibre", p);
-    text_print(known_made(t, "REFLECTIVITY"), "%sreflectivity.rgb", p);
-    text_print(known_made(t, "PARAMETERS"), "vec3 P, vec3 N%s%s", f->needs_tangent_attribute ? ", vec3 T" : "",
+    constant_text(t, "SPECULAR_LIGHT", c->products ? "specular_product[i].rgb" : "ks * lights[i].specular.rgb");
+    text_print(constant_made(t, "EMISSION"), "%semission.rgb", p);
+    text_print(constant_made(t, "SHININESS"), "%sshininess", p);
+    text_print(constant_made(t, "FIBRE"), "%sfibre", p);
+    text_print(constant_made(t, "REFLECTIVITY"), "%sreflectivity.rgb", p);
+    text_print(constant_made(t, "PARAMETERS"), "vec3 P, vec3 N%s%s", f->needs_tangent_attribute ? ", vec3 T" : "",
                *tint ? ", vec4 tint" : "");
-    text_print(known_made(t, "ARGUMENTS"), "eye_position, N%s%s%s",
+    text_print(constant_made(t, "ARGUMENTS"), "eye_position, N%s%s%s",
                !f->needs_tangent_attribute ? ""
                : f->per_fragment           ? ", eye_tangent"
                                            : ", T",
                *tint ? ", " : "", tint);
 }
 
-static void add_stage(struct text *text, const struct glsl_facts *f)
+static void add_stage(struct text *text, const struct glsl_stage *f)
 {
     const struct glsl_choices *c = f->choices;
-    struct known_table t = {.count = 0};
+    struct constant_table t = {.count = 0};
     lecture_add_flags(&t, f);
-    known_flag(&t, "lights_here", f->lit && f->fragment == f->per_fragment);
-    glsl_declare_attributes(known_made(&t, "ATTRIBUTES"), f);
+    constant_flag(&t, "lights_here", f->lit && f->fragment == f->per_fragment);
+    glsl_declare_attributes(constant_made(&t, "ATTRIBUTES"), f);
     add_material(&t, f);
-    known_number(&t, "HEMISPHERES", c->hemisphere_count);
-    glsl_add_sky_color(known_made(&t, "SKY_COLOR"), c, "ka", "kd");
-    known_number(&t, "LIGHTS", c->light_count);
-    lecture_add_way(known_made(&t, "WAY"), c, "-lights[i].direction.xyz", "lights[i].position.xyz - P");
-    lecture_add_spots(known_made(&t, "SPOTS"), c, "float");
-    text_print(known_made(&t, "ARRIVING"), "%s%s%s", f->has_cone ? "spot" : "",
+    constant_number(&t, "HEMISPHERES", c->hemisphere_count);
+    glsl_add_sky_color(constant_made(&t, "SKY_COLOR"), c, "ka", "kd");
+    constant_number(&t, "LIGHTS", c->light_count);
+    lecture_add_way(constant_made(&t, "WAY"), c, "-lights[i].direction.xyz", "lights[i].position.xyz - P");
+    lecture_add_spots(constant_made(&t, "SPOTS"), c, "float");
+    text_print(constant_made(&t, "ARRIVING"), "%s%s%s", f->has_cone ? "spot" : "",
                f->has_cone && f->has_falloff ? " * " : "", f->has_falloff ? "attenuation" : "");
-    known_specialize(text, text_lecture_glsl, &t);
+    constant_specialize(text, text_lecture_glsl, &t);
 }
 
 const struct glsl_style lecture_style = {.check = lecture_check, .add_stage = add_stage, .change = mistake_apply};

@@ -5,14 +5,14 @@
 #ifndef LECTURE_H
 #define LECTURE_H
 
-#include "glsl_known.h"
+#include "glsl_constants.h"
 
 // The style, for glsl_choices.style.
 extern const struct glsl_style lecture_style;
 
 // Returns whether the style supports these choices. Otherwise the error is LAM_UNSUPPORTED, and its message names the
 // unsupported option.
-bool lecture_check(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
+bool lecture_check(const struct glsl_choices *choices, const struct glsl_stage *facts, lam_error *error);
 
 // Makes the C source of the application stage: a function `light_vertex` that computes a vertex's colours for one of
 // the draws in `ranges`. The shader's light i is light order[i] of the frame. The function contains the mistake
@@ -23,9 +23,9 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
 
 // --- parts of the source that GLSL and C share (lecture.c)
 
-// Adds the flags that both sources use: the flags of every shader (known_facts), and the conditions on lines of the
+// Adds the flags that both sources use: the flags of every shader (constant_stage), and the conditions on lines of the
 // lecture style.
-void lecture_add_flags(struct known_table *table, const struct glsl_facts *facts);
+void lecture_add_flags(struct constant_table *table, const struct glsl_stage *facts);
 // Appends the vector from the point to light i: `against` for directional lights, `towards` for the others.
 void lecture_add_way(struct text *text, const struct glsl_choices *choices, const char *against, const char *towards);
 // Appends the lines that set `spot`, the factor of a spotlight's cone. `number` is the type of `spot`.

@@ -13,7 +13,7 @@
 
 #include "glsl.h"
 #include "glsl_combinations.h"
-#include "specialize.h"
+#include "glsl_text.h"
 
 static bool has(const char *text, const char *word) { return strstr(text, word) != NULL; }
 
@@ -145,11 +145,11 @@ static void test_masks_of_two_materials(void **state)
 
 static void check_branches(const char *source, const char *expected)
 {
-    static const struct known known[] = {{"a == 1", "true"}, {"b == 2", "false"}, {"on", "true"},
+    static const struct constant constants[] = {{"a == 1", "true"}, {"b == 2", "false"}, {"on", "true"},
                                          {"off", "false"},   {"FIVE", "5"},       {"LINES", "    x;\n    y;\n"},
                                          {NULL, NULL}};
     struct text text = {0};
-    specialize_branches(&text, source, known);
+    specialize_branches(&text, source, constants);
     assert_false(text.failed);
     assert_string_equal(text.bytes, expected);
     free(text.bytes);

@@ -12,7 +12,7 @@
 
 #include "context.h"
 #include "glsl_combinations.h"
-#include "glsl_rows.h"
+#include "glsl_declarations.h"
 
 // All choices take minutes (LAMBENT_EVERY_SHADER=1), so the test uses every STEP-th; glslangValidator compiles more of
 // them (test_glsl.c). The step is a prime, so that it covers every loop of glsl_combinations. One build uses a smaller
@@ -57,7 +57,7 @@ static void check_block(const struct gl *gl, GLuint program, const char *block, 
         fail_msg("block %s: the driver expects %d bytes, lambent writes %zu", block, size, bytes);
 }
 
-static void check_blocks(const struct gl *gl, GLuint program, const struct glsl_choices *c, const struct glsl_facts *f)
+static void check_blocks(const struct gl *gl, GLuint program, const struct glsl_choices *c, const struct glsl_stage *f)
 {
     if (c->storage != GLSL_BLOCK || f->unlit || f->output_vector || !f->lit)
         return;
@@ -91,7 +91,7 @@ static void link_pair(void *user, const struct glsl_choices *choices)
         print_error("%s\n%s\n%s\n", text.vertex, text.fragment, log);
         fail_msg("the driver does not link a pair");
     }
-    struct glsl_facts facts = glsl_facts_of(choices);
+    struct glsl_stage facts = glsl_stage_of(choices);
     check_blocks(gl, program, choices, &facts);
     if (gl->GetUniformLocation(program, "model_view_projection") < 0)
         fail_msg("the program has no uniform model_view_projection");

@@ -8,8 +8,8 @@
 //   occlusion        distances -> ambient occlusion of each pixel                gl_occlusion.c
 //   targets          framebuffers of one part of the picture                     gl_targets.c
 //   passes           samples, opaque surfaces, layers of translucent ones        gl_passes.c
-//   readback         linear light -> the image                                   gl_readback.c
-//   state            the setters of OpenGL state                                 gl_state.c, gl_state_save.c
+//   targets          linear light -> the image                                   gl_targets.c
+//   state            the setters of OpenGL state                                 gl_state.c
 //
 // All GL objects persist from frame to frame; data are uploaded again only after a change.
 #ifndef GL_DEVICE_H
@@ -18,7 +18,7 @@
 #include "context.h"
 #include "device_type.h"
 #include "fields.h"
-#include "glsl_rows.h"
+#include "glsl_declarations.h"
 #include "hierarchy.h"
 #include "screen_occlusion.h"
 #include "vertex_colors.h"
@@ -105,7 +105,7 @@ struct gl_vertex_lighting {
     struct lam_environment *environment;
     GLuint colors, array;
     bool
-        // each vertex has four colours: two for the front and two for the back (glsl_facts.separate_texture_terms)
+        // each vertex has four colours: two for the front and two for the back (glsl_stage.separate_texture_terms)
         separate_texture_terms;
     GLuint of_vertices; // the mesh buffer with the positions for `array`
     uint64_t bytes;
@@ -113,7 +113,7 @@ struct gl_vertex_lighting {
 
 // --- programs
 
-// Uniforms that are not rows of glsl_rows.h. The program's rows follow.
+// Uniforms that are not rows of glsl_declarations.h. The program's rows follow.
 enum { UNIFORM_SHADOW_MATRIX, UNIFORM_SHADOW_OFFSETS, UNIFORM_SHADOW_ROUNDING, UNIFORM_FIRST_TRIANGLE, UNIFORM_ROWS };
 
 struct gl_uniform {
@@ -190,7 +190,7 @@ struct gl_current_state {
 };
 
 // The surfaces that transmit light. The texture of the hierarchy also stores these surfaces, after the hierarchy
-// (gl_surfaces.c).
+// (gl_shadows.c).
 struct gl_surfaces {
     // hashes of all inputs: `key` for the texels in the texture, `next_key` for the texels of this frame; 0 means no
     // texels
@@ -402,7 +402,7 @@ bool environment_send(struct gl_frame *f, lam_error *error);
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
-// --- gl_surfaces.c
+// --- gl_shadows.c
 // Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that has `most` texels.
 // Sets *same to true if the texels and the hierarchy are the same as in the last packing, otherwise to false. Fails
 // with LAM_LIMIT.
@@ -431,10 +431,10 @@ void targets_free(struct gl_device *device);
 // Draws the part. The framebuffer with the result stays bound.
 bool passes_draw(struct gl_frame *f, lam_error *error);
 
-// --- gl_readback.c
+// --- gl_targets.c
 bool readback_part(struct gl_frame *f, lam_error *error);
 
-// --- gl_state_save.c: the state of the caller's context, saved before a frame and restored after it
+// --- gl_state.c: the state of the caller's context, saved before a frame and restored after it
 struct gl_saved_state {
     GLint program, array, draw_framebuffer, read_framebuffer, active_unit;
     GLint array_buffer, uniform_buffer, unpack_buffer, pack_buffer;

@@ -76,8 +76,8 @@ static bool find_rows(struct gl_frame *f, struct gl_program *program, lam_error 
                                                      "first_triangle"};
     const struct gl *gl = f->gl;
     struct glsl_row rows[GLSL_ROWS_MAX];
-    struct glsl_facts facts = glsl_facts_of(&program->choices);
-    int count = glsl_rows(&facts, rows), unit = UNIT_FIRST_MAP;
+    struct glsl_stage stage = glsl_stage_of(&program->choices);
+    int count = glsl_declarations(&stage, rows), unit = UNIT_FIRST_MAP;
     size_t bytes = ((size_t)count + UNIFORM_ROWS) * sizeof *program->uniforms;
     program->uniforms = malloc(bytes);
     if (!program->uniforms)

@@ -1,7 +1,6 @@
 // gl_state.c: changes the context's state only if necessary, and allocates vertex buffers.
-#include "gl_device.h"
-
 #include "fail.h"
+#include "gl_device.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -167,4 +166,147 @@ void *gl_buffer_map_new(struct gl_frame *f, GLuint buffer, size_t bytes, GLenum 
     }
     f->device->base.report.bytes_uploaded += bytes;
     return mapped;
+}
+
+// Saves the state of the caller's context that a frame changes, and restores it.
+
+static const GLenum switches[] = {
+    GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD,
+    GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE, GL_POLYGON_OFFSET_FILL, GL_PRIMITIVE_RESTART_FIXED_INDEX,
+    // The following exist only in desktop OpenGL.
+    GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_MULTISAMPLE};
+enum { SWITCHES = sizeof switches / sizeof *switches, SWITCHES_ES = 10 };
+
+static const GLenum unpacking[] = {GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,   GL_UNPACK_SKIP_ROWS,
+                                   GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES};
+static const GLenum packing[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS};
+static const GLint default_storage[6] = {4, 0, 0, 0, 0, 0};
+
+static bool is_supported(const struct gl_device *device, int i)
+{
+    if (switches[i] == GL_PRIMITIVE_RESTART_FIXED_INDEX) // part of desktop OpenGL since version 4.3
+        return device->context.es || device->context.major * 10 + device->context.minor >= 43;
+    return !device->context.es || i < SWITCHES_ES;
+}
+
+static void set_switch(const struct gl *gl, GLenum name, bool on)
+{
+    if (on)
+        gl->Enable(name);
+    else
+        gl->Disable(name);
+}
+
+static void set_defaults(const struct gl_device *device)
+{
+    const struct gl *gl = &device->context.gl;
+    for (int i = 0; i < SWITCHES; i++)
+        if (is_supported(device, i))
+            set_switch(gl, switches[i], switches[i] == GL_DEPTH_TEST);
+    for (int i = 0; i < 6; i++)
+        gl->PixelStorei(unpacking[i], default_storage[i]);
+    for (int i = 0; i < 4; i++)
+        gl->PixelStorei(packing[i], default_storage[i]);
+    gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl->DepthMask(GL_TRUE);
+    gl->DepthFunc(GL_LESS);
+    gl->BlendEquation(GL_FUNC_ADD);
+}
+
+void gl_state_save(const struct gl_device *device, struct gl_saved_state *s)
+{
+    const struct gl *gl = &device->context.gl;
+    if (device->external_context) {
+        gl->GetIntegerv(GL_CURRENT_PROGRAM, &s->program);
+        gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &s->array);
+        gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &s->draw_framebuffer);
+        gl->GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &s->read_framebuffer);
+        gl->GetIntegerv(GL_ACTIVE_TEXTURE, &s->active_unit);
+        gl->GetIntegerv(GL_ARRAY_BUFFER_BINDING, &s->array_buffer);
+        gl->GetIntegerv(GL_UNIFORM_BUFFER_BINDING, &s->uniform_buffer);
+        gl->GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &s->unpack_buffer);
+        gl->GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &s->pack_buffer);
+        for (GLuint i = 0; i < (GLuint)device->unit_count; i++) {
+            gl->ActiveTexture(GL_TEXTURE0 + i);
+            gl->GetIntegerv(GL_TEXTURE_BINDING_2D, &s->texture_2d[i]);
+            gl->GetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &s->texture_array[i]);
+            gl->GetIntegerv(GL_SAMPLER_BINDING, &s->sampler[i]);
+            gl->BindSampler(i, 0);
+        }
+        for (GLuint i = 0; i < POINT_COUNT; i++) {
+            gl->GetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, i, &s->block_buffer[i]);
+            gl->GetIntegeri_v(GL_UNIFORM_BUFFER_START, i, &s->block_offset[i]);
+            gl->GetIntegeri_v(GL_UNIFORM_BUFFER_SIZE, i, &s->block_size[i]);
+        }
+        gl->GetIntegerv(GL_VIEWPORT, s->viewport);
+        gl->GetIntegerv(GL_DEPTH_FUNC, &s->depth_function);
+        gl->GetIntegerv(GL_CULL_FACE_MODE, &s->cull_side);
+        gl->GetIntegerv(GL_FRONT_FACE, &s->front_face);
+        gl->GetIntegerv(GL_BLEND_SRC_RGB, &s->blend[0]);
+        gl->GetIntegerv(GL_BLEND_DST_RGB, &s->blend[1]);
+        gl->GetIntegerv(GL_BLEND_SRC_ALPHA, &s->blend[2]);
+        gl->GetIntegerv(GL_BLEND_DST_ALPHA, &s->blend[3]);
+        gl->GetIntegerv(GL_BLEND_EQUATION_RGB, &s->blend_equation[0]);
+        gl->GetIntegerv(GL_BLEND_EQUATION_ALPHA, &s->blend_equation[1]);
+        gl->GetBooleanv(GL_COLOR_WRITEMASK, s->color_mask);
+        gl->GetBooleanv(GL_DEPTH_WRITEMASK, &s->depth_mask);
+        for (int i = 0; i < 6; i++)
+            gl->GetIntegerv(unpacking[i], &s->unpack[i]);
+        for (int i = 0; i < 4; i++)
+            gl->GetIntegerv(packing[i], &s->pack[i]);
+        for (int i = 0; i < SWITCHES; i++)
+            s->enabled[i] = is_supported(device, i) ? gl->IsEnabled(switches[i]) : GL_FALSE;
+        if (!device->context.es) {
+            gl->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
+            gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+        }
+    }
+    if (device->external_context || !device->frame_number)
+        set_defaults(device);
+}
+
+void gl_state_restore(const struct gl_device *device, const struct gl_saved_state *s)
+{
+    const struct gl *gl = &device->context.gl;
+    if (!device->external_context)
+        return;
+    gl->UseProgram((GLuint)s->program);
+    gl->BindVertexArray((GLuint)s->array);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)s->draw_framebuffer);
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, (GLuint)s->read_framebuffer);
+    gl->BindBuffer(GL_ARRAY_BUFFER, (GLuint)s->array_buffer);
+    gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)s->unpack_buffer);
+    gl->BindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)s->pack_buffer);
+    for (GLuint i = 0; i < (GLuint)device->unit_count; i++) {
+        gl->ActiveTexture(GL_TEXTURE0 + i);
+        gl->BindTexture(GL_TEXTURE_2D, (GLuint)s->texture_2d[i]);
+        gl->BindTexture(GL_TEXTURE_2D_ARRAY, (GLuint)s->texture_array[i]);
+        gl->BindSampler(i, (GLuint)s->sampler[i]);
+    }
+    gl->ActiveTexture((GLenum)s->active_unit);
+    for (GLuint i = 0; i < POINT_COUNT; i++)
+        if (s->block_size[i])
+            gl->BindBufferRange(GL_UNIFORM_BUFFER, i, (GLuint)s->block_buffer[i], s->block_offset[i], s->block_size[i]);
+        else
+            gl->BindBufferBase(GL_UNIFORM_BUFFER, i, (GLuint)s->block_buffer[i]);
+    gl->BindBuffer(GL_UNIFORM_BUFFER, (GLuint)s->uniform_buffer);
+    gl->Viewport(s->viewport[0], s->viewport[1], s->viewport[2], s->viewport[3]);
+    gl->DepthFunc((GLenum)s->depth_function);
+    gl->CullFace((GLenum)s->cull_side);
+    gl->FrontFace((GLenum)s->front_face);
+    gl->BlendFuncSeparate((GLenum)s->blend[0], (GLenum)s->blend[1], (GLenum)s->blend[2], (GLenum)s->blend[3]);
+    gl->BlendEquationSeparate((GLenum)s->blend_equation[0], (GLenum)s->blend_equation[1]);
+    gl->ColorMask(s->color_mask[0], s->color_mask[1], s->color_mask[2], s->color_mask[3]);
+    gl->DepthMask(s->depth_mask);
+    for (int i = 0; i < 6; i++)
+        gl->PixelStorei(unpacking[i], s->unpack[i]);
+    for (int i = 0; i < 4; i++)
+        gl->PixelStorei(packing[i], s->pack[i]);
+    for (int i = 0; i < SWITCHES; i++)
+        if (is_supported(device, i))
+            set_switch(gl, switches[i], s->enabled[i]);
+    if (!device->context.es)
+        gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);
 }

@@ -1,5 +1,5 @@
 // equations.c: splits the files of src/core/lighting into definitions, and writes the definitions that a shader calls.
-#include "equations.h"
+#include "glsl_text.h"
 
 #include "fail.h"
 #include "sources.inc"
@@ -270,7 +270,7 @@ static void write_kept(struct text *text, const struct equations *w)
     }
 }
 
-void equations_add(struct text *text, const struct stage_source *sources, int count, const struct known *known)
+void equations_add(struct text *text, const struct stage_source *sources, int count, const struct constant *constants)
 {
     struct equations *w = calloc(1, sizeof *w);
     bool ok = w != NULL;
@@ -279,7 +279,7 @@ void equations_add(struct text *text, const struct stage_source *sources, int co
         w->sources[w->source_count++] = i < EQUATIONS ? equation_sources[i] : sources[i - EQUATIONS];
         if (w->sources[i].made || !w->sources[i].text)
             continue;
-        specialize_branches(to, w->sources[i].text, known);
+        specialize_branches(to, w->sources[i].text, constants);
         ok = !to->failed;
         if (ok && to->bytes)
             w->count = split_definitions(w->definitions, w->count, to->bytes, i);

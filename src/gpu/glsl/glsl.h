@@ -1,13 +1,13 @@
 // glsl.h: generates a shader for a set of choices, and computes the values of the shader's uniforms for a frame.
 //
-// The source consists of the equations in src/core/lighting that the shader calls (equations.h), and of the files in
+// The source consists of the equations in src/core/lighting that the shader calls (glsl_text.h), and of the files in
 // src/gpu/glsl/text. These files contain the code for all choices. For one set of choices, branches with known conditions
-// are resolved, and unread names are removed (specialize.h).
+// are resolved, and unread names are removed (glsl_text.h).
 //
 // The attributes have these locations (GLSL 120 binds attributes by name):
 //    0 position, 1 normal, 2 color, 3 tangent, 4 front_color, 5 back_color, 6 provoking_position, 7 texcoord,
 //    8 second_texcoord.
-// glsl_rows.c contains the table of uniforms. All colours are vec4, so that arrays of colours have the same layout in
+// glsl_declarations.c contains the table of uniforms. All colours are vec4, so that arrays of colours have the same layout in
 // std140 blocks, in texels and for glUniform4fv.
 #ifndef GLSL_H
 #define GLSL_H
@@ -135,14 +135,14 @@ struct glsl_text {
 };
 
 // A style of shaders other than the full style.
-struct glsl_facts;
+struct glsl_stage;
 struct text;
 struct glsl_style {
     // Returns whether the style supports these choices. Otherwise the error is LAM_UNSUPPORTED, and its message names
     // the unsupported option.
-    bool (*check)(const struct glsl_choices *choices, const struct glsl_facts *facts, lam_error *error);
+    bool (*check)(const struct glsl_choices *choices, const struct glsl_stage *stage, lam_error *error);
     // Appends the code of a stage, without its version and its uniforms.
-    void (*add_stage)(struct text *text, const struct glsl_facts *stage);
+    void (*add_stage)(struct text *text, const struct glsl_stage *stage);
     // Inserts the mistake choices->mistake into one of the sources `texts`. On success, all sources are freed and
     // replaced by copies. Returns false on failure.
     bool (*change)(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
@@ -201,13 +201,13 @@ void glsl_pack_products(const struct glsl_choices *choices, const struct frame *
 void glsl_choose_maps(struct glsl_choices *choices, const struct frame *frame, const struct frame_draw_range *range);
 
 // Returns whether a shader for these materials computes two sums of light: with and without the factor of the diffuse
-// map (glsl_facts.separate_texture_terms).
+// map (glsl_stage.separate_texture_terms).
 bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_draw_range *range);
 
 // Returns the smallest visible opacity of a masked surface. For outputs of surface properties, only maps and vertex
 // colours matter.
 float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material);
-// Gets the emission that an emission map multiplies at each fragment (glsl_facts.maps_interpolated_light).
+// Gets the emission that an emission map multiplies at each fragment (glsl_stage.maps_interpolated_light).
 void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_range *range, bool back, float out[4]);
 
 // Gets the rows of a map's uniforms NAME_map_s and NAME_map_t: the matrix from the mesh's texture coordinates to the

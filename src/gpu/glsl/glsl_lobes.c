@@ -1,5 +1,5 @@
 // glsl_lobes.c: writes GLSL calls of the reflection models, from the table in src/core/lighting/lobes.h.
-#include "glsl_rows.h"
+#include "glsl_declarations.h"
 
 #define LANES 1
 #include "lighting.h"
@@ -28,7 +28,7 @@ static bool is_name(const char *at, size_t length, const char *name)
 
 static size_t name_length(const char *at) { return strspn(at, "abcdefghijklmnopqrstuvwxyz_0123456789"); }
 
-bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
+bool glsl_lobe_reads(const struct glsl_stage *f, const char *parameter)
 {
     if (f->output_material && glsl_is_physical(f) &&
         strcmp(parameter, f->choices->output == LAM_OUTPUT_ROUGHNESS  ? "roughness"
@@ -54,9 +54,9 @@ bool glsl_lobe_reads(const struct glsl_facts *f, const char *parameter)
 }
 
 // With products and two materials, parameters are selected once, before the loops over the lights.
-static bool selects(const struct glsl_facts *f) { return f->choices->products && f->back_material; }
+static bool selects(const struct glsl_stage *f) { return f->choices->products && f->back_material; }
 
-void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
+void glsl_add_parameters(struct text *text, const struct glsl_stage *f)
 {
     for (int i = 0; selects(f) && i < PARAMETERS; i++)
         if (glsl_lobe_reads(f, parameters[i]))
@@ -65,7 +65,7 @@ void glsl_add_parameters(struct text *text, const struct glsl_facts *f)
 
 // Adds the value of a parameter from the material and its maps. If `own` is false and the shader widens the roughness,
 // adds the widened roughness instead.
-static void add_parameter(struct text *text, const struct glsl_facts *f, const char *name, size_t length, bool own)
+static void add_parameter(struct text *text, const struct glsl_stage *f, const char *name, size_t length, bool own)
 {
     char member[32];
     snprintf(member, sizeof member, "%.*s", (int)length, name);
@@ -80,17 +80,17 @@ static void add_parameter(struct text *text, const struct glsl_facts *f, const c
     text_print(text, "%s%.*s", !f->choices->products ? "m." : selects(f) ? "own_" : "", (int)length, name);
 }
 
-void glsl_add_parameter(struct text *text, const struct glsl_facts *f, const char *name)
+void glsl_add_parameter(struct text *text, const struct glsl_stage *f, const char *name)
 {
     add_parameter(text, f, name, strlen(name), false);
 }
 
-void glsl_add_own_parameter(struct text *text, const struct glsl_facts *f, const char *name)
+void glsl_add_own_parameter(struct text *text, const struct glsl_stage *f, const char *name)
 {
     add_parameter(text, f, name, strlen(name), true);
 }
 
-void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
+void glsl_add_lobe(struct text *text, const struct glsl_stage *f)
 {
     text_add(text, f->microfacet ? "microfacet_of(" : "reflected_of(");
     for (const char *at = calls[f->choices->reflection]; *at;) {
@@ -122,7 +122,7 @@ void glsl_add_lobe(struct text *text, const struct glsl_facts *f)
 
 // Appends the value of a layer's field at the point: the value from the maps or, if no map changes the field, the value
 // of the visible side's material.
-static void add_layer_field(struct text *text, const struct glsl_facts *f, const char *member, const char *field,
+static void add_layer_field(struct text *text, const struct glsl_stage *f, const char *member, const char *field,
                             bool color)
 {
     if (glsl_maps_have(f, member))
@@ -135,7 +135,7 @@ static void add_layer_field(struct text *text, const struct glsl_facts *f, const
         text_print(text, "%s%s", field, color ? ".rgb" : "");
 }
 
-void glsl_add_layers(struct text *text, const struct glsl_facts *f)
+void glsl_add_layers(struct text *text, const struct glsl_stage *f)
 {
     for (int i = 0; material_field(i); i++) { // the numbers are in the order of the table of fields
         const struct material_field *row = material_field(i);

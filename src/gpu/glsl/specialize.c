@@ -1,6 +1,6 @@
 // specialize.c: if the condition of a branch is known, keeps only the selected code. Then removes the names that are
 // never read.
-#include "specialize.h"
+#include "glsl_text.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -45,15 +45,15 @@ static void add_span(struct text *text, struct span s) { text_add_part(text, s.a
 
 enum { LENGTHS = 64 };
 struct index {
-    const struct known *rows;
+    const struct constant *rows;
     bool any[LENGTHS][128]; // whether a name of that length begins with that character
 };
 
-static const char *text_of(struct span name, const struct index *known)
+static const char *text_of(struct span name, const struct index *constants)
 {
     const size_t length = (size_t)(name.end - name.at);
-    const struct known *row = known->rows;
-    if (!length || length >= LENGTHS || !known->any[length][*name.at & 127])
+    const struct constant *row = constants->rows;
+    if (!length || length >= LENGTHS || !constants->any[length][*name.at & 127])
         return NULL;
     while (row->name && !is(name, row->name))
         row++;
@@ -89,41 +89,42 @@ static const char *find_outside(struct span s, const char *operator)
 static const char *const operators[] = {" || ", " && "};
 
 // Returns 1 if the condition holds, 0 if it does not, and -1 if its value is unknown.
-static int truth_of(struct span s, const struct index *known)
+static int truth_of(struct span s, const struct index *constants)
 {
-    const char *text = text_of(s, known);
+    const char *text = text_of(s, constants);
     if (text)
         return is_truth(text) ? *text == 't' : -1;
     for (int i = 0; i < 2; i++) {
         const char *at = find_outside(s, operators[i]);
         if (!at)
             continue;
-        int left = truth_of((struct span){s.at, at}, known), right = truth_of((struct span){at + 4, s.end}, known);
+        int left = truth_of((struct span){s.at, at}, constants),
+            right = truth_of((struct span){at + 4, s.end}, constants);
         return left == !i || right == !i ? !i : left < 0 || right < 0 ? -1 : i;
     }
     if (s.at < s.end && *s.at == '!') {
-        int truth = truth_of((struct span){s.at + 1, s.end}, known);
+        int truth = truth_of((struct span){s.at + 1, s.end}, constants);
         return truth < 0 ? truth : !truth;
     }
     if (s.at < s.end && *s.at == '(' && closing_bracket(s.at, s.end) == s.end - 1)
-        return truth_of((struct span){s.at + 1, s.end - 1}, known);
+        return truth_of((struct span){s.at + 1, s.end - 1}, constants);
     return -1;
 }
 
-static void add_expression(struct text *text, struct span s, const struct index *known);
+static void add_expression(struct text *text, struct span s, const struct index *constants);
 
 // Appends a bracket: expressions separated by commas. A group that contains a single choice loses its brackets if no
 // operators remain.
-static void add_bracket(struct text *text, struct span s, bool group, const struct index *known)
+static void add_bracket(struct text *text, struct span s, bool group, const struct index *constants)
 {
     struct text inner = {0};
     struct span item = {s.at + 1, s.end - 1};
     group = group && (find_outside(item, " ? ") || find_outside(item, " || ") || find_outside(item, " && "));
     for (const char *comma; (comma = find_outside(item, ",")); item.at = comma + 1) {
-        add_expression(&inner, (struct span){item.at, comma}, known);
+        add_expression(&inner, (struct span){item.at, comma}, constants);
         text_add(&inner, ",");
     }
-    add_expression(&inner, item, known);
+    add_expression(&inner, item, constants);
     group = group && !find_outside((struct span){inner.bytes, inner.bytes + inner.length}, " ");
     text_add_part(text, s.at, !group);
     text_add(text, inner.bytes ? inner.bytes : "");
@@ -133,15 +134,15 @@ static void add_bracket(struct text *text, struct span s, bool group, const stru
 }
 
 // Appends an operand: names, numbers, calls, brackets.
-static void add_operand(struct text *text, struct span s, const struct index *known)
+static void add_operand(struct text *text, struct span s, const struct index *constants)
 {
     for (const char *start = s.at; s.at < s.end;) {
         struct span part = name_at(s.at, s.end);
-        const char *other = s.at > start && s.at[-1] == '.' ? NULL : text_of(part, known);
+        const char *other = s.at > start && s.at[-1] == '.' ? NULL : text_of(part, constants);
         if (*s.at == '(' || *s.at == '[') {
             part.end = closing_bracket(s.at, s.end) + 1;
             bool of_if = s.at - start > 2 && memcmp(s.at - 3, "if ", 3) == 0;
-            add_bracket(text, part, *s.at == '(' && !of_if && (s.at == start || !in_name(s.at[-1])), known);
+            add_bracket(text, part, *s.at == '(' && !of_if && (s.at == start || !in_name(s.at[-1])), constants);
         } else if (other && !is_truth(other)) {
             text_add(text, other);
         } else {
@@ -165,7 +166,7 @@ static const char *colon_of(struct span s)
     }
 }
 
-static void add_expression(struct text *text, struct span s, const struct index *known)
+static void add_expression(struct text *text, struct span s, const struct index *constants)
 {
     for (; s.at < s.end && (*s.at == ' ' || *s.at == '\n'); s.at++)
         text_add_part(text, s.at, 1);
@@ -173,14 +174,14 @@ static void add_expression(struct text *text, struct span s, const struct index 
                *colon = question ? colon_of((struct span){question + 3, s.end}) : NULL;
     if (colon) {
         struct span condition = {s.at, question}, yes = {question + 3, colon}, no = {colon + 3, s.end};
-        int truth = truth_of(condition, known);
+        int truth = truth_of(condition, constants);
         if (truth < 0) {
-            add_expression(text, condition, known);
+            add_expression(text, condition, constants);
             text_add(text, " ? ");
-            add_expression(text, yes, known);
+            add_expression(text, yes, constants);
             text_add(text, " : ");
         }
-        add_expression(text, truth > 0 ? yes : no, known);
+        add_expression(text, truth > 0 ? yes : no, constants);
         return;
     }
     for (int i = 0; i < 2; i++) {
@@ -188,25 +189,25 @@ static void add_expression(struct text *text, struct span s, const struct index 
         if (!at)
             continue;
         struct span left = {s.at, at}, right = {at + 4, s.end};
-        bool keeps_left = truth_of(left, known) != i, keeps_right = truth_of(right, known) != i;
+        bool keeps_left = truth_of(left, constants) != i, keeps_right = truth_of(right, constants) != i;
         if (keeps_left)
-            add_expression(text, left, known);
+            add_expression(text, left, constants);
         text_add(text, keeps_left && keeps_right ? operators[i] : "");
         if (keeps_right)
-            add_expression(text, right, known);
+            add_expression(text, right, constants);
         return;
     }
-    add_operand(text, s, known);
+    add_operand(text, s, constants);
 }
 
 // --- lines
 
-static bool has_known(struct span s, const struct index *known)
+static bool has_constant(struct span s, const struct index *constants)
 {
     for (const char *at = s.at; at < s.end; at++)
         if (in_name(*at)) {
             struct span name = name_at(at, s.end);
-            if ((at == s.at || at[-1] != '.') && text_of(name, known))
+            if ((at == s.at || at[-1] != '.') && text_of(name, constants))
                 return true;
             at = name.end - 1;
         }
@@ -214,21 +215,21 @@ static bool has_known(struct span s, const struct index *known)
 }
 
 // Appends a statement, or the head of a statement, without its indentation.
-static void add_statement(struct text *text, struct span s, const struct index *known)
+static void add_statement(struct text *text, struct span s, const struct index *constants)
 {
     struct span code = s;
     while (code.at < s.end && !begins(code, "//"))
         code.at++;
     code = (struct span){s.at, code.at};
-    if (!has_known(code, known)) {
+    if (!has_constant(code, constants)) {
         add_span(text, s);
         return;
     }
     const char *equals = find_outside(code, "= "), *value = equals ? equals + 2 : code.at;
     value += begins(code, "return ") ? strlen("return ") : 0;
     const char *semicolon = find_outside((struct span){value, code.end}, ";"), *end = semicolon ? semicolon : code.end;
-    add_operand(text, (struct span){code.at, value}, known);
-    add_expression(text, (struct span){value, end}, known);
+    add_operand(text, (struct span){code.at, value}, constants);
+    add_expression(text, (struct span){value, end}, constants);
     add_span(text, (struct span){end, s.end});
 }
 
@@ -240,11 +241,11 @@ static const char *closing(const char *at, const char *end, size_t indent)
     return at;
 }
 
-static void add_lines(struct text *text, struct span s, const struct index *known, size_t shift);
+static void add_lines(struct text *text, struct span s, const struct index *constants, size_t shift);
 
 // Appends the selected branch of the `if` at `head`. Returns the position after the `if`, or NULL if the condition is
 // unknown.
-static const char *add_branch(struct text *text, const char *head, struct span s, const struct index *known,
+static const char *add_branch(struct text *text, const char *head, struct span s, const struct index *constants,
                               size_t shift)
 {
     size_t indent = indent_of(head);
@@ -253,13 +254,13 @@ static const char *add_branch(struct text *text, const char *head, struct span s
         struct span line = {head, next};
         if (!begins(line, "if (") || next - head < 8 || memcmp(next - 4, ") {\n", 4) != 0)
             return NULL;
-        int truth = truth_of((struct span){head + 4, next - 4}, known);
+        int truth = truth_of((struct span){head + 4, next - 4}, constants);
         if (truth < 0)
             return NULL;
         const char *close = closing(next, s.end, indent);
         struct span after = {close + indent, s.end};
         if (truth)
-            add_lines(text, (struct span){next, close}, known, shift + 4);
+            add_lines(text, (struct span){next, close}, constants, shift + 4);
         if (!truth && begins(after, "} else if (")) {
             head = after.at + 7;
             continue;
@@ -267,7 +268,7 @@ static const char *add_branch(struct text *text, const char *head, struct span s
         if (!truth && begins(after, "} else {")) {
             next = next_line(close, s.end);
             close = closing(next, s.end, indent);
-            add_lines(text, (struct span){next, close}, known, shift + 4);
+            add_lines(text, (struct span){next, close}, constants, shift + 4);
         }
         while (begins((struct span){close + indent, s.end}, "} else"))
             close = closing(next_line(close, s.end), s.end, indent);
@@ -291,7 +292,7 @@ static const char *statement_end(const char *at, const char *end)
 }
 
 // Appends a statement of several lines as one line.
-static void add_joined(struct text *text, struct span s, const struct index *known)
+static void add_joined(struct text *text, struct span s, const struct index *constants)
 {
     struct text joined = {0};
     for (const char *next; s.at < s.end; s.at = next + indent_of(next)) {
@@ -299,40 +300,40 @@ static void add_joined(struct text *text, struct span s, const struct index *kno
         text_add_part(&joined, s.at, (size_t)(next - s.at - 1));
         text_add(&joined, next < s.end ? " " : "\n");
     }
-    add_statement(text, (struct span){joined.bytes, joined.bytes + joined.length}, known);
+    add_statement(text, (struct span){joined.bytes, joined.bytes + joined.length}, constants);
     text->failed |= joined.failed;
     free(joined.bytes);
 }
 
 // Copies lines and resolves their branches; `shift` is the number of columns to remove from the indentation.
-static void add_lines(struct text *text, struct span s, const struct index *known, size_t shift)
+static void add_lines(struct text *text, struct span s, const struct index *constants, size_t shift)
 {
     while (s.at < s.end) {
-        const char *next = next_line(s.at, s.end), *after = add_branch(text, s.at, s, known, shift);
+        const char *next = next_line(s.at, s.end), *after = add_branch(text, s.at, s, constants, shift);
         size_t indent = indent_of(s.at), off = indent < shift ? indent : shift;
         struct span line = {s.at + indent, next};
         const char *lines =
-            next - line.at > 2 && next[-2] == ';' ? text_of((struct span){line.at, next - 2}, known) : NULL;
+            next - line.at > 2 && next[-2] == ';' ? text_of((struct span){line.at, next - 2}, constants) : NULL;
         if (lines) {
             text_add(text, lines);
         } else if (!after) {
             text_add_part(text, s.at + off, indent - off);
             const struct span statement = {line.at, statement_end(line.at, s.end)};
-            after = statement.end > next && has_known(statement, known) ? statement.end : NULL;
+            after = statement.end > next && has_constant(statement, constants) ? statement.end : NULL;
             if (after)
-                add_joined(text, statement, known);
+                add_joined(text, statement, constants);
             else
-                add_statement(text, line, known);
+                add_statement(text, line, constants);
         }
         s.at = after ? after : next;
     }
 }
 
-void specialize_branches(struct text *text, const char *source, const struct known *known)
+void specialize_branches(struct text *text, const char *source, const struct constant *constants)
 {
-    struct index index = {.rows = known};
-    for (; known->name; known++)
-        index.any[strlen(known->name) % LENGTHS][*known->name & 127] = true;
+    struct index index = {.rows = constants};
+    for (; constants->name; constants++)
+        index.any[strlen(constants->name) % LENGTHS][*constants->name & 127] = true;
     add_lines(text, (struct span){source, source + strlen(source)}, &index, 0);
 }
 

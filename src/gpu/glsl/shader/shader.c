@@ -4,7 +4,7 @@
 #include "arena.h"
 #include "fail.h"
 #include "float_state.h"
-#include "glsl_rows.h"
+#include "glsl_declarations.h"
 #include "lecture.h"
 
 #include <stdio.h>
@@ -30,7 +30,7 @@ struct build {
     const lam_scene *scene;
     struct frame frame;
     struct glsl_choices choices;
-    struct glsl_facts facts;
+    struct glsl_stage stage;
     struct glsl_row rows[GLSL_ROWS_MAX];
     int row_count;
     int *order; // the shader's light i is the frame's light order[i]
@@ -123,8 +123,8 @@ static bool merge_choices(struct build *m, lam_stage stage, int object, bool har
                         "objects %d and %d: one is one-sided, the other is not, and one shader cannot draw both; "
                         "expected the number of one object",
                         a, b);
-        struct glsl_facts facts = glsl_facts_of(&own);
-        if (facts.needs_tangent && own.tangents != m->choices.tangents)
+        struct glsl_stage own_stage = glsl_stage_of(&own);
+        if (own_stage.needs_tangent && own.tangents != m->choices.tangents)
             return fail(error, LAM_BAD_ARGUMENT,
                         "objects %d and %d: one has tangents, the other has none, and one shader cannot draw both; "
                         "expected the number of one object",
@@ -180,8 +180,8 @@ static bool choose(struct build *m, const lam_draw_params *draw, int object, con
     c->passed = m->frame.settings.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
     if (c->environment)
         c->environment = GLSL_CUBE;
-    m->facts = glsl_facts_of(c);
-    m->row_count = glsl_rows(&m->facts, m->rows);
+    m->stage = glsl_stage_of(c);
+    m->row_count = glsl_declarations(&m->stage, m->rows);
     return true;
 }
 
@@ -268,7 +268,7 @@ static bool list_uniforms(const struct build *m, const struct frame_draw_range *
     struct glsl_row members[GLSL_ROWS_MAX];
     size_t capacity = 0;
     for (int i = 0; i < m->row_count; i++) {
-        int fields = glsl_members(&m->facts, m->rows[i].type, members);
+        int fields = glsl_members(&m->stage, m->rows[i].type, members);
         capacity += (size_t)(m->rows[i].count ? m->rows[i].count : 1) * (size_t)(fields ? fields : 1);
     }
     struct uniform_list t = {.out = arena_array(&m->shader->arena, capacity, sizeof *t.out)};
@@ -281,7 +281,7 @@ static bool list_uniforms(const struct build *m, const struct frame_draw_range *
         if (!row->block || !t.block || strcmp(row->block, t.block) != 0)
             t.end = 0;
         t.block = row->block;
-        int fields = glsl_members(&m->facts, row->type, members);
+        int fields = glsl_members(&m->stage, row->type, members);
         for (int k = 0; k < (row->count ? row->count : 1); k++) {
             if (fields || row->count)
                 t.end = (t.end + 15) & ~15;
@@ -330,7 +330,7 @@ static bool list_draws(const struct build *m, int object)
 static bool list_attributes(const struct build *m)
 {
     struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX];
-    int count = glsl_attributes(&m->facts, rows);
+    int count = glsl_attributes(&m->stage, rows);
     lam_shader *result = &m->shader->result;
     lam_shader_attribute *out = arena_array(&m->shader->arena, (size_t)count, sizeof *out);
     for (int i = 0; out && i < count; i++)
@@ -349,7 +349,7 @@ static bool list_textures(const struct build *m)
     if (!lists)
         return false;
     result->textures = lists;
-    if (c->storage != GLSL_TEXTURE || (!m->facts.has_lights && !m->facts.has_hemispheres))
+    if (c->storage != GLSL_TEXTURE || (!m->stage.has_lights && !m->stage.has_hemispheres))
         return true;
     size_t bytes = glsl_lights_bytes(c), each = glsl_products_bytes(c), materials = (size_t)m->frame.material_count;
     float *values = arena_alloc(&m->shader->arena, bytes);
@@ -413,7 +413,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
     if (!order_lights(m))
         return fail(error, LAM_MACHINE, "out of memory");
     struct glsl_choices shaders = m->choices;
-    if (m->choices.style && m->facts.application) {
+    if (m->choices.style && m->stage.application) {
         if (!make_application(m, object, error))
             return false;
         shaders.mistake = 0; // the mistake is in the C function, which computes the light
@@ -430,7 +430,7 @@ static bool make(struct build *m, const lam_camera *camera, const lam_draw_param
                            .vertex = m->shader->text.vertex,
                            .fragment = m->shader->text.fragment,
                            .application = m->shader->application,
-                           .flat = m->facts.shading == LAM_SHADING_FLAT};
+                           .flat = m->stage.shading == LAM_SHADING_FLAT};
     if (!list_attributes(m) || !list_uniforms(m, NULL, &result->uniforms, &result->uniform_count) ||
         !list_draws(m, object) || !list_textures(m))
         return fail(error, LAM_MACHINE, "out of memory for the values of the uniforms");

@@ -1,8 +1,8 @@
 // lighting.glsl: the light that leaves a point.
 //
-// As in all files of this folder, the conditions of `if` and ?: may be facts of a program (glsl_rows.h, glsl_stage.c),
+// As in all files of this folder, the conditions of `if` and ?: may be facts of a program (glsl_declarations.h, glsl.c),
 // and names in capitals are replaced by texts that depend on its choices. A branch with such a condition is not a
-// scope. Code that a program does not need is removed (specialize.h).
+// scope. Code that a program does not need is removed (glsl_text.h).
 
 // The share of the light behind it that the last lit point transmits.
 vec3 passing = vec3(0.0);

@@ -1,4 +1,4 @@
-// maps.glsl: the values of a material's maps at a point, once for each side (glsl_maps.c). The same rules apply as in
+// maps.glsl: the values of a material's maps at a point, once for each side (glsl_samplers.c). The same rules apply as in
 // src/core/cpu/shade/textures.inc. For a map NAME, has_NAME is true if the side has the map. NAME_rgb, NAME_alpha and
 // NAME_number are replaced by its colour, its alpha and its channel, including the map's scale and offset. own_FIELD is
 // replaced by a field of the side's material.

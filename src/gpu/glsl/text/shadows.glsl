@@ -83,7 +83,7 @@ bool meets_box(vec3 low, vec3 high, vec3 inverse, float end, float reach)
     return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, end));
 }
 
-// --- transmitted light, as in src/effects/rays/opacity.c; gl_surfaces.c packs the data
+// --- transmitted light, as in src/effects/rays/opacity.c; gl_shadows.c packs the data
 
 // A texel of a map: four channels, or one channel. Four texels of one channel share a texel of the tree.
 vec4 surface_texel(vec4 pixels, int x, int y)

@@ -1,9 +1,10 @@
-// glsl_maps.c: sets the choices for a shader's maps, finds the maps that the shader reads, and writes the replacements
+// glsl_samplers.c: sets the choices for a shader's maps, finds the maps that the shader reads, and writes the replacements
 // for the names in maps.glsl.
 #include "fail.h"
-#include "glsl_rows.h"
+#include "glsl_declarations.h"
 #include "maps.inc"
-#include "specialize.h"
+#include "glsl_text.h"
+#include "layer_inputs.h"
 
 #define LANES 1
 #include "lighting.h"
@@ -13,6 +14,30 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- the material values that layers use (src/core/lighting/layer_inputs.h)
+
+#define NUMBER(member)                    {#member, #member, LAM_MAP_COUNT, false},
+#define MAPPED_NUMBER(member, field, map) {#member, #field, LAM_MAP_##map, false},
+#define MAPPED_COLOR(member, field, map)  {#member, #field, LAM_MAP_##map, true},
+static const struct glsl_layer_input layer_inputs[] = {LAYER_NUMBERS(NUMBER) LAYER_MAPPED_NUMBERS(MAPPED_NUMBER)
+                                                           LAYER_MAPPED_COLORS(MAPPED_COLOR)};
+#undef NUMBER
+#undef MAPPED_NUMBER
+#undef MAPPED_COLOR
+
+const struct glsl_layer_input *glsl_layer_input(int index)
+{
+    return (unsigned)index < sizeof layer_inputs / sizeof *layer_inputs ? &layer_inputs[index] : NULL;
+}
+
+const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *row)
+{
+    for (int i = 0; glsl_layer_input(i); i++)
+        if (row->reader == FIELD_LAYER && strcmp(layer_inputs[i].field, row->field.name) == 0)
+            return &layer_inputs[i];
+    return NULL;
+}
 
 // --- choices
 
@@ -131,12 +156,12 @@ void glsl_mapped_emission(const struct frame *frame, const struct frame_draw_ran
     out[3] = 1;
 }
 
-// --- facts
+// --- the sampling of maps
 
-bool glsl_is_physical(const struct glsl_facts *f) { return frame_is_physical(f->choices->reflection); }
+bool glsl_is_physical(const struct glsl_stage *f) { return frame_is_physical(f->choices->reflection); }
 
 // Returns the map whose level of detail LAM_OUTPUT_LOD shows on a side, or LAM_MAP_COUNT if the side has no such map.
-static lam_map lod_map(const struct glsl_facts *f, int side)
+static lam_map lod_map(const struct glsl_stage *f, int side)
 {
     for (int i = 0; i < LOD_MAPS; i++)
         if (f->choices->maps[side][frame_lod_maps[i]].used)
@@ -145,7 +170,7 @@ static lam_map lod_map(const struct glsl_facts *f, int side)
 }
 
 // Returns whether the material at a point depends on a map of side `side`.
-static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
+static bool material_reads(const struct glsl_stage *f, int side, lam_map map)
 {
     switch (f->choices->output) {
     case LAM_OUTPUT_BASE_COLOR:
@@ -162,7 +187,7 @@ static bool material_reads(const struct glsl_facts *f, int side, lam_map map)
 }
 
 // Returns whether the shader's output depends on a map.
-static bool reads(const struct glsl_facts *f, int side, lam_map map)
+static bool reads(const struct glsl_stage *f, int side, lam_map map)
 {
     if (f->output_material)
         return (!f->maps_interpolated_light && material_reads(f, side, map)) ||
@@ -188,7 +213,7 @@ static bool reads(const struct glsl_facts *f, int side, lam_map map)
     }
 }
 
-void glsl_find_maps(struct glsl_facts *f)
+void glsl_find_maps(struct glsl_stage *f)
 {
     const struct glsl_choices *c = f->choices;
     bool two = c->two_sided && c->back_material, values = f->output_vector || f->output_geometry || f->output_material;
@@ -217,7 +242,7 @@ void glsl_find_maps(struct glsl_facts *f)
     f->converts &= f->has_maps;
 }
 
-lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
+lam_map glsl_map_owner(const struct glsl_stage *f, int side, lam_map map)
 {
     const struct glsl_map *maps = f->choices->maps[side];
     // a bump map is sampled beside the point, so it has its own sampler
@@ -227,14 +252,14 @@ lam_map glsl_map_owner(const struct glsl_facts *f, int side, lam_map map)
     return map;
 }
 
-static bool any_has(const struct glsl_facts *f, lam_map map) { return f->maps[0][map] || f->maps[1][map]; }
+static bool any_has(const struct glsl_stage *f, lam_map map) { return f->maps[0][map] || f->maps[1][map]; }
 
-static bool has_layer_input(const struct glsl_facts *f, const struct glsl_layer_input *input)
+static bool has_layer_input(const struct glsl_stage *f, const struct glsl_layer_input *input)
 {
     return input->map != LAM_MAP_COUNT && any_has(f, input->map) && !f->shows_level;
 }
 
-bool glsl_maps_have(const struct glsl_facts *f, const char *member)
+bool glsl_maps_have(const struct glsl_stage *f, const char *member)
 {
     // The members of surface_maps that other files read, and the map of each member. Members for layers follow.
     static const struct {
@@ -269,9 +294,9 @@ bool glsl_maps_have(const struct glsl_facts *f, const char *member)
 // The names in maps.glsl for one side, and their replacements.
 enum { WORDS_MAX = 9 * LAM_MAP_COUNT + 24, WORD_MAX = 128 };
 struct words {
-    const struct glsl_facts *facts;
+    const struct glsl_stage *stage;
     int side;
-    struct known rows[WORDS_MAX + 1];
+    struct constant rows[WORDS_MAX + 1];
     char names[WORDS_MAX][36], texts[WORDS_MAX][WORD_MAX];
     int count;
 };
@@ -286,7 +311,7 @@ static void add_word(struct words *w, const char *start, const char *end, const 
     vsnprintf(w->texts[w->count], WORD_MAX, format, arguments);
     __builtin_va_end(arguments);
     snprintf(w->names[w->count], sizeof *w->names, "%s%s", start, end);
-    w->rows[w->count] = (struct known){w->names[w->count], w->texts[w->count]};
+    w->rows[w->count] = (struct constant){w->names[w->count], w->texts[w->count]};
     w->count++;
 }
 
@@ -300,7 +325,7 @@ static const char *prefix(int side) { return side ? "back_" : ""; }
 // Adds a parameter of the side's material.
 static void add_own(struct words *w, const char *name)
 {
-    add_word(w, "own_", name, "%s%s%s", prefix(w->side), w->facts->choices->products ? "" : "material.", name);
+    add_word(w, "own_", name, "%s%s%s", prefix(w->side), w->stage->choices->products ? "" : "material.", name);
 }
 
 static const char *footprint_word(const struct glsl_map *map) { return map->texcoords ? "second" : "first"; }
@@ -317,7 +342,7 @@ static void write_sampling(char out[WORD_MAX], const struct glsl_map *map)
 
 static void add_map(struct words *w, lam_map map)
 {
-    const struct glsl_facts *f = w->facts;
+    const struct glsl_stage *f = w->stage;
     const struct glsl_map *of = &f->choices->maps[w->side][map];
     const char *p = prefix(w->side), *name = lam_map_name(map), *owner = lam_map_name(glsl_map_owner(f, w->side, map));
     char factor[WORD_MAX / 2];
@@ -335,11 +360,11 @@ static void add_map(struct words *w, lam_map map)
 
 static void add_bump(struct words *w)
 {
-    const struct glsl_map *map = &w->facts->choices->maps[w->side][LAM_MAP_BUMP];
+    const struct glsl_map *map = &w->stage->choices->maps[w->side][LAM_MAP_BUMP];
     char sampling[WORD_MAX];
     write_sampling(sampling, map);
     add_word(w, "bump_picture", "", "%s%s_map", prefix(w->side),
-             lam_map_name(glsl_map_owner(w->facts, w->side, LAM_MAP_BUMP)));
+             lam_map_name(glsl_map_owner(w->stage, w->side, LAM_MAP_BUMP)));
     add_word(w, "bump_s", "", "%sbump_map_s", prefix(w->side));
     add_word(w, "bump_t", "", "%sbump_map_t", prefix(w->side));
     add_word(w, "BUMP_SAMPLING", "", "%s", sampling);
@@ -347,7 +372,7 @@ static void add_bump(struct words *w)
     add_word(w, "BUMP_FOOTPRINT", "", "%s", footprint_word(map));
 }
 
-static void add_texels(struct text *text, const struct glsl_facts *f, int side)
+static void add_texels(struct text *text, const struct glsl_stage *f, int side)
 {
     for (int i = 0; i < LAM_MAP_COUNT && (!glsl_maps_have(f, "level") || f->value_masks); i++) {
         if (!f->maps[side][i] || i == LAM_MAP_BUMP || glsl_map_owner(f, side, (lam_map)i) != (lam_map)i)
@@ -362,7 +387,7 @@ static void add_texels(struct text *text, const struct glsl_facts *f, int side)
 
 // Appends the numbers and colours of layers: the material's value times the map's value. The thickness of a film is
 // interpolated between two numbers.
-static void add_layer_values(struct text *text, const struct glsl_facts *f, int side)
+static void add_layer_values(struct text *text, const struct glsl_stage *f, int side)
 {
     const char *p = prefix(side), *own = f->choices->products ? "" : "material.";
     for (int i = 0; glsl_layer_input(i); i++) {
@@ -383,7 +408,7 @@ static void add_layer_values(struct text *text, const struct glsl_facts *f, int 
     }
 }
 
-static void add_layer_members(struct text *text, const struct glsl_facts *f)
+static void add_layer_members(struct text *text, const struct glsl_stage *f)
 {
     for (int i = 0; material_field(i); i++) {
         const struct glsl_layer_input *input = glsl_layer_input_of(material_field(i));
@@ -395,7 +420,7 @@ static void add_layer_members(struct text *text, const struct glsl_facts *f)
 
 static const char *level_word(const struct words *w)
 {
-    lam_map map = lod_map(w->facts, w->side);
+    lam_map map = lod_map(w->stage, w->side);
     for (int i = 0; map < LAM_MAP_COUNT && i < w->count; i++)
         if (strncmp(w->names[i], lam_map_name(map), strlen(lam_map_name(map))) == 0 &&
             strcmp(w->names[i] + strlen(lam_map_name(map)), "_level") == 0)
@@ -403,10 +428,10 @@ static const char *level_word(const struct words *w)
     return "0.0";
 }
 
-static void add_side(struct text *text, const struct glsl_facts *f, int side)
+static void add_side(struct text *text, const struct glsl_stage *f, int side)
 {
     const struct glsl_choices *c = f->choices;
-    struct words w = {.facts = f, .side = side};
+    struct words w = {.stage = f, .side = side};
     struct text texels = {0}, layers = {0}, members = {0};
     for (int i = 0; i < LAM_MAP_COUNT; i++)
         add_map(&w, (lam_map)i);
@@ -427,9 +452,9 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     add_texels(&texels, f, side);
     add_layer_values(&layers, f, side);
     add_layer_members(&members, f);
-    const struct known made[] = {{"TEXELS", texels.bytes ? texels.bytes : ""},
-                                 {"LAYER_VALUES", layers.bytes ? layers.bytes : ""},
-                                 {"LAYER_MEMBERS", members.bytes ? members.bytes : ""}};
+    const struct constant made[] = {{"TEXELS", texels.bytes ? texels.bytes : ""},
+                                    {"LAYER_VALUES", layers.bytes ? layers.bytes : ""},
+                                    {"LAYER_MEMBERS", members.bytes ? members.bytes : ""}};
     memcpy(w.rows + w.count, made, sizeof made);
     specialize_branches(text, text_maps_glsl, w.rows);
     text->failed |= texels.failed || layers.failed || members.failed;
@@ -438,7 +463,7 @@ static void add_side(struct text *text, const struct glsl_facts *f, int side)
     free(members.bytes);
 }
 
-void glsl_add_maps(struct text *text, const struct glsl_facts *f)
+void glsl_add_maps(struct text *text, const struct glsl_stage *f)
 {
     for (int side = 0; side <= f->back_material && f->has_maps; side++)
         add_side(text, f, side);

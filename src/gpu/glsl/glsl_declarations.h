@@ -1,7 +1,7 @@
-// glsl_rows.h: the table of a shader's attributes, uniforms, blocks and structs. The declarations and the values in
+// glsl_declarations.h: the table of a shader's attributes, uniforms, blocks and structs. The declarations and the values in
 // lam_shader come from this table.
-#ifndef GLSL_ROWS_H
-#define GLSL_ROWS_H
+#ifndef GLSL_DECLARATIONS_H
+#define GLSL_DECLARATIONS_H
 
 #include "glsl.h"
 #include "text_builder.h"
@@ -52,8 +52,8 @@ struct glsl_row {
 };
 enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
 
-// Properties of a shader that follow from its choices. Each property is a member of struct glsl_facts and a flag of the
-// sources (specialize.h).
+// Properties of a shader that follow from its choices. Each property is a member of struct glsl_stage and a flag of the
+// sources (glsl_text.h).
 // clang-format off
 #define GLSL_FACTS(X) \
     /* light, and the stage that evaluates it */ \
@@ -117,7 +117,7 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     X(distant_viewer) X(gl1) X(two_sided) X(tangents) X(products) X(single_scattering) X(passes_rays) X(tints_rays) X(catches) X(shadows)
 // clang-format on
 
-struct glsl_facts {
+struct glsl_stage {
     const struct glsl_choices *choices;
     lam_shading shading;         // PHONG for outputs of the geometry
     int layers;                  // LAYER_… that light_point adds
@@ -126,28 +126,28 @@ struct glsl_facts {
     GLSL_FACTS(FACT)
 #undef FACT
 };
-struct glsl_facts glsl_facts_of(const struct glsl_choices *choices);
+struct glsl_stage glsl_stage_of(const struct glsl_choices *choices);
 // Returns the facts of one stage.
-struct glsl_facts glsl_stage_facts(const struct glsl_facts *facts, bool fragment);
+struct glsl_stage glsl_stage_of_kind(const struct glsl_stage *stage, bool fragment);
 // Appends the code of a stage, without its version.
-void glsl_add_stage(struct text *text, const struct glsl_facts *stage);
+void glsl_add_stage(struct text *text, const struct glsl_stage *stage);
 
 // Returns whether the reflection model uses the material parameter with this name in LOBE_PARAMETERS
 // (src/core/lighting/lobes.h).
-bool glsl_lobe_reads(const struct glsl_facts *facts, const char *parameter);
+bool glsl_lobe_reads(const struct glsl_stage *stage, const char *parameter);
 // Appends the expression of the colour, `ka` or `kd`, that multiplies hemisphere light i.
 void glsl_add_sky_color(struct text *text, const struct glsl_choices *c, const char *ka, const char *kd);
 // Appends the lines that select the parameters of the lobe from the front or the back material, for shaders with
 // products and two materials.
-void glsl_add_parameters(struct text *text, const struct glsl_facts *facts);
+void glsl_add_parameters(struct text *text, const struct glsl_stage *stage);
 // Finds the maps that a shader uses. The other facts must already be set.
-void glsl_find_maps(struct glsl_facts *facts);
+void glsl_find_maps(struct glsl_stage *stage);
 // Returns the map whose sampler `map` uses: the first map of this side with the same texels, possibly `map` itself.
-lam_map glsl_map_owner(const struct glsl_facts *facts, int side, lam_map map);
+lam_map glsl_map_owner(const struct glsl_stage *stage, int side, lam_map map);
 // Returns whether the reflection model lights physical materials.
-bool glsl_is_physical(const struct glsl_facts *facts);
+bool glsl_is_physical(const struct glsl_stage *stage);
 // Returns whether the struct of map values has a member with this name.
-bool glsl_maps_have(const struct glsl_facts *facts, const char *member);
+bool glsl_maps_have(const struct glsl_stage *stage, const char *member);
 // A member of struct layer_values whose value is a field of the material times the value of a map (layer_inputs.h).
 struct glsl_layer_input {
     char member[28], field[28]; // stored as arrays, because pointers would need relocation at program start
@@ -157,23 +157,23 @@ struct glsl_layer_input {
 const struct glsl_layer_input *glsl_layer_input(int index);                             // NULL past the end
 const struct glsl_layer_input *glsl_layer_input_of(const struct material_field *field); // may be NULL
 // Appends the lines that set the members of `given` (struct layer_values), except the vectors.
-void glsl_add_layers(struct text *text, const struct glsl_facts *facts);
+void glsl_add_layers(struct text *text, const struct glsl_stage *stage);
 // Appends the struct with the values from maps, and the functions that fill this struct.
-void glsl_add_maps(struct text *text, const struct glsl_facts *facts);
+void glsl_add_maps(struct text *text, const struct glsl_stage *stage);
 
 // Append an expression for a material parameter. An own parameter is the value from the material and its maps.
 // Otherwise, the expression is the value that lighting uses.
-void glsl_add_own_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
-void glsl_add_parameter(struct text *text, const struct glsl_facts *facts, const char *name);
+void glsl_add_own_parameter(struct text *text, const struct glsl_stage *stage, const char *name);
+void glsl_add_parameter(struct text *text, const struct glsl_stage *stage, const char *name);
 // Appends the call that evaluates the lobe for the light sample `t`: "reflected_of(phong_lobe(s, t.l), shininess)".
-void glsl_add_lobe(struct text *text, const struct glsl_facts *facts);
+void glsl_add_lobe(struct text *text, const struct glsl_stage *stage);
 
 // Returns the name of a tone curve's function, or "".
 const char *glsl_tone_function(lam_tone tone);
 
 // Lists the uniforms of both shaders in the order of their declarations. The values in each block have the same order.
 // Returns their number.
-int glsl_rows(const struct glsl_facts *facts, struct glsl_row rows[GLSL_ROWS_MAX]);
+int glsl_declarations(const struct glsl_stage *stage, struct glsl_row rows[GLSL_ROWS_MAX]);
 
 struct glsl_attribute {
     int location;
@@ -181,10 +181,10 @@ struct glsl_attribute {
 };
 enum { GLSL_ATTRIBUTES_MAX = 11 };
 // Lists the vertex attributes. Returns their number.
-int glsl_attributes(const struct glsl_facts *facts, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX]);
+int glsl_attributes(const struct glsl_stage *stage, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX]);
 
 // Lists the members of a struct type. Returns their number, or 0 if `type` is not a struct.
-int glsl_members(const struct glsl_facts *facts, const char *type, struct glsl_row rows[GLSL_ROWS_MAX]);
+int glsl_members(const struct glsl_stage *stage, const char *type, struct glsl_row rows[GLSL_ROWS_MAX]);
 // Writes the value of element `index` of a uniform, or of a member of that element. Matrices are written in
 // column-major order. Returns the number of floats; 0 for textures and for the projection, which depends on the window.
 struct glsl_uniform_source {
@@ -195,7 +195,7 @@ struct glsl_uniform_source {
 int glsl_uniform_value(const struct glsl_choices *choices, const struct glsl_uniform_source *from,
                        const struct glsl_row *row, const struct glsl_row *member, int index, float out[16]);
 // Append the declarations.
-void glsl_declare_attributes(struct text *text, const struct glsl_facts *facts);
-void glsl_declare(struct text *text, const struct glsl_facts *facts, bool fragment);
+void glsl_declare_attributes(struct text *text, const struct glsl_stage *stage);
+void glsl_declare(struct text *text, const struct glsl_stage *stage, bool fragment);
 
 #endif

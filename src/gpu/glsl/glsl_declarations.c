@@ -1,5 +1,5 @@
-// glsl_rows.c: the table of a shader's uniforms and attributes, and their declarations.
-#include "glsl_rows.h"
+// glsl_declarations.c: the table of a shader's uniforms and attributes, and their declarations.
+#include "glsl_declarations.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static void add_member(struct list *list, enum glsl_semantic semantic, const cha
 }
 
 // Returns whether the equations use a field of the material.
-static bool is_read(const struct glsl_facts *f, const struct material_field *row)
+static bool is_read(const struct glsl_stage *f, const struct material_field *row)
 {
     switch (row->reader) {
     case FIELD_LIT:
@@ -50,7 +50,7 @@ static bool is_read(const struct glsl_facts *f, const struct material_field *row
 }
 
 // Adds the fields of the material: members of its struct or, with products, separate rows. A block has all fields.
-static void add_fields(struct list *list, const struct glsl_facts *f, const char *block, const char *prefix)
+static void add_fields(struct list *list, const struct glsl_stage *f, const char *block, const char *prefix)
 {
     bool products = f->choices->products;
     struct glsl_material_layout layout = glsl_material_layout(products, f->choices->field_layers);
@@ -65,7 +65,7 @@ static void add_fields(struct list *list, const struct glsl_facts *f, const char
     }
 }
 
-static void add_products(struct list *list, const struct glsl_facts *f, bool back)
+static void add_products(struct list *list, const struct glsl_stage *f, bool back)
 {
     const struct glsl_choices *c = f->choices;
     const char *p = back ? "back_" : "",
@@ -103,7 +103,7 @@ static void add_map_row(struct list *list, enum glsl_semantic semantic, const ch
     list->rows[list->count - 1].back = side;
 }
 
-static void add_maps(struct list *list, const struct glsl_facts *f)
+static void add_maps(struct list *list, const struct glsl_stage *f)
 {
     for (int side = 0; side < 2; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
@@ -119,7 +119,7 @@ static void add_maps(struct list *list, const struct glsl_facts *f)
         }
 }
 
-static void add_environment(struct list *list, const struct glsl_facts *f)
+static void add_environment(struct list *list, const struct glsl_stage *f)
 {
     const struct glsl_choices *c = f->choices;
     if (f->has_environment) {
@@ -142,7 +142,7 @@ static void add_environment(struct list *list, const struct glsl_facts *f)
 }
 
 // For an output that shows one light, adds the uniform of this light.
-static void add_one_light(struct list *list, const struct glsl_facts *f)
+static void add_one_light(struct list *list, const struct glsl_stage *f)
 {
     bool texture = f->choices->storage == GLSL_TEXTURE;
     if (!f->has_lights)
@@ -152,7 +152,7 @@ static void add_one_light(struct list *list, const struct glsl_facts *f)
         texture ? "light_list" : "lights");
 }
 
-static void add_lights(struct list *list, const struct glsl_facts *f)
+static void add_lights(struct list *list, const struct glsl_stage *f)
 {
     const struct glsl_choices *c = f->choices;
     const char *block = c->storage == GLSL_BLOCK ? "Lights" : NULL;
@@ -181,7 +181,7 @@ static void add_lights(struct list *list, const struct glsl_facts *f)
         add(list, GLSL_PASSED, "float", c->light_count, NULL, "the unblocked share of each light, 0...1", "passed");
 }
 
-int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
+int glsl_declarations(const struct glsl_stage *f, struct glsl_row rows[GLSL_ROWS_MAX])
 {
     const struct glsl_choices *c = f->choices;
     struct list list = {.rows = rows};
@@ -228,7 +228,7 @@ int glsl_rows(const struct glsl_facts *f, struct glsl_row rows[GLSL_ROWS_MAX])
     return list.count;
 }
 
-int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX])
+int glsl_attributes(const struct glsl_stage *f, struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX])
 {
     const struct glsl_choices *c = f->choices;
     bool flat = f->shading == LAM_SHADING_FLAT, glsl_120 = c->version == GLSL_120, shaded = f->lit && !f->unlit;
@@ -274,7 +274,7 @@ int glsl_attributes(const struct glsl_facts *f, struct glsl_attribute rows[GLSL_
     return count;
 }
 
-void glsl_declare_attributes(struct text *text, const struct glsl_facts *f)
+void glsl_declare_attributes(struct text *text, const struct glsl_stage *f)
 {
     struct glsl_attribute rows[GLSL_ATTRIBUTES_MAX];
     int count = glsl_attributes(f, rows), width = 0;
@@ -289,7 +289,7 @@ void glsl_declare_attributes(struct text *text, const struct glsl_facts *f)
 }
 
 // Returns whether the vertex shader (`fragment` false) or the fragment shader uses a uniform.
-static bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *row, bool fragment)
+static bool glsl_row_is_in(const struct glsl_stage *f, const struct glsl_row *row, bool fragment)
 {
     switch (row->semantic) {
     case GLSL_MODEL_VIEW_PROJECTION:
@@ -310,7 +310,7 @@ static bool glsl_row_is_in(const struct glsl_facts *f, const struct glsl_row *ro
     }
 }
 
-int glsl_members(const struct glsl_facts *f, const char *type, struct glsl_row rows[GLSL_ROWS_MAX])
+int glsl_members(const struct glsl_stage *f, const char *type, struct glsl_row rows[GLSL_ROWS_MAX])
 {
     const struct glsl_choices *c = f->choices;
     struct list list = {.rows = rows};
@@ -362,10 +362,10 @@ static void declare(struct text *text, const char *start, const struct glsl_row 
     text_print(text, "%s%s %s%*s // %s\n", start, row->type, name, width - width_of(row), "", row->meaning);
 }
 
-static void declare_struct(struct text *text, const struct glsl_facts *facts, const char *type)
+static void declare_struct(struct text *text, const struct glsl_stage *stage, const char *type)
 {
     struct glsl_row members[GLSL_ROWS_MAX];
-    int count = glsl_members(facts, type, members);
+    int count = glsl_members(stage, type, members);
     if (!count)
         return;
     text_print(text, "struct %s {\n", type);
@@ -377,27 +377,27 @@ static void declare_struct(struct text *text, const struct glsl_facts *facts, co
     text_add(text, "};\n");
 }
 
-void glsl_declare(struct text *text, const struct glsl_facts *facts, bool fragment)
+void glsl_declare(struct text *text, const struct glsl_stage *stage, bool fragment)
 {
     struct glsl_row rows[GLSL_ROWS_MAX];
-    int count = glsl_rows(facts, rows);
+    int count = glsl_declarations(stage, rows);
     const char *block = NULL;
     int width = 0;
     for (int i = 0; i < count; i++)
-        if (glsl_row_is_in(facts, &rows[i], fragment))
+        if (glsl_row_is_in(stage, &rows[i], fragment))
             width = width_of(&rows[i]) > width ? width_of(&rows[i]) : width;
     if (!width)
         return;
     text_add(text, "\n// --- uniforms, set by the application\n\n");
     for (int i = 0; i < count; i++) { // structs are declared before the uniforms of their type
-        bool skip = !glsl_row_is_in(facts, &rows[i], fragment);
+        bool skip = !glsl_row_is_in(stage, &rows[i], fragment);
         for (int k = 0; k < i; k++)
             skip |= strcmp(rows[k].type, rows[i].type) == 0;
         if (!skip)
-            declare_struct(text, facts, rows[i].type);
+            declare_struct(text, stage, rows[i].type);
     }
     for (int i = 0; i < count; i++) {
-        if (!glsl_row_is_in(facts, &rows[i], fragment))
+        if (!glsl_row_is_in(stage, &rows[i], fragment))
             continue;
         bool opens = rows[i].block && (!block || strcmp(block, rows[i].block) != 0);
         if (block && (opens || !rows[i].block))

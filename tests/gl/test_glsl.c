@@ -146,8 +146,8 @@ static void test_masks_of_two_materials(void **state)
 static void check_branches(const char *source, const char *expected)
 {
     static const struct constant constants[] = {{"a == 1", "true"}, {"b == 2", "false"}, {"on", "true"},
-                                         {"off", "false"},   {"FIVE", "5"},       {"LINES", "    x;\n    y;\n"},
-                                         {NULL, NULL}};
+                                                {"off", "false"},   {"FIVE", "5"},       {"LINES", "    x;\n    y;\n"},
+                                                {NULL, NULL}};
     struct text text = {0};
     specialize_branches(&text, source, constants);
     assert_false(text.failed);

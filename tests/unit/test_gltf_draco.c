@@ -3,7 +3,7 @@
 // uncompressed data is read.
 #include "loading.h"
 
-#include "draco_header.h"
+#include "gltf_meshes.h"
 
 // A square of four vertices: attribute 7 is the positions, attribute 3 the texture coordinates as unsigned bytes;
 // encoded by Draco's own encoder.

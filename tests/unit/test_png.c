@@ -4,8 +4,7 @@
 #include "fnv.h"
 #include "checksum.h"
 #include "deflate.h"
-#include "huffman.h"
-#include "png_filter.h"
+#include "png_encoding.h"
 
 #include <lambent/image.h>
 

@@ -1,8 +1,8 @@
-// test_png_read.c: pictures read in one step (png_whole.c) have libspng's pixels, and files that libspng refuses are
+// test_png_read.c: pictures read in one step (png_read.c) have libspng's pixels, and files that libspng refuses are
 // refused.
 #include "dynamic_library.h"
 #include "pixels.h"
-#include "png_whole.h"
+#include "png_encoding.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -14,7 +14,6 @@
 
 #include "arena.h"
 #include "shapes.h"
-#include "teapot_data.h"
 
 #include <lambent/scene.h>
 

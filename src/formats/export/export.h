@@ -97,7 +97,7 @@ bool export_text_is_whole(struct exporting *e, const struct text *text);
 // flatten.c: builds e->flat from the scene.
 bool export_flatten(struct exporting *e);
 
-// export_numbers.c: writes numbers as text and as bytes, and rotates vectors to the format's up axis.
+// export_vertices.c: writes numbers as text and as bytes, and rotates vectors to the format's up axis.
 void export_number(struct text *text,
                    double x); // with all digits of a float, or of a double if it is not exactly a float
 void export_word(struct text *text, uint32_t value); // little-endian

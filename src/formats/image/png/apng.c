@@ -9,7 +9,6 @@
 #include "fail.h"
 #include "pixels.h"
 #include "png_encoding.h"
-#include "png_whole.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // deflate_write.c: writes counted tokens as bits, with the strip's own Huffman codes, or stores the bytes uncompressed.
-#include "deflate_codes.h"
+#include "deflate.h"
 
 size_t deflate_capacity(int width, int rows, int bytes_per_pixel)
 {

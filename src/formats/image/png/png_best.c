@@ -7,7 +7,6 @@
 #include "png_encoding.h"
 
 #include "fail.h"
-#include "png_filter.h"
 
 #ifdef HAVE_LIBDEFLATE
 #include "dynamic_library.h"

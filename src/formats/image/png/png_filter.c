@@ -1,5 +1,5 @@
 // png_filter.c: applies the row filters of PNG, sixteen bytes at a time.
-#include "png_filter.h"
+#include "png_encoding.h"
 
 #include <stdbool.h>
 #include <string.h>

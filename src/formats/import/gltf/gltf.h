@@ -1,11 +1,11 @@
 // gltf.h: internals of the glTF 2.0 importer.
 //
-// The JSON text (gltf_json.c) of a .gltf, or of a .glb (gltf_container.c), describes buffers (gltf_buffers.c,
-// gltf_views.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). The arrays become meshes
+// The JSON text (gltf_json.c) of a .gltf, or of a .glb (gltf.c), describes buffers (gltf_buffers.c,
+// gltf_accessors.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). The arrays become meshes
 // (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
-// (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_cameras.c). Materials (gltf_materials.c) request
+// (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_nodes.c). Materials (gltf_materials.c) request
 // textures, whose pictures are decoded together (gltf_textures.c). An animation first sets the transforms of the nodes
-// (gltf_animation.c). If a mesh has morph targets or a skin (gltf_deform.c, gltf_skins.c), its positions are copied and
+// (gltf_animation.c). If a mesh has morph targets or a skin (gltf_deform.c, gltf_deform.c), its positions are copied and
 // changed.
 //
 // Every count and index is checked when it is read. Errors name the position in the file: "ship.gltf:
@@ -80,17 +80,17 @@ struct gltf {
     int variant;          // the requested variant, or −1
     struct gltf_problem *problems; // gltf_json.c: what is wrong in the file but not needed, in the file's order
 
-    lam_file_image *file_images;   // one element for each image (gltf_file_info.h)
-    struct gltf_picture *pictures; // gltf_textures.h: two for each image of the file
+    lam_file_image *file_images;   // one element for each image (gltf.h)
+    struct gltf_picture *pictures; // gltf_materials.h: two for each image of the file
     struct gltf_map *maps;         // the maps of materials, latest first
     // For each material, the file's numbers of the texture coordinate sets that the material uses, at most two; −1
     // marks an unused element.
     int (*texcoord_sets)[2];
 
-    struct gltf_node *nodes; // gltf_nodes.h
+    struct gltf_node *nodes; // gltf.h
     int node_count;
     const int *node_order;    // parents before children, children in the file's order
-    struct gltf_mesh *meshes; // gltf_primitives.h
+    struct gltf_mesh *meshes; // gltf_meshes.h
 
     // The numbers of skipped primitives, by the reason. Each reason causes one warning, or an error if the file
     // contains no other primitives.
@@ -102,5 +102,72 @@ struct gltf {
 
 // Reports that `bytes` bytes of memory could not be allocated. Returns false.
 bool gltf_no_memory(struct gltf *gltf, size_t bytes);
+
+// --- reads the file's cameras (section 3.10).
+
+// Adds the cameras of the scene's nodes.
+bool gltf_cameras_add(struct gltf *gltf);
+
+// --- reads .glb files: a header, and chunks that contain the JSON text and the binary buffer (section 4).
+
+static inline bool gltf_is_binary(const uint8_t *bytes, size_t size)
+{
+    return size >= 4 && bytes[0] == 'g' && bytes[1] == 'l' && bytes[2] == 'T' && bytes[3] == 'F';
+}
+
+// Finds the JSON text: a chunk of a .glb file, or the whole of any other file. Sets gltf->binary.
+bool gltf_container_read(struct gltf *gltf, const uint8_t **text, size_t *size);
+
+// --- checks the extensions that a file uses, and reports which of them are supported.
+
+// Checks "asset" (section 3.2), and the extensions (section 3.12) that gltf_file_info_note found. Fails with LAM_UNSUPPORTED if
+// the file requires a later version, or (unless the load is lenient) an unknown extension.
+bool gltf_check_asset(struct gltf *gltf);
+bool gltf_check_extensions(struct gltf *gltf);
+
+lam_extension_support gltf_extension_support(const char *name);
+
+// --- collects information about the file (lam_file_info).
+
+// Stores the file's information in the scene; gltf_nodes_read stores the index of the selected scene. No buffers are
+// read. Returns false if memory runs out.
+bool gltf_file_info_note(struct gltf *gltf);
+
+// --- reads the file's lights (KHR_lights_punctual).
+
+// Adds the lights of the scene's nodes.
+bool gltf_lights_add(struct gltf *gltf);
+
+// --- reads the node tree (section 3.5).
+
+struct gltf_node {
+    int parent; // −1 for a root
+    // The transform as a matrix, or as translation, rotation (a unit quaternion x y z w) and scale.
+    bool has_matrix;
+    double matrix[16]; // column by column
+    double translation[3], rotation[4], scale[3];
+    double *weights; // weights of morph targets; NULL means the mesh's weights
+    size_t weight_count;
+    bool visible;   // KHR_node_visibility: the node and all its ancestors are visible
+    bool in_scene;  // the node belongs to the scene that is drawn
+    lam_mat4 world; // transform from the node's space to the file's space
+};
+
+// Reads all nodes, checks that they form trees, and marks the nodes of the requested scene.
+bool gltf_nodes_read(struct gltf *gltf);
+
+// Computes node->world and node->visible for all nodes.
+void gltf_nodes_place(struct gltf *gltf);
+
+// Normalizes a quaternion; a zero quaternion becomes the identity.
+void gltf_unit_quaternion(double q[4]);
+
+lam_mat4 gltf_transform(const double translation[3], const double rotation[4], const double scale[3]);
+
+// --- converts nodes with meshes to objects of the scene.
+
+// Adds objects for the scene's nodes with meshes: one object for each primitive of the node's mesh. If the node has
+// instances (EXT_mesh_gpu_instancing), adds these objects for each instance.
+bool gltf_objects_add(struct gltf *gltf);
 
 #endif

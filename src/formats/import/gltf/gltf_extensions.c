@@ -1,5 +1,5 @@
 // gltf_extensions.c: checks the extensions that a file uses, and reports which of them are supported.
-#include "gltf_extensions.h"
+#include "gltf.h"
 
 #include "gltf_json.h"
 

@@ -1,8 +1,7 @@
 // gltf_file_info.c: collects information about the file: names, animation lengths, extensions. Values with a wrong type
 // are treated as missing, because they do not affect the picture.
-#include "gltf_file_info.h"
+#include "gltf.h"
 
-#include "gltf_extensions.h"
 #include "gltf_json.h"
 
 #include <string.h>

@@ -1,8 +1,7 @@
 // gltf_lights.c: reads the file's lights (KHR_lights_punctual).
-#include "gltf_lights.h"
+#include "gltf.h"
 
 #include "gltf_json.h"
-#include "gltf_nodes.h"
 
 #include "linear.h"
 

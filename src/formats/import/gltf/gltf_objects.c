@@ -1,13 +1,11 @@
 // gltf_objects.c: converts nodes with meshes to objects of the scene, and adds their instances
 // (EXT_mesh_gpu_instancing).
-#include "gltf_objects.h"
+#include "gltf.h"
 
-#include "gltf_accessors.h"
+#include "gltf_data.h"
 #include "gltf_json.h"
 #include "gltf_materials.h"
-#include "gltf_nodes.h"
-#include "gltf_numbers.h"
-#include "gltf_primitives.h"
+#include "gltf_meshes.h"
 
 #include "linear.h"
 

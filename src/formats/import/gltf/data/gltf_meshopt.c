@@ -1,9 +1,8 @@
 // gltf_meshopt.c: decodes bufferViews that are compressed with EXT_meshopt_compression. The meshoptimizer library does
 // the decoding and is loaded on demand.
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
-#include "gltf_meshopt.h"
+#include "gltf_data.h"
 
-#include "gltf_buffers.h"
 #include "gltf_json.h"
 
 #include "dynamic_library.h"

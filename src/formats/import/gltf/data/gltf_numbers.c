@@ -1,8 +1,6 @@
 // gltf_numbers.c: reads the numbers of accessors as floats, indices and colours, in parallel chunks.
-#include "gltf_numbers.h"
+#include "gltf_data.h"
 
-#include "gltf_accessors.h"
-#include "gltf_buffers.h"
 #include "gltf_json.h"
 #include "parallel_rows.h"
 

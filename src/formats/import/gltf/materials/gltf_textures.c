@@ -1,10 +1,9 @@
 // gltf_textures.c: reads textures, samplers and images. Each material requests its maps while the material is read.
 // Then the pictures of all maps are decoded in parallel.
-#include "gltf_textures.h"
+#include "gltf_materials.h"
 
-#include "gltf_buffers.h"
+#include "gltf_data.h"
 #include "gltf_json.h"
-#include "gltf_uri.h"
 
 #include "fail.h"
 #include "linear.h"

@@ -1,10 +1,9 @@
 // gltf_animation.c: evaluates an animation at one time (section 3.11) and stores the results in the nodes.
-#include "gltf_animation.h"
+#include "gltf_meshes.h"
 
-#include "gltf_accessors.h"
+#include "gltf_data.h"
 #include "gltf_json.h"
-#include "gltf_nodes.h"
-#include "gltf_numbers.h"
+#include "gltf.h"
 
 #include "linear.h"
 

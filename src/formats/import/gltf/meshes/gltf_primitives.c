@@ -2,16 +2,11 @@
 //
 // The primitives of one glTF mesh may use different attributes and materials. The meshes made from these primitives
 // share common arrays. If possible, the arrays point directly into the file's data, without a copy.
-#include "gltf_primitives.h"
+#include "gltf_meshes.h"
 
-#include "gltf_accessors.h"
-#include "gltf_deform.h"
-#include "gltf_draco.h"
+#include "gltf_data.h"
 #include "gltf_json.h"
 #include "gltf_materials.h"
-#include "gltf_numbers.h"
-#include "gltf_textures.h"
-#include "gltf_triangles.h"
 
 #include "fail.h"
 

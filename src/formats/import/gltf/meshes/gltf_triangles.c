@@ -1,10 +1,9 @@
 // gltf_triangles.c: converts triangles, strips and fans to triangles, and lines, loops and strips to lines (section
 // 3.7.2.1).
-#include "gltf_triangles.h"
+#include "gltf_meshes.h"
 
-#include "gltf_accessors.h"
+#include "gltf_data.h"
 #include "gltf_json.h"
-#include "gltf_numbers.h"
 
 #include "fail.h"
 

@@ -10,7 +10,7 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "help.h"
-#include "page_file.h"
+#include "page.h"
 #include "report.h"
 #include "sandbox.h"
 #include "settings_file.h"

@@ -6,9 +6,8 @@
 #include "target.h"
 
 #include "view_events.h"
-#include "view_gallery.h"
-#include "view_routes.h"
-#include "view_waiting.h"
+#include "view_page.h"
+#include "view_answer.h"
 #include "view_words.h"
 
 enum { PAIRS_MAX = 32, PORT = 8080 };

@@ -17,7 +17,7 @@
 #include "corner_fan.h"
 #include "normals.h"
 #include "pool.h"
-#include "position_simd.h"
+#include "positions.h"
 #include "visible_normals.h"
 
 #include <lambent/scene.h>

@@ -1,10 +1,9 @@
 // test_tangents.c: MikkTSpace: small meshes whose tangents follow from the definition, and four primitives of models
 // compared with the tangents of Mikkelsen's own code (../shared/reference-pictures/mikktspace, if it exists).
 #include "cpu_features.h"
-#include "edge_twins.h"
+#include "tangent_steps.h"
 #include "mikktspace.h"
 #include "quad.h"
-#include "tangent_kernels.h"
 
 #include <lambent/lambent.h>
 

@@ -9,7 +9,7 @@
 #include "console.h"
 #include "device_option.h"
 #include "drawing.h"
-#include "highlight.h"
+#include "sheet.h"
 #include "interrupt.h"
 #include "job.h"
 #include "json.h"
@@ -17,8 +17,6 @@
 #include "report.h"
 #include "shader.h"
 #include "sandbox_start.h"
-#include "sheet.h"
-#include "sheet_defaults.h"
 #include "terminal.h"
 
 enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };

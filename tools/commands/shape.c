@@ -9,7 +9,7 @@
 #include "job.h"
 #include "job_check.h"
 #include "output.h"
-#include "page_file.h"
+#include "page.h"
 #include "report.h"
 
 static bool is_model_file(const char *output)

@@ -5,9 +5,8 @@
 #include <string.h>
 
 #include "command.h"
-#include "generate.h"
+#include "help.h"
 #include "plot.h"
-#include "topics.h"
 
 static struct typed_word whole(const char *argument) { return (struct typed_word){argument, argument, 0}; }
 

@@ -1,13 +1,11 @@
 // field_tables.c: prints the tables of material and light fields, as Markdown, for the man page, and for `help`.
-#include "field_tables.h"
+#include "help.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include <lambent/material.h>
-
-#include "help_print.h"
 
 const char *field_standard(const lam_field *field, char text[80])
 {

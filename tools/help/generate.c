@@ -1,15 +1,14 @@
 // generate.c: the command `generate`: prints texts generated from the tables of options, commands and fields.
-#include "generate.h"
-
-#include <stdio.h>
-#include <string.h>
-
-#include <lambent/check.h>
-
 #include "console.h"
 #include "contract_schema.h"
 #include "exit_codes.h"
+#include "help.h"
 #include "suggest.h"
+
+#include <lambent/check.h>
+
+#include <stdio.h>
+#include <string.h>
 
 static const struct {
     const char *name;
@@ -51,4 +50,77 @@ int run_generate(int operand_count, char **operands, const struct options *optio
              nearest.best ? "'?" : "");
     say_error(error.text);
     return exit_code_of(error.code)->code;
+}
+
+// --- the completion scripts of bash, zsh and fish, which call `lambent complete` (complete.c).
+
+// bash also splits words at : and = and replaces only the last fragment. COMP_LINE contains the words as typed.
+void generate_bash(void)
+{
+    printf("# Completions of lambent for bash, made by `lambent generate bash`.\n"
+           "_lambent()\n{\n"
+           "    local IFS=$' \\t\\n' line=\"${COMP_LINE:0:COMP_POINT}\" word candidate files=\n"
+           "    local -a words\n"
+           "    read -a words <<<\"$line\"\n"
+           "    [[ $line == *[[:space:]] ]] && words+=(\"\")\n"
+           "    word=\"${words[-1]}\"\n"
+           "    local breaks=\"${COMP_WORDBREAKS//[^:=@]/}\" kept=\n"
+           "    [[ $breaks ]] && kept=\"${word%%\"${word##*[$breaks]}\"}\" # bash keeps it\n"
+           "    COMPREPLY=()\n"
+           "    while IFS=$'\\t' read -r candidate _; do\n"
+           "        [[ $candidate == :files ]] && files=1 || COMPREPLY+=(\"${candidate#\"$kept\"}\")\n"
+           "    done < <(\"${words[0]}\" complete -- \"${words[@]:1}\" 2>/dev/null)\n"
+           "    if [[ $files ]]; then\n"
+           "        compopt -o filenames 2>/dev/null\n"
+           "        while read -r candidate; do COMPREPLY+=(\"$candidate\"); done < <(compgen -f -- "
+           "\"${word#\"$kept\"}\")\n"
+           "    elif [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *[:=] ]]; then\n"
+           "        compopt -o nospace 2>/dev/null\n"
+           "    fi\n"
+           "}\n"
+           "complete -F _lambent lambent\n");
+}
+
+void generate_zsh(void)
+{
+    printf("#compdef lambent\n"
+           "# Completions of lambent for zsh, made by `lambent generate zsh`.\n"
+           "_lambent()\n{\n"
+           "    local line word files=\n"
+           "    local -a closed open\n"
+           "    for line in \"${(@f)$(\"${words[1]}\" complete -- \"${(@Q)words[2,CURRENT-1]}\" \"${(Q)PREFIX}\" "
+           "2>/dev/null)}\"; do\n"
+           "        word=\"${line%%%%$'\\t'*}\"\n"
+           "        case \"$word\" in\n"
+           "            '') ;;\n"
+           "            :files) files=1 ;;\n"
+           "            *[:=]) open+=(\"${word//:/\\\\:}:${line#*$'\\t'}\") ;;\n"
+           "            *) closed+=(\"${word//:/\\\\:}:${line#*$'\\t'}\") ;;\n"
+           "        esac\n"
+           "    done\n"
+           "    local found=1\n"
+           "    (( $#closed )) && _describe -V word closed && found=0\n"
+           "    (( $#open )) && _describe -V key open -S '' && found=0\n"
+           "    if [[ $files ]]; then\n"
+           "        compset -P '--*='\n"
+           "        _files && found=0\n"
+           "    fi\n"
+           "    return found\n"
+           "}\n"
+           "if [[ ${funcstack[1]} == _lambent ]]; then\n"
+           "    _lambent \"$@\"\n"
+           "else\n"
+           "    compdef _lambent lambent\n"
+           "fi\n");
+}
+
+void generate_fish(void)
+{
+    printf("# Completions of lambent for fish, made by `lambent generate fish`.\n"
+           "function __lambent_words\n"
+           "    set -l words (commandline -opc)\n"
+           "    $words[1] complete -- $words[2..-1] (commandline -ct) 2>/dev/null\n"
+           "end\n"
+           "complete -c lambent -f -a '(__lambent_words | string match -v -- :files)'\n"
+           "complete -c lambent -n '__lambent_words | string match -q -- :files' -F\n");
 }

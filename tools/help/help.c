@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "help_print.h"
-
 enum { WIDTH = HELP_WIDTH, BRIEF_WIDTH = 80, BRIEF_COLUMN = 28, BRIEF_EXAMPLE_COLUMN = 41 };
 
 void print_help(const struct command *command)

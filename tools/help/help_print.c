@@ -1,5 +1,5 @@
 // help_print.c: prints the sections of help texts.
-#include "help_print.h"
+#include "help.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // help_search.c: searches the help for subjects, commands, options and keys.
-#include "help_search.h"
+#include "help.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -7,9 +7,6 @@
 #include <strings.h>
 
 #include <lambent/fields.h>
-
-#include "help_print.h"
-#include "topics.h"
 
 enum { TEXTS_MAX = 40 };
 

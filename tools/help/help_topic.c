@@ -7,12 +7,8 @@
 
 #include "console.h"
 #include "exit_codes.h"
-#include "field_tables.h"
 #include "help.h"
-#include "help_print.h"
-#include "help_search.h"
 #include "suggest.h"
-#include "topics.h"
 
 enum { LIST_COLUMN = 15 };
 

@@ -1,8 +1,5 @@
 // manual.c: generates the man page and docs/command-line.md from the tables of options and commands.
-#include "generate.h"
-
-#include "field_tables.h"
-#include "topics.h"
+#include "help.h"
 
 #include <stdio.h>
 #include <string.h>

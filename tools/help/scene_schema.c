@@ -1,12 +1,11 @@
 // scene_schema.c: prints the JSON Schema of scene files: scene.schema.json.in with the fields of materials and lights
 // inserted.
-#include "generate.h"
+#include "help.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "field_tables.h"
 #include "schema.inc"
 
 static const char every_light[] =

@@ -11,7 +11,6 @@
 #include "foreign.h"
 #include "journal.h"
 #include "output.h"
-#include "shrink.h"
 #include "writer.h"
 #include "xxh64.h"
 

@@ -12,7 +12,7 @@
 #include "console.h"
 #include "limit_options.h"
 #include "output.h"
-#include "page_file.h"
+#include "page.h"
 #include "sandbox_start.h"
 
 // The maximum number of older pictures that are made readable one by one. If there are more, their whole folder is made

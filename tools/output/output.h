@@ -2,10 +2,10 @@
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
-#include <lambent/image.h>
-
 #include "output_folder.h"
 #include "output_name.h"
+
+#include <lambent/image.h>
 
 // Returns true if --output names a file, and false if `output` is NULL (not given) or a folder ("thumbs/").
 bool output_is_named(const char *output);
@@ -67,4 +67,16 @@ bool output_save_bytes(const lam_bytes *bytes, const char *path, bool durable, u
 
 // Returns the size in bytes of the file at `path`, or 0 if `path` is not a file.
 uint64_t output_size(const char *path);
+
+// --- reduces large pictures.
+
+// Makes a reduced picture (LAM_RGBA8) whose longer side has at most `most` pixels. `from` is linear and premultiplied
+// (LAM_RGBA32F, lam_image_load_linear). The result is never larger than `from`. The caller frees the result. Fails with
+// LAM_LIMIT.
+bool shrink_linear(const lam_image *from, int most, lam_image *to, lam_error *error);
+
+// Like shrink_linear, but for a picture in LAM_RGBA8 without padding, encoded in sRGB. Copies a picture that already
+// fits.
+bool shrink_bytes(const lam_image *from, int most, lam_image *to, lam_error *error);
+
 #endif

@@ -1,5 +1,5 @@
 // page_model.c: collects the files and the command line of a model for a page.
-#include "page_model.h"
+#include "page.h"
 
 #include <stdlib.h>
 #include <string.h>

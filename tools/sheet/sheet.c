@@ -10,7 +10,6 @@
 #include <lambent/shader.h>
 
 #include "console.h"
-#include "sheet_defaults.h"
 #include "suggest.h"
 
 // Most cells do not set the field `look`, so the warning about missing initializers is off.
@@ -24,7 +23,7 @@
 #define ORANGE     "ambient=0.9/0.35/0.05,diffuse=0.9/0.35/0.05"
 #define AT_A_PLACE "point:position=1.5r/1.5r/1.5r,ambient=0.15,frame="
 
-// Defaults of sheets (sheet_defaults.h). On a coarse shape, Gouraud shading misses this highlight and flat shading
+// Defaults of sheets (sheet.h). On a coarse shape, Gouraud shading misses this highlight and flat shading
 // shows the facets.
 #define COARSE {"--segments", NULL}
 #define LIT    {"--light", KEY "," BRIGHT}

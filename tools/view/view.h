@@ -5,9 +5,9 @@
 
 #include "http.h"
 #include "view_page.h"
-#include "view_peer.h"
+#include "view_access.h"
 #include "view_tasks.h"
-#include "view_watch.h"
+#include "view_events.h"
 
 enum {
     VIEW_TOKEN_SIZE = 33, // 128 bits in hexadecimal digits, and the terminating zero

@@ -26,4 +26,44 @@ enum MHD_Result view_answer_result(struct view_connection *connection);
 // Adds the headers of all answers to the caller's response.
 void view_answer_headers(const struct view *view, struct MHD_Response *response, const char *type);
 
+// --- limits the number of connections whose next request has not arrived completely. Any user of this machine can open
+// many connections and send nothing; the server closes the oldest connections, so that other requests are answered.
+
+enum { VIEW_WAITING_MAX = 128 };
+
+// Callback for MHD_OPTION_NOTIFY_CONNECTION. `user` points to the struct view. Stores a struct view_socket in `kept`.
+void view_waiting_notify(void *user, struct MHD_Connection *connection, void **kept,
+                         enum MHD_ConnectionNotificationCode code);
+
+// Callback for MHD_OPTION_URI_LOG_CALLBACK: checks the address for "%00" before the library decodes it. Returns NULL.
+void *view_waiting_address(void *user, const char *address, struct MHD_Connection *connection);
+
+// Must be called when a request has arrived. Returns the connection's data, or NULL if memory runs out.
+const struct view_socket *view_waiting_end(struct view *view, struct MHD_Connection *connection);
+
+// Must be called when a connection has been answered and may send another request.
+void view_waiting_begin(struct view *view, struct MHD_Connection *connection);
+
+// Closes connections that have waited for some seconds, and the oldest connections if there are more than
+// VIEW_WAITING_MAX.
+void view_waiting_drop(struct view *view);
+
+// --- answers HTTP requests.
+//
+// Every address starts with the token, "/0123…cdef/". The routes are "" (the page, or the gallery of a folder), "page",
+// "gallery.css", "files/PATH", "thumb/PATH" and "events". The routes "model", "draw", "picture" and "explain" (x=, y=)
+// read the words of the page's command line (w=…, repeated; c=… identifies the page).
+
+// Callbacks of MHD_start_daemon. `user` is the struct view.
+enum MHD_Result view_routes_answer(void *user, struct MHD_Connection *connection, const char *url, const char *method,
+                                   const char *version, const char *upload, size_t *upload_size, void **kept);
+void view_routes_completed(void *user, struct MHD_Connection *connection, void **kept,
+                           enum MHD_RequestTerminationCode code);
+
+// Handles a waiting connection that the client has closed.
+void view_routes_lost(struct view_connection *connection);
+
+// Handles a finished task of a connection; see struct view_tasks.
+void view_routes_done(void *user, struct view_result *result);
+
 #endif

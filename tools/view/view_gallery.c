@@ -1,5 +1,6 @@
 // view_gallery.c: makes the gallery of a folder.
-#include "view_gallery.h"
+#include "view.h"
+#include "view_page.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,8 +9,7 @@
 #include "console.h"
 #include "foreign.h"
 #include "json.h"
-#include "page_file.h"
-#include "page_model.h"
+#include "page.h"
 #include "plan.h"
 
 enum { PAGE_MAX = 64 << 20 }; // the maximum size of the page

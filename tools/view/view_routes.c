@@ -1,7 +1,7 @@
 // view_routes.c: decides which requests are answered. A page of another site can send requests to this server, and the
 // site's host name may even resolve to this machine. However, such a page does not know the token, sends other Host and
 // Origin headers, and cannot read the answers (view_answer.c).
-#include "view_routes.h"
+#include "view_answer.h"
 
 #include <arpa/inet.h>
 #include <jansson.h>
@@ -11,10 +11,8 @@
 #include <strings.h>
 #include <sys/socket.h>
 
-#include "view_answer.h"
 #include "view_events.h"
-#include "view_gallery.h"
-#include "view_waiting.h"
+#include "view_page.h"
 
 // --- who asks
 

@@ -1,12 +1,25 @@
 // view_server.c: starts the server, runs its loop and ends it. The server needs only one thread, because it can wait
 // for all events with one call of poll.
+#include "console.h"
+#include "http.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "sandbox_start.h"
+#include "show_all.h"
 #include "view.h"
+#include "view_answer.h"
+#include "view_events.h"
 
 #include <arpa/inet.h>
+#include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <signal.h>
+#include <spawn.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,17 +27,38 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/types.h>
 #include <unistd.h>
 
-#include "browser_open.h"
-#include "console.h"
-#include "interrupt.h"
-#include "progress.h"
-#include "sandbox_start.h"
-#include "show_all.h"
-#include "view_events.h"
-#include "view_routes.h"
-#include "view_waiting.h"
+// --- opens an address in the user's browser with xdg-open, which requires a display.
+
+extern char **environ;
+
+// Starting a browser needs a display and xdg-open. Returns whether the browser was started. Call this function before
+// the sandbox is entered.
+static bool browser_open(const char *address)
+{
+    static const char program[] = "xdg-open";
+    const char *x11 = getenv("DISPLAY"), *wayland = getenv("WAYLAND_DISPLAY");
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    pid_t process;
+    if (!(x11 && *x11) && !(wayland && *wayland))
+        return false;
+    // The browser keeps running if this program is interrupted. The browser's messages are discarded.
+    bool ok = posix_spawn_file_actions_init(&actions) == 0;
+    ok = ok && posix_spawnattr_init(&attributes) == 0;
+    if (!ok)
+        return false;
+    ok = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID) == 0;
+    for (int file = 0; file < 3; file++)
+        ok = ok && posix_spawn_file_actions_addopen(&actions, file, "/dev/null", O_RDWR, 0) == 0;
+    char *const words[] = {(char *)(uintptr_t)program, (char *)(uintptr_t)address, NULL};
+    ok = ok && posix_spawnp(&process, program, &actions, &attributes, words, environ) == 0;
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    return ok;
+}
 
 enum {
     CONNECTIONS_MAX = 256,
@@ -259,4 +293,29 @@ bool view_run(const char *operand, const struct options *options, lam_error *err
     }
     finish(&view);
     return ok;
+}
+
+// --- loads libmicrohttpd.
+
+// Finds the address of a function. Copies the address, because ISO C does not allow the conversion of a void * to a
+// function pointer.
+static bool find(void *library, const char *name, void *function)
+{
+    void *address = dlsym(library, name);
+    memcpy(function, &address, sizeof address);
+    return address != NULL;
+}
+
+bool http_open(struct http *http, lam_error *error)
+{
+    void *library = dlopen(HTTP_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        return complain(error, LAM_UNSUPPORTED,
+                        "view needs " HTTP_LIBRARY
+                        ", which is not installed; install the Debian package libmicrohttpd12 or libmicrohttpd12t64");
+    bool all = true;
+#define LOOK_UP(name) all = find(library, #name, &http->name) && all;
+    HTTP_FUNCTIONS(LOOK_UP)
+    return all || complain(error, LAM_UNSUPPORTED,
+                           HTTP_LIBRARY " lacks functions of libmicrohttpd 0.9.71; install a newer version");
 }

@@ -30,7 +30,7 @@ struct lam_texture {
     int channels;
     // No texel has an alpha below 1.
     bool opaque;
-    // The smallest and the largest byte of level 0 for each channel (texture_range.c); 0 if not computed yet. Accessed
+    // The smallest and the largest byte of level 0 for each channel (texture_map.c); 0 if not computed yet. Accessed
     // atomically.
     uint64_t ranges;
     const char *name; // may be NULL

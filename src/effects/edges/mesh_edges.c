@@ -2,7 +2,7 @@
 // vertices with higher numbers are sorted by their other end, so that equal edges are adjacent.
 #include "mesh_edges.h"
 
-#include "corner_weld.h"
+#include "tangent_steps.h"
 #include "edge_keys.h"
 
 enum { CHECK_INTERVAL = 1 << 14 }; // number of edge ends between two checks for cancellation

@@ -11,7 +11,7 @@
 #include "buffer.h"
 #include "frame.h"
 #include "occlusion_pattern.h"
-#include "scratch_memory.h"
+#include "normals_memory.h"
 
 struct pool;
 

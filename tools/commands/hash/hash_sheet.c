@@ -9,7 +9,7 @@
 #include "base64.h"
 #include "console.h"
 #include "drawing.h"
-#include "shrink.h"
+#include "output.h"
 #include "writer.h"
 #include "xxh64.h"
 

@@ -17,7 +17,7 @@
 #include "option_names.h"
 #include "output.h"
 #include "plan.h"
-#include "page_write.h"
+#include "page.h"
 #include "report.h"
 #include "sandbox_start.h"
 #include "xxh64.h"

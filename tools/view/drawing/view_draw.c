@@ -17,8 +17,7 @@
 #include "job_check.h"
 #include "kept_model.h"
 #include "option_names.h"
-#include "page_model.h"
-#include "page_write.h"
+#include "page.h"
 #include "picture_json.h"
 #include "view_words.h"
 

@@ -11,7 +11,7 @@
 #include "environment_option.h"
 #include "job_check.h"
 #include "look_option.h"
-#include "page_model.h"
+#include "page.h"
 
 // Converts the path of a served file from a path in the page to a path on this machine, allocated with malloc. Fails
 // with LAM_CANNOT_READ (the file is not served) or LAM_LIMIT.

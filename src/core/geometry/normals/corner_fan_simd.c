@@ -1,7 +1,7 @@
 // corner_fan_simd.c: contains loops over positions in parallel lanes, which the compiler vectorizes. The file is
 // compiled once for each instruction set (meson.build, with ISA and LANES). The loops contain no branches and no
 // divisions by zero.
-#include "corner_fan_simd.h"
+#include "corner_fan.h"
 
 #include "angle_series.h"
 #include "lanes.h"

@@ -9,10 +9,9 @@
 #include "visible_normals.h"
 
 #include "corner_fan.h"
-#include "corner_fan_batch.h"
 #include "facets.h"
 #include "normals.h"
-#include "position_bins.h"
+#include "positions.h"
 
 #include <string.h>
 

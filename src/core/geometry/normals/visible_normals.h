@@ -7,8 +7,7 @@
 #define VISIBLE_NORMALS_H
 
 #include "pool.h"
-#include "rank_bitset.h"
-#include "scratch_memory.h"
+#include "normals_memory.h"
 
 #include <lambent/mesh.h>
 

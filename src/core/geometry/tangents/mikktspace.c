@@ -6,9 +6,8 @@
 #include "mikktspace.h"
 
 #include "cpu_features.h"
-#include "edge_twins.h"
+#include "tangent_steps.h"
 #include "linear.h"
-#include "tangent_kernels.h"
 
 #include <string.h>
 
@@ -21,7 +20,7 @@ struct tangent_maker {
     const struct tangent_kernels *kernels;
     struct corner_weld weld;
     struct edge_twins edges;
-    uint8_t *flags;   // flags of triangles (tangent_kernels.h)
+    uint8_t *flags;   // flags of triangles (tangent_steps.h)
     uint32_t *groups; // the group of each corner, or NO_CORNER
     int8_t *signs;    // the sign of the bitangent for each group
     uint32_t group_count;

@@ -1,5 +1,5 @@
 // tangent_kernels.c: computes the flags of triangles and the sums of groups. The build defines ISA and LANES.
-#include "tangent_kernels.h"
+#include "tangent_steps.h"
 
 #include "angle_series.h"
 #include "double_lanes.h"

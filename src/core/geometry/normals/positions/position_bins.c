@@ -1,5 +1,5 @@
 // position_bins.c: collects the corners at shared positions and sorts them into bins, one for each range of positions.
-#include "position_bins.h"
+#include "positions.h"
 
 #include <string.h>
 

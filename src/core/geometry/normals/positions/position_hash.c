@@ -1,5 +1,5 @@
 // position_hash.c: a hash table of positions.
-#include "position_hash.h"
+#include "positions.h"
 
 #include "cpu_features.h"
 

@@ -1,6 +1,6 @@
-// position_simd.c: implements position_simd.h, compiled once for each instruction set (meson.build, with ISA and
+// position_simd.c: implements positions.h, compiled once for each instruction set (meson.build, with ISA and
 // LANES).
-#include "position_simd.h"
+#include "positions.h"
 
 #include "lanes.h"
 

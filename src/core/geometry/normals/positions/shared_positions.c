@@ -3,7 +3,7 @@
 // The vertices of these triangles are inserted into a hash table of positions. Then every other vertex of the mesh is
 // looked up; a filter rejects most of them before the table is searched. The order of the threads affects only the
 // addresses of data, never a normal.
-#include "shared_positions.h"
+#include "positions.h"
 
 #include "corner_fan.h"
 

@@ -1,5 +1,5 @@
-// view_peer.c: uses the kernel's tables to find the user at the other end of a connection.
-#include "view_peer.h"
+// view_access.c: uses the kernel's tables to find the user at the other end of a connection.
+#include "view_access.h"
 
 #include <fcntl.h>
 #include <stdio.h>

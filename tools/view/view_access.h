@@ -1,7 +1,7 @@
-// view_peer.h: accepts only connections of the viewer's own user. The address with the token is an argument of xdg-open
+// view_access.h: accepts only connections of the viewer's own user. The address with the token is an argument of xdg-open
 // and of the browser, so other users can read the address in /proc.
-#ifndef VIEW_PEER_H
-#define VIEW_PEER_H
+#ifndef VIEW_ACCESS_H
+#define VIEW_ACCESS_H
 
 #include <stdbool.h>
 

@@ -112,6 +112,35 @@ class Gltf(GltfCase):
         self.assertEqual((self.folder / "a.png").read_bytes(), first)
         self.bad(1, model, "--animation", "fly", says="there is no animation 'fly'; expected one of 0 ('still'), 1 ('slide')")
 
+    def test_one_warning_for_one_cause(self):
+        """Each file is drawn with exactly the warnings listed: a consequence of a wrong value is not reported again, and nothing is left out in silence."""
+        triangle = {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}
+        instancing = {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {}}}}
+        one = [{"nodes": [0]}]
+        for warning, changes in (
+                ("meshes[1].primitives: expected at least one", {"meshes": [triangle, {"primitives": []}], "scenes": [{"nodes": [0, 1]}]}),
+                ("meshes[0].primitives[1]: found \"x\"", {"meshes": [{"primitives": [*triangle["primitives"], "x"]}], "scenes": one}),
+                ("scenes[0].nodes[1]: node 0 is listed already", {"scenes": [{"nodes": [0, 0]}]}),
+                ("scenes[0]: found \"x\", expected an object", {"scenes": ["x"]}),
+                ("nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: found no TRANSLATION", {"nodes": [instancing], "scenes": one}),
+                ("skins[0]: found \"x\", expected an object", {"skins": ["x"], "nodes": [{"mesh": 0, "skin": 0}], "scenes": one}),
+                ("cameras[0].perspective.yfov: found \"x\"",
+                 {"cameras": [{"type": "perspective", "perspective": {"yfov": "x", "znear": 1}}], "nodes": [{"mesh": 0}, {"camera": 0}],
+                  "scenes": [{"nodes": [0, 1]}]}),
+                ("variants[0]: names none of the file's 2 variants",
+                 {"meshes": [{"primitives": [{**triangle["primitives"][0], "extensions": {
+                     "KHR_materials_variants": {"mappings": [{"material": 0, "variants": [7]}]}}}]}], "scenes": one})):
+            with self.subTest(warning):
+                done = self.good(self.model(**changes), *(("--variant", "mint") if "variants" in warning else ()), "-o", "a.png", "-s", "16")
+                found = [line for line in done.stderr.decode().splitlines() if "warning" in line]
+                self.assertEqual(len(found), 1, found)
+                self.assertIn(warning, found[0])
+        self.given.add("a.png")
+        for list_name, key in (("buffers", "byteLength"), ("accessors", "count")):
+            values = json.loads((self.folder / self.model()).read_text())[list_name]
+            values[0][key] = None
+            self.bad(2, self.model(**{list_name: values}), says="%s[0]: %s is missing" % (list_name, key))
+
     def test_required_extensions(self):
         model = self.model(extensionsRequired=["EXT_moonlight"], extensionsUsed=["EXT_moonlight"])
         self.bad(3, model, says=["extensionsRequired", "EXT_moonlight"])

@@ -193,6 +193,20 @@ static void kind_of(const struct gltf *gltf, const lam_error *error, char out[10
     out[used] = 0;
 }
 
+// Returns whether an error only follows from a problem that is already noted: it concerns a value inside the wrong value,
+// or the object whose member is wrong.
+static bool follows(const struct gltf *gltf, const lam_error *error, const lam_error *noted)
+{
+    const char *here = sentence_of(gltf, error), *there = sentence_of(gltf, noted);
+    const char *end = strstr(here, ": "), *other_end = strstr(there, ": ");
+    if (!end || !other_end || end - here == other_end - there)
+        return false;
+    bool inside = end - here > other_end - there;
+    size_t length = (size_t)(inside ? other_end - there : end - here);
+    const char after = (inside ? here : there)[length];
+    return memcmp(here, there, length) == 0 && (inside ? after == '.' || after == '[' : after == '.');
+}
+
 // Counts the error that was just reported as a problem of a kind (NULL: the error's own), and clears the error.
 static void note_error(struct gltf *gltf, const char *kind, const char *end)
 {
@@ -201,6 +215,11 @@ static void note_error(struct gltf *gltf, const char *kind, const char *end)
     char own[100];
     kind_of(gltf, error, own);
     kind = kind ? kind : own;
+    for (const struct gltf_problem *p = gltf->problems; p; p = p->next)
+        if (follows(gltf, error, &p->first) || follows(gltf, error, &p->last)) {
+            *error = (lam_error){0};
+            return;
+        }
     int kinds = 0;
     for (; *at && strcmp((*at)->kind, kind) != 0; kinds++)
         at = &(*at)->next;

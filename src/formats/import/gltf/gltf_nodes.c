@@ -119,9 +119,11 @@ static bool mark_roots(struct gltf *gltf)
     bool any = false;
     for (size_t i = 0; i < json_array_size(list); i++) {
         int node;
-        if (gltf_index_of(gltf, ELEMENT_OF(place, i), json_array_get(list, i), "nodes", &node))
+        if (gltf_index_of(gltf, ELEMENT_OF(place, i), json_array_get(list, i), "nodes", &node)) {
+            if (gltf->nodes[node].in_scene)
+                gltf_note(gltf, ELEMENT_OF(place, i), "node %d is listed already; it is drawn once", node);
             any = gltf->nodes[node].in_scene = true;
-        else
+        } else
             gltf_forgive(gltf);
     }
     if (!any && scene >= 0)

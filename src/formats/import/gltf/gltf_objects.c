@@ -125,8 +125,10 @@ static bool add_instances(struct gltf *gltf, const struct place *place, const js
         !take_instances(gltf, here, attributes, "ROTATION", mesh, 4, &instances.rotation, &instances.count) ||
         !take_instances(gltf, here, attributes, "SCALE", mesh, 3, &instances.scale, &instances.count))
         return false;
-    if (!instances.count)
+    if (!instances.count) {
+        gltf_note(gltf, here, "found no TRANSLATION, ROTATION or SCALE; the mesh is drawn once");
         return add_mesh(gltf, mesh, name, world);
+    }
     for (size_t i = 0; i < instances.count; i++) {
         lam_mat4 own = instance_transform(&instances, i), transform = mat4_mul(world, &own);
         if (!continues(gltf, i) || !add_mesh(gltf, mesh, name, &transform))

@@ -145,7 +145,7 @@ static struct gltf_accessor *gltf_accessor_at(struct gltf *gltf, int index)
     if (accessor->ready)
         return accessor;
     *accessor = (struct gltf_accessor){.buffer = -1};
-    if (!json_object_get(object, "count"))
+    if (!json_object_get(object, "count") || json_is_null(json_object_get(object, "count")))
         return json_fail(&gltf->json, place, "count is missing"), NULL;
     if (!take_component(gltf, place, object, &accessor->component) ||
         !take_type(gltf, place, object, accessor, &element) ||

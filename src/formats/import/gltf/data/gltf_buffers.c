@@ -26,7 +26,7 @@ static bool read_buffer(struct gltf *gltf, int index)
     size_t length = 0;
     if (buffer->data)
         return true;
-    if (!json_object_get(object, "byteLength"))
+    if (!json_object_get(object, "byteLength") || json_is_null(json_object_get(object, "byteLength")))
         return json_fail(&gltf->json, place, "byteLength is missing");
     if (!gltf_take_whole(gltf, place, object, "byteLength", 1, 9e15, &length) ||
         (!json_is_null(json_object_get(object, "uri")) && !json_take_text(&gltf->json, place, object, "uri", &uri)))

@@ -191,10 +191,16 @@ static int take_variant(struct gltf *gltf, const struct place *place, const json
     int index = -1;
     for (size_t i = 0; index < 0 && i < json_array_size(mappings); i++) {
         const json_t *mapping = json_array_get(mappings, i), *variants = json_object_get(mapping, "variants");
-        for (size_t k = 0; index < 0 && k < json_array_size(variants); k++)
-            if (json_number_value(json_array_get(variants, k)) == gltf->variant)
-                index = gltf_take_link(gltf, ELEMENT_OF(KEY_OF(extension, "mappings"), i), mapping, "material",
-                                       "materials");
+        const struct place *place_of_mapping = ELEMENT_OF(KEY_OF(extension, "mappings"), i);
+        for (size_t k = 0; index < 0 && k < json_array_size(variants); k++) {
+            double number =
+                json_is_number(json_array_get(variants, k)) ? json_number_value(json_array_get(variants, k)) : -1;
+            if (number == gltf->variant)
+                index = gltf_take_link(gltf, place_of_mapping, mapping, "material", "materials");
+            else if (!(number >= 0 && number < gltf->scene->file.variant_count))
+                gltf_note(gltf, ELEMENT_OF(KEY_OF(place_of_mapping, "variants"), k),
+                          "names none of the file's %d variants", gltf->scene->file.variant_count);
+        }
     }
     return index;
 }

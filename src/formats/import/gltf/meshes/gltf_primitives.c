@@ -151,7 +151,7 @@ static bool make_primitive(struct gltf *gltf, const struct place *place, const j
         gltf_forgive(gltf);
     const json_t *position = json_object_get(attributes, "POSITION");
     if (!position || json_is_null(position)) {
-        gltf->without_positions++;
+        gltf->without_positions += json_is_object(primitive); // gltf_take_list has noted other values
         return true;
     }
     if (!gltf_draco_decode(gltf, place, primitive, &mode))
@@ -183,6 +183,8 @@ static bool make_mesh(struct gltf *gltf, int index, struct gltf_deformation defo
         return false;
     deformation.weights = deformation.weights ? deformation.weights : weights;
     const json_t *primitives = gltf_take_list(gltf, place, object, "primitives");
+    if (!json_array_size(primitives))
+        gltf_note(gltf, KEY_OF(place, "primitives"), "expected at least one; drawn without this mesh");
     const char *name = gltf_name(gltf, object, &ok);
     mesh->count = (int)json_array_size(primitives);
     mesh->primitives = ok ? GLTF_ALLOC(gltf, mesh->count, struct gltf_primitive) : NULL;

@@ -264,12 +264,14 @@ class Read(ThreeMF):
         """Property groups of other vendors, and elements that a group lacks: one warning, and the default colour."""
         vendor = '<v:mats id="9" xmlns:v="http://example.com/2016"/>'
         groups = f'{vendor}<m:colorgroup id="2"><m:color color="#FF0000"/></m:colorgroup>'
-        for words, says in (('pid="9" pindex="0"', 'unknown property (pid="9", p1="0")'), ('pid="7" pindex="0"', 'unknown property (pid="7", p1="0")'),
-                            ('pid="2" pindex="1"', 'unknown property (pid="2", p1="1")')):
-            name = self.save("a.3mf", model(f'{groups}<object id="1" {words}>{box()}</object>', spaces=f"{CORE} {MATERIALS}"))
+        third = ("<triangle ", '<triangle pid="2" p1="0" p2="0" p3="8" ', 1)
+        for words, of_triangle, says in (('pid="9" pindex="0"', (), 'pid="9", p1="0"'), ('pid="7" pindex="0"', (), 'pid="7", p1="0"'),
+                                         ('pid="2" pindex="1"', (), 'pid="2", p1="1"'), ("", third, 'pid="2", p3="8"')):
+            mesh = box().replace(*of_triangle) if of_triangle else box()
+            name = self.save("a.3mf", model(f'{groups}<object id="1" {words}>{mesh}</object>', spaces=f"{CORE} {MATERIALS}"))
             warnings = self.info(name)["warnings"]
             self.assertEqual(len(warnings), 1, warnings)
-            self.assertIn(says, warnings[0])
+            self.assertIn("unknown property (" + says, warnings[0])
 
     def test_zip64(self):
         """Microsoft's 3D Builder writes ZIP64 records also in small files."""

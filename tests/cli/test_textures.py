@@ -141,6 +141,9 @@ class Textures(Case):
         self.assertEqual(self.drawn(self.obj("Ke 1 1 1\nmap_Ke -mm 1 -1 t.png\n"))[0], (0, 255, 255))
         # illum 0 shows the picture itself.
         self.assertEqual(self.drawn(self.obj("map_Kd t.png\n")), [r, g, b, w])
+        for statement, said in (("map_Kd -bm\n", True), ("map_Kd\n", False)): # some exporters write an empty statement
+            text = self.good(self.obj(statement), *LOOK).stderr
+            self.assertEqual(b"m.mtl:5: found options without a file name" in text, said, text)
 
     def test_mtl_opacity(self):
         half = write_png(8, 8, bytes((RED[:3] + (0,)) * 4 + GREEN * 4) * 4 + bytes((BLUE[:3] + (0,)) * 4 + WHITE * 4) * 4)

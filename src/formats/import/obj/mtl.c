@@ -255,8 +255,12 @@ static bool read_map(struct mtl_parser *reader, enum lam_map map, const uint8_t 
 {
     end = text_name_end(at, end);
     const uint8_t *name = skip_options(at, end, false), *after = name_end(name, end);
-    if (name == end)
-        return true; // an empty map statement, which exporters write for "none"
+    if (name == end) { // exporters write an empty map statement for "none"
+        if (at < end)
+            scene_warn(reader->scene, "%s:%zu: found options without a file name; the statement is ignored",
+                       reader->name, line_of(reader, at));
+        return true;
+    }
     struct arena *arena = &reader->scene->arena;
     // the options before and after the name
     size_t length = (size_t)(text_name_end(at, name) - at), name_length = (size_t)(after - name);

@@ -49,16 +49,18 @@ static void resolve(const struct mesh_maker *maker, const struct threemf_propert
     struct threemf *file = maker->file;
     const struct threemf_resource *group = threemf_resource_at(maker->part, property->group);
     bool plain = property->group == FILAMENT, known = is_group(group);
-    for (int i = 0; known && i < 3; i++)
-        known = property->index[i] < group->count;
+    int corner = 0; // the first with an unknown property
+    while (known && corner < 3 && property->index[corner] < group->count)
+        corner++;
+    known = known && corner == 3;
     if (plain || !known || group->faulty) {
         char shown[SHOWN_NAME_SIZE];
         if (!plain && !known && !(group && group->faulty) && !file->unknown) {
             scene_warn(file->scene,
-                       "%s: %s:%zu: object %d: found an unknown property (pid=\"%d\", p1=\"%u\"); drawn without such "
+                       "%s: %s:%zu: object %d: found an unknown property (pid=\"%d\", p%d=\"%u\"); drawn without such "
                        "properties",
                        file->source->name, shown_name(maker->part->path, shown), maker->object->line, maker->object->id,
-                       property->group, property->index[0]);
+                       property->group, corner + 1, property->index[corner]);
             file->unknown = true;
         }
         resolve_plain(maker, plain ? property->index[0] : 0, out);

@@ -11,7 +11,7 @@
 
 #include "file.h"
 
-enum { OPTIONS = 24, SIZE_MAX_TESTED = 4 * FILE_LARGE };
+enum { OPTIONS = 24, LARGE = THRESHOLD(1 << 20, 4 << 10), SIZE_MAX_TESTED = 4 * LARGE };
 
 // Bits of byte 0.
 enum { MORE_THREADS = 1, NORMALS_WHEN_DRAWN = 2, BY_FORMAT = 4, STANDARD_INPUT = 8, PIPE = 16 };
@@ -49,7 +49,7 @@ static size_t add_comment(size_t size, size_t from, size_t to, uint8_t fill)
 // The size at which a reader changes its method, and a few bytes more or less.
 static size_t threshold(uint8_t which, uint8_t change)
 {
-    static const size_t sizes[] = {FILE_HEAD, FILE_LARGE, 2 * FILE_LARGE, FILE_LARGE + FILE_HEAD};
+    static const size_t sizes[] = {FILE_HEAD, LARGE, 2 * LARGE, LARGE + FILE_HEAD};
     return sizes[which % 4] + change % 16 - 8;
 }
 

@@ -46,7 +46,7 @@ static bool load_both(const char *format)
 {
     bool loaded = false;
     write_file();
-    assert_true(size >= FILE_LARGE - 1);
+    assert_true(size >= FILE_HEAD - 1);
     for (int threads = 1; threads <= 3; threads += 2) {
         lam_error errors[2] = {0};
         lam_load_params params = {.threads = threads, .format = format};
@@ -368,7 +368,7 @@ static void ply_long_headers(void **state)
          '\n', true},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        for (size_t total = FILE_LARGE - 1; total <= FILE_LARGE + 1; total++) {
+        for (size_t total = FILE_HEAD - 1; total <= FILE_HEAD + 1; total++) {
             size = 0;
             add_text(rows[i].first);
             insert(size, rows[i].fill, total - size - strlen(rows[i].last));
@@ -403,7 +403,7 @@ static void beginnings(void **state)
         {"", "", 'x', false},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        for (size_t total = FILE_LARGE - 1; total <= FILE_LARGE + 1; total++) {
+        for (size_t total = 2 * FILE_HEAD - 1; total <= 2 * FILE_HEAD + 1; total++) {
             size = 0;
             add_text(rows[i].first);
             insert(size, rows[i].fill, total - size - strlen(rows[i].last));

@@ -775,9 +775,9 @@ static struct lam_scene *load_chunked(const char *text, size_t size, size_t chun
     struct file_bytes file;
     assert_true(file_copy(text, size, NULL, &file, error));
     struct import_source source = {.name = "t.obj",
+                                   .parts = {.file = -1, .memory = file.data, .size = file.size},
                                    .bytes = file.data,
                                    .size = file.size,
-                                   .file_size = file.size,
                                    .params = &params,
                                    .pool = pool,
                                    .call = &call,

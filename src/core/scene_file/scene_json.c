@@ -288,10 +288,12 @@ static bool read_root(struct scene_reader *r, const json_t *root)
 // the file is a value ("1,1,1").
 static size_t tree_bytes(size_t size) { return size > SIZE_MAX / 32 ? SIZE_MAX : size * 32; }
 
-static bool scene_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+static bool scene_load(struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
     lam_picture_settings *settings = arena_alloc_zeroed(&scene->arena, sizeof *settings);
     lam_error unwanted;
+    if (!import_whole(source, error))
+        return false;
     size_t charge = tree_bytes(source->size);
     if (!settings || !call_charge(source->call, charge))
         return call_memory_error(source->call, charge, error);

@@ -81,13 +81,14 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     source.name = file->shown;
     source.path = file->path;
     source.bytes = file->file.data;
-    source.size = source.file_size = file->file.size;
+    source.size = file->file.size;
+    source.parts = (struct file_parts){.file = -1, .memory = file->file.data, .size = file->file.size};
     source.file = &file->file;
     source.params = &params;
     source.open_state = &companions;
     if (!companions_of_model(r->source, wanted->file, file, &inner->arena, &companions, r->error))
         return false;
-    const struct importer *importer = source.importer_for(source.name, &file->file, NULL, r->error);
+    const struct importer *importer = source.importer_for(&source, NULL, r->error);
     if (!importer)
         return false;
     if (importer->is_scene_file)

@@ -16,16 +16,15 @@ typedef bool open_companion(const struct import_source *source, const char *name
                             struct companion *out, lam_error *error);
 
 struct import_source {
-    const char *name;     // for messages: the path as the user wrote it
-    const char *path;     // the file's path; NULL if the file is in memory or is standard input
-    const uint8_t *bytes; // FILE_PADDING zero bytes follow the last byte
-    size_t size;          // the number of bytes at `bytes`
-    size_t file_size;     // the size of the file; larger than `size` if the file is read in parts
-    // Set for a large file that is read in parts (importer.in_parts); `bytes` then contains only the file's first
-    // FILE_HEAD bytes. NULL if `bytes` contains the whole file. The functions of parallel_rows.h support both cases.
-    const struct file_parts *parts;
+    const char *name;        // for messages: the path as the user wrote it
+    const char *path;        // the file's path; NULL if the file is in memory or is standard input
+    struct file_parts parts; // all bytes, which parallel_rows.h reads
+    // The first bytes of the file, at least FILE_HEAD of a larger file; all of them after import_whole. FILE_PADDING zero
+    // bytes follow.
+    const uint8_t *bytes;
+    size_t size; // the number of bytes at `bytes`
     // The owner of `bytes`. An importer whose arrays point into `bytes` may move the owner to the scene's arena
-    // (file_move_to_arena). NULL if the file is read in parts.
+    // (file_move_to_arena).
     struct file_bytes *file;
     const lam_load_params *params;
     struct pool *pool;         // NULL if there are no threads
@@ -33,8 +32,7 @@ struct import_source {
     // These functions open a file that the model or a scene file refers to (companion.h).
     open_companion *open, *open_of_scene;
     // Finds the importer for a model in a scene file (formats.h).
-    const struct importer *(*importer_for)(const char *name, const struct file_bytes *file, const char *wanted,
-                                           lam_error *error);
+    const struct importer *(*importer_for)(struct import_source *source, const char *wanted, lam_error *error);
     void *open_state; // struct companions
 };
 
@@ -52,12 +50,7 @@ struct importer {
     // bytes.
     int (*probe)(const uint8_t *bytes, size_t size, size_t file_size);
     // Fills an empty scene with meshes, materials, and one object per mesh. On failure, the caller frees the scene.
-    bool (*load)(const struct import_source *source, struct lam_scene *scene, lam_error *error);
-    // Optional. Returns whether `load` reads this large file in parts (import_source.parts).
-    bool (*in_parts)(const struct import_source *source);
-    // Optional. Loads a large file in parts, if loading needs neither a line number nor a second pass over the text.
-    // Returns false for other files and on errors. The caller then runs `load` with an empty scene and the whole file.
-    bool (*load_stream)(const struct import_source *source, struct lam_scene *scene);
+    bool (*load)(struct import_source *source, struct lam_scene *scene, lam_error *error);
 };
 
 // The formats, in the order of the lists that users see. tests/fuzz/meson.build reads these names too.
@@ -74,6 +67,9 @@ static inline double importer_crease(const struct importer *importer, lam_normal
     return importer->flat_normals && normals == LAM_NORMALS_FILE && crease_angle_rad == 0 ? FACET_CREASE_RAD
                                                                                           : crease_angle_rad;
 }
+
+// Makes `bytes` all bytes of the file, for formats that cannot be read in parts.
+bool import_whole(struct import_source *source, lam_error *error);
 
 // These functions fail with LAM_CANNOT_READ and the message "NAME:LINE: sentence" or "NAME: byte OFFSET: sentence".
 // They return false.

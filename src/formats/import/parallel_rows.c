@@ -8,7 +8,7 @@ struct run {
     parallel_bytes_task *bytes_task; // set by parallel_rows_read
     void *user;
     const struct row_bytes *rows;
-    uint8_t *buffers;    // if the file is read in parts, each thread has a buffer of PARALLEL_ROWS rows
+    uint8_t *buffers;    // if the bytes are not in memory, each thread has a buffer of PARALLEL_ROWS rows
     size_t first_failed; // atomic; the index of the first chunk that failed, or `count`
     int stopped;         // atomic; the call was cancelled or ran out of time
 };
@@ -22,11 +22,11 @@ static bool run_task(const struct run *run, size_t index, int thread, lam_error 
     parallel_rows_range(rows->count, index, &first, &last);
     size_t offset = first * rows->stride;
     if (!run->buffers) {
-        const uint8_t *begin = rows->memory ? rows->memory : run->source->bytes + rows->offset;
+        const uint8_t *begin = rows->memory ? rows->memory : run->source->parts.memory + rows->offset;
         return run->bytes_task(run->user, index, begin + offset, error);
     }
     uint8_t *buffer = run->buffers + (size_t)thread * PARALLEL_ROWS * rows->stride;
-    return file_read_part(run->source->parts, run->source->name, rows->offset + offset, buffer,
+    return file_read_part(&run->source->parts, run->source->name, rows->offset + offset, buffer,
                           (last - first) * rows->stride, error) &&
            run->bytes_task(run->user, index, buffer, error);
 }
@@ -78,7 +78,7 @@ bool parallel_rows_read(const struct import_source *source, const struct row_byt
     struct arena scratch;
     arena_start(&scratch, NULL); // the threads' buffers are not counted, because the number of threads varies
     bool done = true;
-    if (source->parts && !rows->memory) {
+    if (!source->parts.memory && !rows->memory) {
         size_t bytes = PARALLEL_ROWS * rows->stride, threads = (size_t)pool_threads(source->pool);
         run.buffers = arena_array(&scratch, threads, bytes);
         done = run.buffers || call_memory_error(source->call, threads * bytes, error);
@@ -88,29 +88,17 @@ bool parallel_rows_read(const struct import_source *source, const struct row_byt
     return done;
 }
 
-struct rest {
-    const struct import_source *source;
-    size_t offset, size;
-    uint8_t *to;
-};
-
-enum { REST_CHUNK = THRESHOLD(1 << 20, 512) }; // bytes
-
-static bool rest_chunk(void *user, size_t index, lam_error *error)
-{
-    const struct rest *rest = user;
-    size_t at = index * REST_CHUNK, bytes = rest->size - at < REST_CHUNK ? rest->size - at : REST_CHUNK;
-    return file_read_part(rest->source->parts, rest->source->name, rest->offset + at, rest->to + at, bytes, error);
-}
-
 const uint8_t *parallel_rows_rest(const struct import_source *source, size_t offset, struct arena *arena,
                                   lam_error *error)
 {
-    if (!source->parts)
-        return source->bytes + offset;
-    struct rest rest = {source, offset, source->file_size - offset, arena_alloc(arena, source->file_size - offset)};
-    if (!rest.to)
-        return call_memory_error(source->call, rest.size, error), NULL;
-    size_t chunks = (rest.size + REST_CHUNK - 1) / REST_CHUNK;
-    return parallel_rows_run(source, chunks, rest_chunk, &rest, error) ? rest.to : NULL;
+    struct file_bytes rest;
+    if (source->parts.memory)
+        return source->parts.memory + offset;
+    if (!file_read_rest(&source->parts, source->name, offset, source->pool, source->call, &rest, error))
+        return NULL;
+    const uint8_t *bytes = rest.data;
+    if (file_move_to_arena(&rest, arena))
+        return bytes;
+    file_release(&rest);
+    return call_memory_error(source->call, source->parts.size - offset, error), NULL;
 }

@@ -34,8 +34,8 @@ struct row_bytes {
     size_t offset, stride, count;
 };
 
-// Like parallel_rows_task, but also receives the bytes of the chunk's rows. If the file is read in parts, `rows` points
-// to a buffer of the thread.
+// Like parallel_rows_task, but also receives the bytes of the chunk's rows. If they are not in memory, `rows` points to
+// a buffer of the thread.
 typedef bool parallel_bytes_task(void *user, size_t index, const uint8_t *rows, lam_error *error);
 
 // Runs the task for each chunk of the rows. The rows must be inside the file.

@@ -53,14 +53,14 @@ static bool has_ending(const struct importer *importer, const char *ending)
     return false;
 }
 
-// Asks each importer about the first `size` bytes of a file. Returns the highest certainty (importer.probe).
-static int probe_all(const char *ending, const uint8_t *bytes, size_t size, size_t file_size,
-                     const struct importer **by_content, const struct importer **by_ending)
+// Asks each importer about the bytes in memory. Returns the highest certainty (importer.probe).
+static int probe_all(const char *ending, const struct import_source *source, const struct importer **by_content,
+                     const struct importer **by_ending)
 {
     int best = 0;
     *by_content = *by_ending = NULL;
     for (int i = 0; i < COUNT; i++) {
-        int sure = importers[i]->probe(bytes, size, file_size);
+        int sure = importers[i]->probe(source->bytes, source->size, source->parts.size);
         bool named = has_ending(importers[i], ending);
         if (named)
             *by_ending = importers[i];
@@ -74,9 +74,9 @@ static int probe_all(const char *ending, const uint8_t *bytes, size_t size, size
 
 // The content of the file selects the importer. If the content is ambiguous, the extension of the file's name selects
 // the importer.
-const struct importer *importer_for(const char *name, const struct file_bytes *file, const char *wanted,
-                                    lam_error *error)
+const struct importer *importer_for(struct import_source *source, const char *wanted, lam_error *error)
 {
+    const char *name = source->name;
     char list[FORMAT_LIST_SIZE];
     if (wanted) {
         for (int i = 0; i < COUNT; i++) {
@@ -87,17 +87,20 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
              format_list(list));
         return NULL;
     }
-    if (file->size == 0)
+    if (source->size == 0)
         return fail(error, LAM_CANNOT_READ, "%s: the file is empty", name), NULL;
     const char *ending = path_ending(name);
     const struct importer *by_content, *by_ending;
-    if (probe_all(ending, file->data, file->size, file->size, &by_content, &by_ending) == 2)
+    bool sure = probe_all(ending, source, &by_content, &by_ending) == 2;
+    if (!sure && !import_whole(source, error))
+        return NULL;
+    if (sure || probe_all(ending, source, &by_content, &by_ending) == 2)
         return by_content;
     // The importer that matches the name reports the clearest error.
     if (by_content && by_content == by_ending)
         return by_content;
     // Recognise other kinds of files by their content, regardless of their name.
-    const struct unsupported_format *foreign = unsupported_format_of(file->data, file->size);
+    const struct unsupported_format *foreign = unsupported_format_of(source->bytes, source->size);
     if (!foreign && !by_ending)
         foreign = unsupported_format_named(ending);
     if (foreign && foreign->instead) {
@@ -114,17 +117,4 @@ const struct importer *importer_for(const char *name, const struct file_bytes *f
         return by_ending; // the importer of this format reports the error
     fail(error, LAM_CANNOT_READ, "%s: unknown model format; lambent reads %s", name, format_list(list));
     return NULL;
-}
-
-static bool reads_parts(const struct importer *importer) { return importer->in_parts || importer->load_stream; }
-
-const struct importer *importer_for_parts(const char *name, const uint8_t *head, size_t size, const char *wanted)
-{
-    if (wanted) {
-        const struct importer *importer = importer_for(name, NULL, wanted, NULL);
-        return importer && reads_parts(importer) ? importer : NULL;
-    }
-    const struct importer *importer, *by_ending;
-    bool sure = probe_all(path_ending(name), head, FILE_HEAD, size, &importer, &by_ending) == 2;
-    return sure && reads_parts(importer) ? importer : NULL;
 }

@@ -120,61 +120,27 @@ static void explain_path(const char *path, lam_error *error)
                  foreign ? ": export the model as " : "", foreign ? foreign->instead : "");
 }
 
-// Reads a large file in parts. Returns false without an error if the file must be read as a whole. Otherwise, *scene is
-// the loaded scene, or NULL if reading failed.
-static bool load_in_parts(struct import_source *source, const struct importer **importer, struct lam_scene **scene,
-                          lam_error *error)
+// Opens `path`, or the bytes if `path` is NULL, and loads the scene. On failure, *scene is NULL or an incomplete scene,
+// which the caller frees.
+static bool read(struct import_source *source, const char *path, const void *bytes, size_t size,
+                 const struct importer **importer, lam_scene **scene, lam_error *error)
 {
-    uint8_t *head = malloc(FILE_HEAD + FILE_PADDING);
-    struct file_parts file;
-    bool in_parts = false, done = false;
-    if (head && source->path && file_open_parts(source->path, head, &file)) {
-        source->bytes = head;
-        source->size = FILE_HEAD;
-        source->file_size = file.size;
-        source->parts = &file;
-        call_add_input(source->call, file.size);
-        // If the file is too large, `load` reports this error after this function returns.
-        if (call_check_file(source->call, source->name, file.size, NULL))
-            *importer = importer_for_parts(source->name, head, file.size, source->params->format);
-        in_parts = *importer && (*importer)->in_parts && (*importer)->in_parts(source);
-        if (in_parts || (*importer && (*importer)->load_stream))
-            *scene = start_scene(source, *importer, in_parts ? error : NULL);
-        done =
-            *scene && (in_parts ? (*importer)->load(source, *scene, error) : (*importer)->load_stream(source, *scene));
-        if (!done) {
-            lam_scene_free(*scene);
-            *scene = NULL;
-        }
-        if (!in_parts && !done) // the file will be read as a whole, and its size will be counted at that time
-            call_add_input(source->call, 0 - file.size);
-        file_close_parts(&file);
-        source->bytes = NULL;
-        source->size = source->file_size = 0;
-        source->parts = NULL;
-    }
-    free(head);
-    return in_parts || done;
-}
-
-// Reads the whole file to *file, or copies `bytes` if `path` is NULL, and loads the scene from it. On failure, *scene
-// is NULL or an incomplete scene, which the caller frees.
-static bool load_whole(struct import_source *source, const char *path, const void *bytes, size_t size,
-                       struct file_bytes *file, const struct importer **importer, lam_scene **scene, lam_error *error)
-{
-    if (!(path ? file_read(path, source->pool, source->call, file, error)
-               : file_copy(bytes, size, source->call, file, error))) {
+    struct file_bytes *head = source->file;
+    if (!(path ? file_open_parts(path, source->call, &source->parts, head, error)
+               : file_copy(bytes, size, source->call, head, error))) {
         if (path)
             explain_path(path, error);
         return false;
     }
-    source->bytes = file->data;
-    source->size = source->file_size = file->size;
-    source->file = file;
+    if (!path) {
+        source->parts = (struct file_parts){.file = -1, .memory = head->data, .size = size};
+        call_add_input(source->call, size);
+    }
+    source->bytes = head->data;
+    source->size = head->size;
     call_progress(source->call, 0.05, "read");
-    *importer = !file_check_pointer(file, source->name, error)
-                    ? NULL
-                    : importer_for(source->name, file, source->params->format, error);
+    *importer =
+        !file_check_pointer(head, source->name, error) ? NULL : importer_for(source, source->params->format, error);
     *scene = *importer ? start_scene(source, *importer, error) : NULL;
     return *scene && (*importer)->load(source, *scene, error);
 }
@@ -200,9 +166,12 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
                                     .release = params->release,
                                     .user = params->user,
                                     .files = &files};
+    struct file_bytes file = {0};
     struct import_source source = {
         .name = name,
         .path = path && strcmp(path, "-") != 0 ? path : NULL,
+        .parts = {.file = -1},
+        .file = &file,
         .params = params,
         .pool = pool_make(params->threads),
         .call = &call,
@@ -212,13 +181,10 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
         .open_state = &companions,
     };
     struct lam_scene *scene = NULL;
-    struct file_bytes file = {0};
     const struct importer *importer = NULL;
     bool ok = source.pool || fail(error, LAM_MACHINE, "%s: out of memory for threads", name);
     ok = ok && (folder || !path || fail_memory(error, strlen(path)));
-    bool loaded = ok && load_in_parts(&source, &importer, &scene, error);
-    call_add_input(&call, path ? 0 : size);
-    ok = loaded ? scene != NULL : ok && load_whole(&source, path, bytes, size, &file, &importer, &scene, error);
+    ok = ok && read(&source, path, bytes, size, &importer, &scene, error);
     ok = ok && finish(scene, &source, importer, start_ns, error) && file_list_give(&files, source.path, scene, error);
     if (ok) {
         scene->input_bytes = call_input_bytes(&call);
@@ -226,6 +192,7 @@ static lam_scene *load(const char *path, const void *bytes, size_t size, const c
     } else {
         lam_scene_free(scene);
     }
+    file_close_parts(&source.parts);
     file_release(&file);
     pool_free(source.pool);
     file_list_end(&files);

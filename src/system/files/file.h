@@ -55,19 +55,25 @@ char *path_within(const char *path, const char *folder, bool *outside, size_t *l
 #define THRESHOLD(usual, small) (usual)
 #endif
 
-// A large open file. Any thread may read sections of the file.
-enum { FILE_HEAD = THRESHOLD(64 << 10, 2 << 10), FILE_LARGE = THRESHOLD(1 << 20, 4 << 10) };
+// A source of bytes: an open file, or memory that file_bytes own. Any thread may read sections of a file.
 struct file_parts {
-    int file;
+    int file;              // −1 if the bytes are in memory
+    const uint8_t *memory; // all bytes, if they are in memory
     size_t size;
 };
-// Opens a file of at least FILE_LARGE bytes and reads its first FILE_HEAD bytes. Returns false if the file is smaller
-// or cannot be read.
-bool file_open_parts(const char *path, uint8_t head[FILE_HEAD + FILE_PADDING], struct file_parts *out);
+// Opens a file as file_read does, and reads its first FILE_HEAD bytes to *head. If the file is small, or its size is
+// unknown in advance (standard input), *head contains all of its bytes, and is the memory of *out. After an error too,
+// the caller closes *out and releases *head.
+enum { FILE_HEAD = THRESHOLD(64 << 10, 2 << 10) };
+bool file_open_parts(const char *path, struct call_control *call, struct file_parts *out, struct file_bytes *head,
+                     lam_error *error);
 // Reads `bytes` bytes at an offset; these bytes must be inside the file. Fails with LAM_CANNOT_READ; the message names
 // `path`.
 bool file_read_part(const struct file_parts *parts, const char *path, size_t offset, void *to, size_t bytes,
                     lam_error *error);
+// Reads all bytes of the file from offset `from` on.
+bool file_read_rest(const struct file_parts *parts, const char *path, size_t from, struct pool *pool,
+                    struct call_control *call, struct file_bytes *out, lam_error *error);
 void file_close_parts(struct file_parts *parts);
 
 // These functions allocate padded memory in the form that file_read returns. file_hold fills the memory with zeros;

@@ -57,10 +57,12 @@ static bool build(struct gltf *gltf)
            report_skipped(gltf);
 }
 
-static bool gltf_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+static bool gltf_load(struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
     struct arena scratch;
     lam_error unwanted;
+    if (!import_whole(source, error))
+        return false;
     arena_start(&scratch, source->call);
     struct gltf gltf = {.source = source,
                         .scene = scene,

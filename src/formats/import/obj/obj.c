@@ -110,26 +110,32 @@ static bool load(struct obj *obj, size_t chunk_bytes, lam_error *error)
            obj_complete(obj, error);
 }
 
+static void start(struct obj *obj, const struct import_source *source, struct lam_scene *scene)
+{
+    *obj = (struct obj){.source = source, .scene = scene, .begin = source->bytes, .end = source->bytes + source->size};
+    if (source->size >= 3 && memcmp(obj->begin, "\xef\xbb\xbf", 3) == 0) // a byte order mark
+        obj->begin += 3;
+    arena_start(&obj->memory, source->call);
+    obj->materials.by_name.memory = obj->libraries.tried.memory = &obj->memory;
+}
+
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes, lam_error *error)
 {
-    struct obj obj = {
-        .source = source,
-        .scene = scene,
-        .begin = source->bytes,
-        .end = source->bytes + source->size,
-    };
-    if (source->size >= 3 && memcmp(obj.begin, "\xef\xbb\xbf", 3) == 0) // a byte order mark
-        obj.begin += 3;
-    arena_start(&obj.memory, source->call);
-    obj.materials.by_name.memory = obj.libraries.tried.memory = &obj.memory;
+    struct obj obj;
+    start(&obj, source, scene);
     bool ok = load(&obj, chunk_bytes, error);
     arena_free(&obj.memory);
     return ok;
 }
 
-static bool obj_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+static bool obj_load(struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
-    return obj_load_chunked(source, scene, OBJ_CHUNK, error);
+    struct obj obj;
+    start(&obj, source, scene);
+    bool streamed = source->size < source->parts.size && obj_read_stream(&obj);
+    bool ok = streamed && obj_complete(&obj, error);
+    arena_free(&obj.memory);
+    return streamed ? ok : import_whole(source, error) && obj_load_chunked(source, scene, OBJ_CHUNK, error);
 }
 
 const struct importer importer_obj = {
@@ -139,5 +145,4 @@ const struct importer importer_obj = {
     .up_is_habit = true,
     .probe = obj_probe,
     .load = obj_load,
-    .load_stream = obj_load_stream,
 };

@@ -69,6 +69,7 @@ struct obj_chunk {
 // A statement of OBJ_OTHER, and the numbers of triangles, positions and texture coordinates before it.
 struct obj_statement {
     const uint8_t *at;
+    size_t offset; // in the file, if the text is not in memory
     uint32_t triangle;
     uint32_t positions, texcoords;
 };
@@ -101,8 +102,7 @@ struct obj {
     size_t chunk_count;
     struct obj_counts total;
     bool colors_present;
-    bool streamed;       // obj_stream.c: the text before the current chunk is not in memory
-    bool line_requested; // a message needs a line number, which is unknown in a stream
+    bool streamed; // obj_stream.c: only the statements are in memory
 
     float *positions, *texcoords, *normals, *colors; // colors: RGBA
     uint32_t *indices, *texcoord_indices, *normal_indices;
@@ -176,8 +176,8 @@ bool obj_strokes_add(struct obj *obj, const float *texcoords, lam_error *error);
 // a file cannot be opened, the function warns and continues.
 bool obj_read_libraries(struct obj *obj, const char *names, const uint8_t *at, lam_error *error);
 
-// obj_stream.c: the importer's load_stream.
-bool obj_load_stream(const struct import_source *source, struct lam_scene *scene);
+// obj_stream.c. Reads the file in parts: all arrays, and the statements. Returns false if the whole text must be read.
+bool obj_read_stream(struct obj *obj);
 
 // obj_mesh.c: builds the mesh after positions and faces are read.
 bool obj_complete(struct obj *obj, lam_error *error);
@@ -186,8 +186,8 @@ bool obj_complete(struct obj *obj, lam_error *error);
 bool obj_load_chunked(const struct import_source *source, struct lam_scene *scene, size_t chunk_bytes,
                       lam_error *error);
 
-// Returns the line number of `at`. In a stream, the function returns 0 and sets line_requested.
-size_t obj_line_number(struct obj *obj, const uint8_t *at);
+// Returns the number of the line at `at`, which is in a statement if only the statements are in memory.
+size_t obj_line_number(const struct obj *obj, const uint8_t *at);
 
 // Returns whether a position is finite. scene_repair leaves out the faces of other positions.
 static inline bool obj_finite(const float p[3]) { return (p[0] - p[0]) + (p[1] - p[1]) + (p[2] - p[2]) == 0; }

@@ -165,10 +165,6 @@ static bool read_strokes(struct state *state, const struct obj_statement *s, boo
     struct obj_strokes *strokes = &obj->strokes[lines];
     struct stroke_part *of = &state->strokes[lines];
     size_t before = strokes->corners;
-    if (obj->streamed) { // vertex indices are known only if the whole text is in memory
-        obj->line_requested = true;
-        return true;
-    }
     if (!obj_strokes_read(obj, s, lines, error))
         return false;
     uint32_t first = (uint32_t)(lines ? before / 2 : before);
@@ -372,7 +368,7 @@ bool obj_read_statements(struct obj *obj, lam_error *error)
             return call_error(call, error);
         kinds[i] = (uint8_t)statement_of(obj->statements[i].at, obj->end);
         parts += kinds[i] == OBJECT || kinds[i] == GROUP || kinds[i] == MATERIAL;
-        if ((kinds[i] == LINES || kinds[i] == POINTS) && !obj->streamed)
+        if (kinds[i] == LINES || kinds[i] == POINTS)
             corners[kinds[i] == LINES] += obj_strokes_corners(obj, obj->statements[i].at, kinds[i] == LINES);
         // If all groups are off, the file defines no smoothing groups.
         smoothing |= kinds[i] == SMOOTHING && read_smoothing(obj, obj->statements[i].at) != 0;

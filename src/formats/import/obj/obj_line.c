@@ -6,15 +6,31 @@
 
 #include <string.h>
 
-size_t obj_line_number(struct obj *obj, const uint8_t *at)
+static size_t count_newlines(const uint8_t *at, size_t size)
 {
-    if (obj->streamed) {
-        obj->line_requested = true;
-        return 0;
+    size_t count = 0;
+    for (size_t i = 0; i < size; i++)
+        count += at[i] == '\n';
+    return count;
+}
+
+size_t obj_line_number(const struct obj *obj, const uint8_t *at)
+{
+    const struct import_source *source = obj->source;
+    uint8_t block[4096];
+    size_t lines = 1, offset = (size_t)(at - obj->begin);
+    if (!obj->streamed)
+        return lines + count_newlines(obj->begin, offset);
+    const struct obj_statement *s = obj->statements;
+    while (s + 1 < obj->statements + obj->total.others && s[1].at <= at)
+        s++;
+    offset = s->offset + (size_t)(at - s->at);
+    for (size_t from = 0, size; from < offset; from += size) {
+        size = offset - from < sizeof block ? offset - from : sizeof block;
+        if (!file_read_part(&source->parts, source->name, from, block, size, NULL))
+            break; // the number of the last line that can still be read
+        lines += count_newlines(block, size);
     }
-    size_t lines = 1;
-    for (const uint8_t *c = obj->begin; c < at; c++)
-        lines += *c == '\n';
     return lines;
 }
 
@@ -273,8 +289,9 @@ const uint8_t *obj_read_line(struct obj_reader *reader, const uint8_t *at)
     case OBJ_OTHER:
         if (reader->next.others >= reader->limit.others)
             return fail_expected(reader, at, changed);
-        reader->obj->statements[reader->next.others++] = (struct obj_statement){
-            at, (uint32_t)reader->next.triangles, (uint32_t)reader->next.positions, (uint32_t)reader->next.texcoords};
+        reader->obj->statements[reader->next.others++] =
+            (struct obj_statement){at, 0, (uint32_t)reader->next.triangles, (uint32_t)reader->next.positions,
+                                   (uint32_t)reader->next.texcoords};
         return obj_next_line(at, end);
     case OBJ_EMPTY:
         if (*at == 0 && at < end)

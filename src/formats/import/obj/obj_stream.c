@@ -3,9 +3,9 @@
 // Each thread reads a chunk of the text and parses it into scratch arrays, all within the second-level cache. Once the
 // previous chunks are counted, the thread knows the indices of its elements and copies the elements to the final
 // arrays. The text is thus read once, and the file is never in memory as a whole. The final arrays reserve the address
-// space that a file of this size could fill; untouched pages are released. obj.c reads all other files: files with
-// vertex colours, relative indices, lines, points, a mix of corners with and without normals, or text lines longer than
-// TAIL. obj.c also reads files with errors, and files whose warnings name a line.
+// space that a file of this size could fill; untouched pages are released. obj.c reads the whole text of all other
+// files: files with vertex colours, relative indices, a mix of corners with and without normals, text lines longer than
+// TAIL, or errors.
 #include "loop_status.h"
 #include "obj.h"
 #include "origin.h"
@@ -39,20 +39,16 @@ static const struct {
 struct chunk_scratch {
     struct obj obj; // refers to the arrays below while a chunk is parsed
     uint8_t *text;
+    size_t offset; // of the text in the file
     void *arrays[ARRAYS];
     struct obj_statement statements[STATEMENTS];
     bool texcoords, normals; // whether faces use texture coordinates, and whether they use normals
     uint32_t index_max[3];   // the largest indices in the faces: of positions, texture coordinates and normals
 };
 
-struct stream_statement {
-    size_t offset; // offset in the texts
-    uint32_t triangle;
-};
-
 struct stream {
     struct obj *obj;
-    const struct file_parts *file;
+    size_t size; // of the file
     struct loop_status loop;
     int unsupported; // atomic; set if obj.c must read the file instead
     struct chunk_scratch *scratch;
@@ -66,8 +62,8 @@ struct stream {
     size_t charged;
     int layout; // 0 before the first face; then 1, plus 1 if faces have texture coordinates, plus 2 for normals
     float low[3], high[3];
-    struct stream_statement *statements;
-    uint8_t *texts; // the texts of the statements, concatenated
+    struct obj_statement *statements; // `at` is set at the end
+    uint8_t *texts;                   // the texts of the statements, concatenated
     size_t statements_capacity, texts_used, texts_capacity;
 };
 
@@ -76,7 +72,7 @@ static bool stream_continues(struct stream *stream)
     return !__atomic_load_n(&stream->unsupported, __ATOMIC_RELAXED) && should_continue(&stream->loop);
 }
 
-static bool is_small(const struct stream *stream) { return stream->file->size < SMALL_FILE; }
+static bool is_small(const struct stream *stream) { return stream->size < SMALL_FILE; }
 
 static uint64_t count_of(const struct obj_counts *counts, enum array kind)
 {
@@ -94,11 +90,13 @@ static size_t rows_max(enum array kind, size_t bytes) { return bytes / array_kin
 // Reads the complete lines that begin in the chunk.
 static bool read_text(const struct stream *stream, struct chunk_scratch *scratch, size_t index, struct obj_chunk *chunk)
 {
-    size_t size = stream->file->size, nominal = index * OBJ_CHUNK, from = index ? nominal - 1 : 0;
+    const struct import_source *source = stream->obj->source;
+    size_t size = stream->size, nominal = index * OBJ_CHUNK, from = index ? nominal - 1 : 0;
     size_t to = size - nominal < OBJ_CHUNK + TAIL ? size : nominal + OBJ_CHUNK + TAIL;
     uint8_t *text = scratch->text, *end = text + (to - from);
-    if (!file_read_part(stream->file, stream->obj->source->name, from, text, to - from, NULL))
+    if (!file_read_part(&source->parts, source->name, from, text, to - from, NULL))
         return false;
+    scratch->offset = from;
     memset(end, 0, FILE_PADDING);
     const uint8_t *first = text, *last = end;
     if (index) {
@@ -173,7 +171,7 @@ static bool grow(struct arena *arena, void *array, size_t *capacity, size_t used
 }
 
 static bool append_statements(struct stream *stream, const struct chunk_scratch *scratch, uint64_t count,
-                              uint32_t triangle)
+                              const struct obj_counts *before)
 {
     struct arena *memory = &stream->obj->memory;
     size_t kept = (size_t)stream->total.others;
@@ -185,8 +183,12 @@ static bool append_statements(struct stream *stream, const struct chunk_scratch 
         size_t length = (size_t)(obj_next_line(at, scratch->obj.end) - at);
         if (!grow(memory, &stream->texts, &stream->texts_capacity, stream->texts_used, length + 1 + FILE_PADDING, 1))
             return false;
-        stream->statements[kept + i] =
-            (struct stream_statement){stream->texts_used, triangle + scratch->statements[i].triangle};
+        struct obj_statement *statement = &stream->statements[kept + i];
+        *statement = scratch->statements[i];
+        statement->offset = scratch->offset + (size_t)(at - scratch->text);
+        statement->triangle += (uint32_t)before->triangles;
+        statement->positions += (uint32_t)before->positions;
+        statement->texcoords += (uint32_t)before->texcoords;
         memcpy(stream->texts + stream->texts_used, at, length);
         stream->texts_used += length;
     }
@@ -212,7 +214,7 @@ static bool count_chunk(struct stream *stream, struct chunk_scratch *scratch, si
             return false;
         stream->layout = layout;
     }
-    if (counts->others && !append_statements(stream, scratch, counts->others, (uint32_t)total->triangles))
+    if (counts->others && !append_statements(stream, scratch, counts->others, before))
         return false;
     total->positions += counts->positions;
     total->texcoords += counts->texcoords;
@@ -222,7 +224,7 @@ static bool count_chunk(struct stream *stream, struct chunk_scratch *scratch, si
     total->others += counts->others;
     size_t bytes = 0;
     for (enum array kind = 0; kind < ARRAYS; kind++) {
-        if (count_of(total, kind) > rows_max(kind, stream->file->size))
+        if (count_of(total, kind) > rows_max(kind, stream->size))
             return false;
         bytes += (size_t)count_of(counts, kind) * array_kinds[kind].row;
     }
@@ -265,7 +267,7 @@ static void copy_chunk(const struct stream *stream, struct chunk_scratch *scratc
         memcpy(stream->arrays[kind] + count_of(before, kind) * array_kinds[kind].row, scratch->arrays[kind],
                (size_t)count_of(counts, kind) * array_kinds[kind].row);
     copy_corners(stream, scratch, CORNERS, before->triangles, counts);
-    if (scratch->index_max[0] < rows_max(POSITIONS, stream->file->size)) // a larger index is wrong
+    if (scratch->index_max[0] < rows_max(POSITIONS, stream->size)) // a larger index is wrong
         mesh_mark_vertices(scratch->arrays[CORNERS], 3 * counts->triangles, stream->marks);
     if (scratch->texcoords)
         copy_corners(stream, scratch, CORNER_TEXCOORDS, before->triangles, counts);
@@ -335,12 +337,12 @@ static bool alloc_scratch(struct stream *stream)
 static bool reserve_arrays(struct stream *stream)
 {
     for (enum array kind = 0; kind < ARRAYS; kind++) {
-        size_t bytes = rows_max(kind, stream->file->size) * array_kinds[kind].row;
+        size_t bytes = rows_max(kind, stream->size) * array_kinds[kind].row;
         stream->arrays[kind] = (is_small(stream) ? pages_get_sparse : pages_get)(bytes, &stream->reserved[kind]);
         if (!stream->arrays[kind])
             return false;
     }
-    stream->marks = pages_get_sparse(rows_max(POSITIONS, stream->file->size), &stream->reserved_marks);
+    stream->marks = pages_get_sparse(rows_max(POSITIONS, stream->size), &stream->reserved_marks);
     return stream->marks != NULL;
 }
 
@@ -389,9 +391,12 @@ static bool pass_arrays(struct stream *stream)
     obj->polygons = pass_to_arena(stream, POLYGONS, &obj->memory);
     bool done = obj->positions && obj->indices && obj->polygons;
     if (texcoords) {
-        obj->texcoords = pass_to_arena(stream, TEXCOORDS, kept);
         obj->texcoord_indices = pass_to_arena(stream, CORNER_TEXCOORDS, kept);
-        done = done && obj->texcoords && obj->texcoord_indices;
+        done = done && obj->texcoord_indices;
+    }
+    if (texcoords || (stream->total.texcoords && stream->total.others)) { // lines may use them
+        obj->texcoords = pass_to_arena(stream, TEXCOORDS, kept);
+        done = done && obj->texcoords;
     }
     if (normals) {
         obj->normals = pass_to_arena(stream, NORMALS, kept);
@@ -399,14 +404,12 @@ static bool pass_arrays(struct stream *stream)
         done = done && obj->normals && obj->normal_indices;
     }
     size_t count = (size_t)stream->total.others;
-    obj->statements = arena_array(&obj->memory, count, sizeof *obj->statements);
-    if (!done || !obj->statements)
-        return false;
-    for (size_t i = 0; i < count; i++)
-        obj->statements[i] = (struct obj_statement){.at = stream->texts + stream->statements[i].offset,
-                                                    .triangle = stream->statements[i].triangle};
-    if (count == 0)
-        return true;
+    obj->statements = stream->statements;
+    if (!done || count == 0)
+        return done;
+    const uint8_t *at = stream->texts;
+    for (size_t i = 0; i < count; at = obj_next_line(at, stream->texts + stream->texts_used), i++)
+        obj->statements[i].at = at;
     memset(stream->texts + stream->texts_used, 0, FILE_PADDING);
     obj->begin = stream->texts;
     obj->end = stream->texts + stream->texts_used;
@@ -432,26 +435,24 @@ static bool load(struct stream *stream)
         stream->low[i] = __FLT_MAX__;
         stream->high[i] = -__FLT_MAX__;
     }
-    pool_run(obj->source->pool, (stream->file->size + OBJ_CHUNK - 1) / OBJ_CHUNK, load_chunk, stream);
-    if (!stream_continues(stream) || !indices_valid(stream) || !fits_floats(stream) || !pass_arrays(stream))
+    pool_run(obj->source->pool, (stream->size + OBJ_CHUNK - 1) / OBJ_CHUNK, load_chunk, stream);
+    obj->chunks = arena_alloc_zeroed(&obj->memory, sizeof *obj->chunks);
+    if (!stream_continues(stream) || !indices_valid(stream) || !fits_floats(stream) || !obj->chunks ||
+        !pass_arrays(stream))
         return false;
-    struct obj_chunk whole = {
-        .texcoord_used = obj->texcoords != NULL,
-        .normal_used = obj->normals != NULL,
-    };
     // The memory for the triangles of a polygon also contains numbers that are not corners of the polygon.
     obj->scene->first_all_used = !stream->total.polygons && !memchr(stream->marks, 0, stream->total.positions);
-    obj->chunks = &whole;
+    obj->chunks->texcoord_used = obj->texcoord_indices != NULL;
+    obj->chunks->normal_used = obj->normals != NULL;
     obj->chunk_count = 1;
-    return obj_complete(obj, NULL) && !obj->line_requested;
+    return true;
 }
 
-bool obj_load_stream(const struct import_source *source, struct lam_scene *scene)
+bool obj_read_stream(struct obj *obj)
 {
-    struct obj obj = {.source = source, .scene = scene, .streamed = true};
-    struct stream stream = {.obj = &obj, .file = source->parts, .loop = {.call = source->call}};
-    arena_start(&obj.memory, source->call);
-    obj.materials.by_name.memory = obj.libraries.tried.memory = &obj.memory;
+    struct call_control *call = obj->source->call;
+    struct stream stream = {.obj = obj, .size = obj->source->parts.size, .loop = {.call = call}};
+    obj->streamed = true;
     bool done = load(&stream);
     for (enum array kind = 0; kind < ARRAYS; kind++) {
         if (stream.reserved[kind])
@@ -460,7 +461,6 @@ bool obj_load_stream(const struct import_source *source, struct lam_scene *scene
     if (stream.reserved_marks)
         pages_free(stream.marks, stream.reserved_marks);
     free(stream.scratch_memory);
-    call_refund(source->call, stream.charged + stream.scratch_bytes);
-    arena_free(&obj.memory);
+    call_refund(call, stream.charged + stream.scratch_bytes);
     return done;
 }

@@ -257,7 +257,7 @@ static bool build(struct ply_import *reader, lam_error *error)
     struct lam_scene *scene = reader->scene;
     char found[TEXT_FOUND_SIZE];
     // the text lacks the first line of PLY, but the caller or the file's extension selected this importer
-    if (ply_probe(source->bytes, source->size, source->file_size) == 0)
+    if (ply_probe(source->bytes, source->size, source->parts.size) == 0)
         return fail_line(error, source, 1, "found %s, expected \"ply\"",
                          text_found(source->bytes, source->bytes + source->size, found));
     if (!ply_read_header(source, reader->scratch, &reader->header, error) || !choose_elements(reader, error) ||
@@ -295,29 +295,31 @@ static bool build(struct ply_import *reader, lam_error *error)
     return mesh_add_object(scene, &mesh, NULL, error);
 }
 
-static bool ply_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
-{
-    struct arena scratch;
-    arena_start(&scratch, source->call);
-    struct ply_import reader = {.source = source, .scene = scene, .scratch = &scratch};
-    bool done = build(&reader, error);
-    if (done)
-        warn_unused(&reader);
-    arena_free(&scratch);
-    return done;
-}
-
 // Only binary files can be read in parts, because rows of text differ in size. The whole header must be in memory. If
 // the body begins at the end of these bytes, the line "end_header" may be truncated.
-static bool ply_in_parts(const struct import_source *source)
+static bool in_parts(const struct import_source *source)
 {
     struct arena scratch;
     struct ply_header header;
+    if (source->size == source->parts.size)
+        return true;
     arena_start(&scratch, source->call);
     bool binary =
         ply_read_header(source, &scratch, &header, NULL) && header.format != PLY_ASCII && header.body < source->size;
     arena_free(&scratch);
     return binary;
+}
+
+static bool ply_load(struct import_source *source, struct lam_scene *scene, lam_error *error)
+{
+    struct arena scratch;
+    arena_start(&scratch, source->call);
+    struct ply_import reader = {.source = source, .scene = scene, .scratch = &scratch};
+    bool done = (in_parts(source) || import_whole(source, error)) && build(&reader, error);
+    if (done)
+        warn_unused(&reader);
+    arena_free(&scratch);
+    return done;
 }
 
 const struct importer importer_ply = {
@@ -327,5 +329,4 @@ const struct importer importer_ply = {
     .up_is_habit = true,
     .probe = ply_probe,
     .load = ply_load,
-    .in_parts = ply_in_parts,
 };

@@ -103,7 +103,7 @@ static bool may_be_triangles(const struct ply_reader *reader, const struct ply_h
     const struct ply_element *element = reader->element, *end = header->elements + header->element_count;
     if (reader->request->list < 0 || reader->request->restarts || element->list_count != 1)
         return false;
-    uint64_t left = reader->source->file_size - reader->offset;
+    uint64_t left = reader->source->parts.size - reader->offset;
     const struct ply_property *list = &element->properties[reader->request->list];
     for (const struct ply_element *e = element; e < end; e++) {
         if (e != element && e->list_count > 0)
@@ -160,7 +160,7 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
 static bool index_rows(struct ply_reader *reader, size_t *offset, lam_error *error)
 {
     const struct ply_element *element = reader->element;
-    const uint8_t *at = reader->first, *file_end = at + (reader->source->file_size - reader->offset);
+    const uint8_t *at = reader->first, *file_end = at + (reader->source->parts.size - reader->offset);
     for (size_t row = 0; row < element->count; row++) {
         if (!ply_index_row(reader, row, at, error))
             return false;
@@ -233,7 +233,7 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
 {
     struct arena *keep = request->keep, *scratch = request->scratch;
     // Check the file's size before any allocation.
-    uint64_t left = source->file_size - *at;
+    uint64_t left = source->parts.size - *at;
     if (element->min_bytes > 0 && element->count > left / element->min_bytes)
         return ply_fail_truncated(source, element, left / element->min_bytes, error);
 

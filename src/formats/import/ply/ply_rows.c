@@ -12,7 +12,7 @@ bool ply_fail_truncated(const struct import_source *source, const struct ply_ele
     return fail(error, LAM_CANNOT_READ,
                 "%s: the file is truncated: its header declares %llu rows of element \"%s\", found %llu in %zu bytes",
                 source->name, (unsigned long long)element->count, shown_name(element->name, shown),
-                (unsigned long long)row, source->file_size);
+                (unsigned long long)row, source->parts.size);
 }
 
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error)

@@ -65,26 +65,20 @@ static int stl_probe(const uint8_t *bytes, size_t size, size_t file_size)
     }
 }
 
-static bool stl_in_parts(const struct import_source *source)
-{
-    enum kind kind = detect_kind(source->bytes, source->size, source->file_size);
-    return kind == BINARY_EXACT || kind == BINARY_LOOSE;
-}
-
-static bool stl_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+static bool stl_load(struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
     char found[TEXT_FOUND_SIZE];
     lam_mesh mesh = {0};
-    switch (detect_kind(source->bytes, source->size, source->file_size)) {
+    switch (detect_kind(source->bytes, source->size, source->parts.size)) {
     case ASCII:
-        if (!stl_load_ascii(source, scene, &mesh, error))
+        if (!import_whole(source, error) || !stl_load_ascii(source, scene, &mesh, error))
             return false;
         break;
     case NEITHER:
         return fail(error, LAM_CANNOT_READ,
                     "%s: not an STL file: found %s at its start and %zu bytes, expected \"solid\" and facets, or a "
                     "binary header of %d bytes and facets",
-                    source->name, text_found(source->bytes, source->bytes + source->size, found), source->file_size,
+                    source->name, text_found(source->bytes, source->bytes + source->size, found), source->parts.size,
                     STL_FACETS);
     default:
         if (!stl_load_binary(source, scene, &mesh, error))
@@ -99,5 +93,4 @@ const struct importer importer_stl = {
     .up = LAM_UP_Z,
     .probe = stl_probe,
     .load = stl_load,
-    .in_parts = stl_in_parts,
 };

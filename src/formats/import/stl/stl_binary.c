@@ -145,12 +145,12 @@ bool stl_load_binary(const struct import_source *source, struct lam_scene *scene
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #error "positions are copied without byte swapping: this reader needs a little-endian machine"
 #endif
-    size_t body = source->file_size - STL_FACETS, present = body / STL_FACET;
+    size_t body = source->parts.size - STL_FACETS, present = body / STL_FACET;
     if (declared > present)
         return fail(error, LAM_CANNOT_READ,
                     "%s: the file is truncated: its header declares %u facets (%llu bytes), found %zu (%zu bytes)",
                     source->name, declared, (unsigned long long)STL_FACETS + (unsigned long long)STL_FACET * declared,
-                    present, source->file_size);
+                    present, source->parts.size);
     if (!stl_check_count(source, declared, error))
         return false;
     if (declared == 0)

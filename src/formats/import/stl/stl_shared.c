@@ -119,10 +119,10 @@ static bool share_chunk(struct sharing *s, struct share_worker *worker, size_t i
     size_t first, last;
     parallel_rows_range(s->facets->count, index, &first, &last);
     size_t offset = s->facets->offset + first * STL_FACET;
-    const uint8_t *rows = worker->rows ? worker->rows : source->bytes + offset;
+    const uint8_t *rows = worker->rows ? worker->rows : source->parts.memory + offset;
     if (!should_continue(&s->loop) || *count + 3 * PARALLEL_ROWS > s->window_vertices ||
         (worker->rows &&
-         !file_read_part(source->parts, source->name, offset, worker->rows, (last - first) * STL_FACET, NULL)))
+         !file_read_part(&source->parts, source->name, offset, worker->rows, (last - first) * STL_FACET, NULL)))
         return false;
     s->words[index] = (struct stl_words){0};
     uint32_t before = *count;
@@ -182,8 +182,8 @@ static bool start_workers(struct sharing *s, struct arena *scratch)
         struct share_worker *worker = &s->workers[i];
         worker->table = arena_array(scratch, (size_t)1 << TABLE_BITS, sizeof *worker->table);
         worker->positions = arena_array(scratch, s->window_vertices + 1, sizeof *worker->positions);
-        worker->rows = s->source->parts ? arena_array(scratch, PARALLEL_ROWS, STL_FACET) : NULL;
-        if (!worker->table || !worker->positions || (s->source->parts && !worker->rows))
+        worker->rows = s->source->parts.memory ? NULL : arena_array(scratch, PARALLEL_ROWS, STL_FACET);
+        if (!worker->table || !worker->positions || (!s->source->parts.memory && !worker->rows))
             return false;
     }
     return s->workers != NULL;

@@ -154,10 +154,12 @@ static bool read_all(struct threemf *file)
     return true;
 }
 
-static bool threemf_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+static bool threemf_load(struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
     struct arena scratch;
     lam_error unwanted;
+    if (!import_whole(source, error))
+        return false;
     arena_start(&scratch, source->call);
     struct threemf file = {.source = source,
                            .scene = scene,
@@ -185,7 +187,7 @@ static bool threemf_load(const struct import_source *source, struct lam_scene *s
 
 #else // the build lacks the headers of libzip and expat
 
-static bool threemf_load(const struct import_source *source, struct lam_scene *scene, lam_error *error)
+static bool threemf_load(struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
     (void)scene;
     return fail(error, LAM_UNSUPPORTED,

@@ -1,10 +1,24 @@
-// import_error.c: errors that name a line or a byte of the file.
+// importer.c: reads a whole source, and reports errors that name a line or a byte of the file.
 #include "importer.h"
 
 #include "fail.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+
+bool import_whole(struct import_source *source, lam_error *error)
+{
+    struct file_bytes whole;
+    if (source->size == source->parts.size)
+        return true;
+    if (!file_read_rest(&source->parts, source->name, 0, source->pool, source->call, &whole, error))
+        return false;
+    file_release(source->file);
+    *source->file = whole;
+    source->bytes = source->parts.memory = whole.data;
+    source->size = whole.size;
+    return true;
+}
 
 static void fail_at(lam_error *error, const struct import_source *source, const char *kind, size_t position,
                     const char *format, va_list arguments)

@@ -145,7 +145,10 @@ typedef struct lam_material {
     // specular–glossiness material (KHR_materials_pbrSpecularGlossiness), with ior = 0 and its specular colour as
     // f0_color.
     float specular_glossiness; // 0..1; default 0
-    LAM_RESERVED(64);
+    // The lam_material_id + 1 of a metal that lam_material_parse or a scene file read by its name alone; 0: none. Under
+    // the built-in studio environment, the program replaces it by the physical metal (lam_material_metal).
+    int metal;
+    LAM_RESERVED(63);
 } lam_material;
 
 // Returns the material of parts that name no material: neutral light grey with a soft highlight.

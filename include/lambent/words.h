@@ -24,6 +24,10 @@ extern "C" {
 // unchanged.
 LAM_API bool lam_material_parse(const char *text, lam_color_mode mode, lam_material *material, lam_error *error);
 
+// Returns the words for the physical metal of a classic metal's name, such as "diffuse=…,metallic=1,roughness=0.2", or NULL
+// if the material is not a metal.
+LAM_API const char *lam_material_metal(lam_material_id id);
+
 // Returns the key of lam_material_parse with this index (from 0), or NULL if the index is out of range.
 LAM_API const char *lam_material_key(int index);
 

@@ -317,27 +317,27 @@ class Lights(Pictures):
 
     def test_errors(self):
         for value, says in {
-            "pont": "did you mean 'point'?", "": "unknown light", "point:positon=1/2/3": "did you mean 'position'?",
+            "pont": "did you mean 'point'?", "": "expected ambient", "point:positon=1/2/3": "did you mean 'position'?",
             "point:zzz=1": "expected position, direction", "point:position": "expected key=value",
             "point:position=1/2": "three numbers", "point:position=nan/0/0": "three numbers", "point:position=1r/2/3": "or after none",
-            "point:position=1/2/3/-1": "w of at least 0", "point:position=0/0/0/0": "expected a direction",
+            "point:position=0/0/0/0": "expected a direction",
             "spot:position=1/2/3/0": "needs a position", "point:position=1/2/3,position=1/2/3": "given twice",
-            "directional:position=1/2/3": "directional light needs", "directional:direction=0/0/0": "expected a direction",
+            "directional:position=1/2/3": "position whose fourth number is 0", "directional:direction=0/0/0": "expected a direction",
             "directional:range=2": "has no 'range'", "point:cutoff=20": "a point light has no 'cutoff'",
             "ambient:position=1/2/3": "an ambient light has no 'position'", "hemisphere:diffuse=1": "has no 'diffuse'",
             "point:color=blurple": "expected a colour", "point:color=-1/0/0": "at least 0", "point:color=nan": "expected a colour",
             "point:color=#ff000080": "without alpha", "point:intensity=-1": "at least 0", "point:intensity=inf": "expected a number",
             "point:attenuation=1/2": "three numbers a/b/c", "point:attenuation=-1/0/0": "at least 0",
-            "point:attenuation=0/0/0": "above 0", "point:attenuation=1r/0/0": "b and c with r", "point:range=0": "above 0",
-            "point:range=x": "expected a distance", "spot:cutoff=0": "above 0", "spot:cutoff=120": "or 180", "spot:cutoff=nan": "number",
-            "spot:exponent=-1": "at least 0", "spot:inner=30,outer=20": "inner < outer", "spot:inner=20,outer=20": "inner < outer",
-            "spot:inner=20": "without 'outer'", "spot:outer=95": "from 0 to 90", "spot:cutoff=20,outer=30": "both kinds of cone",
+            "point:attenuation=0/0/0": "more than 0", "point:attenuation=1r/0/0": "expected a number", "point:range=-1": "at least 0",
+            "point:range=x": "expected a number", "spot:cutoff=0": "above 0", "spot:cutoff=120": "or 180", "spot:cutoff=nan": "number",
+            "spot:exponent=-1": "at least 0", "spot:inner=30,outer=20": "less than outer", "spot:inner=20,outer=20": "less than outer",
+            "spot:inner=20": "without outer", "spot:outer=95": "from 0 to 90", "spot:cutoff=20,outer=30": "cannot be combined",
             "spot:direction=0/0/-1,target=1/1/1": "expected only one", "point:frame=eye": "expected world, camera",
-            "point:frame=object:": "an object's name", "point:name=": "empty", "+none": "unknown light",
+            "point:frame=object:": "name of one object", "point:name=": "empty", "+none": "expected ambient",
         }.items():
             with self.subTest(value):
                 self.bad(1, "sphere", "--light", value, says=["option '--light'", says])
-        self.bad(1, "sphere", "--light", "point:frame=object:spere", says=["no object 'spere'", "did you mean 'sphere'?"])
+        self.bad(1, "sphere", "--light", "point:frame=object:spere", says=["no object is named 'spere'", "did you mean 'sphere'?"])
         self.bad(1, "sphere", "--light", "spot:position=1/1/1,target=1/1/1", says="the same point")
         self.bad(1, "sphere", "--light", says="needs a value")
         for value in ("-1", "nan", "blurple"):

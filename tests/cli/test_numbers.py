@@ -157,7 +157,7 @@ ROWS = [
     ("include/lambent/device.h", "more than {} translucent triangles over one pixel", LAYERS),
     ("include/lambent/check.h", "1 = full range; 0: {}/255. A scene passes if at most one pixel in {}", TOLERANCE, PIXELS_OVER_CHECK),
     ("include/lambent/words.h", "A text is at most {} bytes long",
-     counted("WORDS_MAX - 1", lambda: constant("src/core/words/word_values.h", "WORDS_MAX").look_up() - 1)),
+     counted("WORDS_MAX - 1", lambda: constant("src/core/description/description.h", "WORDS_MAX").look_up() - 1)),
 ]
 
 

@@ -233,9 +233,9 @@ class View(Case):
             "target=0/0/0": "'eye' is missing", "eye=1/2": "three numbers", "eye=1/2/3/4": "three numbers",
             "eye=1/2/x": "three numbers", "eye=nan/0/1": "three numbers", "eye=0x1/0/1": "three numbers",
             "ey=1/2/3": "did you mean 'eye'?", "eye=0/0/5,fovy=0": "above 0", "eye=0/0/5,fovy=180": "below 180",
-            "eye=0/0/5,fovy=30,ortho=1": "expected only one", "eye=0/0/5,near=1": "only 'near'",
+            "eye=0/0/5,fovy=30,ortho=1": "expected only one", "eye=0/0/5,near=1": "only near",
             "eye=0/0/5,near=3,far=2": "near < far", "eye=0/0/5,near=0,far=2": "0 < near < far",
-            "eye=0/0/5,ortho=-1": "above 0", "eye=1/1/1,target=1/1/1": "same point", "eye=0/0/5,up=0/0/0": "direction",
+            "eye=0/0/5,ortho=-1": "at least 0", "eye=1/1/1,target=1/1/1": "same point", "eye=0/0/5,up=0/0/0": "direction",
             "eye=0/0/5,eye=0/0/6": "twice", "eye": "expected keys such as eye=2/1/4",
         }.items():
             with self.subTest(value):

@@ -41,10 +41,10 @@ SEED_BYTES = 16384
 WORDS = {
     "obj": ["src/formats/import/obj"], "mtl": ["src/formats/import/obj/mtl.c", "src/formats/import/obj/mtl_maps.c"], "gltf": ["src/formats/import/gltf"], "glb": ["src/formats/import/gltf"],
     "3mf": ["src/formats/import/threemf"],
-    "scene": ["src/core/scene_file", "src/core/scene", "src/core/words"],
-    "render": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/core/words"], "formula": ["src/formats/shapes/formula_parse.c"],
+    "scene": ["src/core/description", "src/core/scene"],
+    "render": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/core/description"], "formula": ["src/formats/shapes/formula_parse.c"],
     "library": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "file": ["src/formats/import"],
-    "settings": ["tools/options", "src/core/scene/fields", "src/core/words"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal", "tools/many/unit"],
+    "settings": ["tools/options", "src/core/scene/fields", "src/core/description"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal", "tools/many/unit"],
     "request": ["tools/view", "tools/options"], "shader": ["classroom/check/text", "classroom/check/contract"],
 }
 NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", "library", "file", "job", "formula", "settings", "shader")
@@ -52,7 +52,7 @@ NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", 
 # The sources of each reader, for `coverage`: a target's own folder in src/formats/import by default.
 READERS = {
     "obj": ["src/formats/import/obj"], "mtl": ["src/formats/import/obj/mtl.c", "src/formats/import/obj/mtl_maps.c"], "gltf": ["src/formats/import/gltf"], "glb": ["src/formats/import/gltf"],
-    "3mf": ["src/formats/import/threemf"], "scene": ["src/core/scene_file", "src/formats/json"], "png": ["src/formats/image/png/png_read.c"],
+    "3mf": ["src/formats/import/threemf"], "scene": ["src/core/description", "src/formats/json"], "png": ["src/formats/image/png/png_read.c"],
     "file": ["src/formats/load", "src/formats/import", "src/system/files/file.c"], "formula": ["src/formats/shapes"], "job": ["tools/many/jobs"],
     "settings": ["tools/options/settings_file.c"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal/journal.c", "tools/many/journal/journal_sum.c"],
     "request": ["tools/view/view_routes.c", "tools/view/view_answer.c", "tools/view/view_events.c", "tools/view/drawing/view_words.c", "tools/view/drawing/view_files.c"],

@@ -296,16 +296,16 @@ static void test_errors(void **unused)
               ".type: found \"sun\", expected ambient, hemisphere, point, directional or spot; did you "
               "mean 'directional'?"),
         LIGHT("\"type\": \"point\", \"power\": 4", ".power: unknown key; did you mean 'intensity'?"),
-        LIGHT("\"type\": \"point\", \"cutoff\": 4",
-              ".cutoff: unknown key; expected name, type, frame, object, color, "
-              "intensity, position, ambient, diffuse, specular, attenuation, range, occluded, shadows, radius"),
+        LIGHT("\"type\": \"point\", \"cutoff\": 4", ".cutoff: a point light has no 'cutoff'"),
         LIGHT("\"type\": \"point\", \"attenuation\": [0, 0, 0]",
               ".attenuation: all three numbers are 0, expected a + b d + c d^2 to be more than 0"),
         LIGHT("\"type\": \"point\", \"attenuation\": [1, -2, 0]",
               ".attenuation[1]: found -2, expected a number of at least 0"),
         LIGHT("\"type\": \"point\", \"range\": -2", ".range: found -2, expected a number of at least 0"),
-        LIGHT("\"type\": \"directional\", \"position\": [1, 2, 3]",
-              ".position: a directional light has a direction, or a position whose fourth number is 0"),
+        LIGHT(
+            "\"type\": \"directional\", \"position\": [1, 2, 3]",
+            ".position: a directional light has a direction, a position whose fourth number is 0, or a position and a "
+            "target"),
         LIGHT("\"type\": \"spot\", \"position\": [1, 2, 3, 0]",
               ".position: the fourth number is 0, but a spot light needs a position"),
         LIGHT("\"type\": \"point\", \"position\": [0, 0, 0, 0]", ".position: found 0, 0, 0, 0, expected a direction"),

@@ -15,15 +15,31 @@
 
 // --- materials
 
-// Returns whether metals selected with --material reflect the studio: the picture is lit by the studio, and no option
-// requires the classic values.
+// Returns whether metals that are only named reflect the studio: the picture is lit by the studio, and no option requires
+// the classic values.
 static bool metals_mirror(const struct options *o, const lam_scene *scene)
 {
     const lam_draw_params *draw = &o->draw;
-    bool changed = o->material.model_color || o->material.has_shininess || o->material.materials.count > 1;
-    return !o->lighting.has_rig && !o->lighting.lights.count && lam_scene_light_count(scene) == 0 && !changed &&
+    return !o->lighting.has_rig && !o->lighting.lights.count && lam_scene_light_count(scene) == 0 &&
            !environment_option_is_none(o->shading.environment) && !draw->reflection && !draw->shading && !draw->stage &&
            !draw->gl1 && o->picture.color_mode == LAM_COLOR_SRGB;
+}
+
+// Replaces each metal that an option or a scene file only names by the physical metal, which reflects the studio.
+static bool mirror_metals(lam_scene *scene, lam_error *error)
+{
+    for (int i = 0; i < lam_scene_material_count(scene); i++) {
+        const lam_material *metal = lam_scene_material(scene, i);
+        lam_material physical = lam_material_default();
+        if (!metal->metal)
+            continue;
+        physical.name = metal->name;
+        if (!lam_material_parse(lam_material_metal((lam_material_id)(metal->metal - 1)), LAM_COLOR_SRGB, &physical,
+                                error) ||
+            !lam_scene_set_material(scene, i, &physical, error))
+            return false;
+    }
+    return true;
 }
 
 static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o,
@@ -33,8 +49,6 @@ static bool set_materials(const struct texts *texts, bool back, const char *name
         struct material_option option;
         if (!material_option_parse(texts->items[i], (lam_color_mode)o->picture.color_mode, &option, error))
             return false;
-        if (!back && metals_mirror(o, scene))
-            material_option_mirror(&option);
         if (!material_option_set(&option, back, name, scene, error))
             return false;
         material_option_warn(&option, name, scene);
@@ -86,7 +100,8 @@ static bool apply_materials(const struct job *job, lam_error *error)
             !material_option_set(&plain, false, "shininess", scene, error))
             return false;
     }
-    if (!set_materials(&o->material.back_materials, true, "back-material", o, scene, error))
+    if (!set_materials(&o->material.back_materials, true, "back-material", o, scene, error) ||
+        (metals_mirror(o, scene) && !mirror_metals(scene, error)))
         return false;
     for (int i = 0; i < o->material.hidden.count; i++)
         if (!material_option_hide(o->material.hidden.items[i], job->one_of_many, scene, error))

@@ -34,40 +34,9 @@ bool material_option_parse(const char *text, lam_color_mode mode, struct materia
     return true;
 }
 
-const char *material_option_metal(const char *name)
-{
-    // The linear reflectance of metals at normal incidence, from Akenine-Möller et al., Real-Time Rendering, 4th
-    // edition, table 9.2. Bronze is the mean of copper and brass.
-    static const struct {
-        const char *name, *words;
-    } metals[] = {{"brass", "diffuse=0.910/0.778/0.423,metallic=1,roughness=0.25"},
-                  {"bronze", "diffuse=0.933/0.708/0.481,metallic=1,roughness=0.35"},
-                  {"chrome", "diffuse=0.549/0.556/0.554,metallic=1,roughness=0.06"},
-                  {"copper", "diffuse=0.955/0.638/0.538,metallic=1,roughness=0.25"},
-                  {"gold", "diffuse=1/0.782/0.344,metallic=1,roughness=0.2"},
-                  {"silver", "diffuse=0.972/0.960/0.915,metallic=1,roughness=0.2"}};
-    for (size_t i = 0; i < sizeof metals / sizeof *metals; i++)
-        if (strcmp(name, metals[i].name) == 0)
-            return metals[i].words;
-    return NULL;
-}
-
-void material_option_mirror(struct material_option *option)
-{
-    const char *words = material_option_metal(option->text);
-    if (!words)
-        return;
-    size_t size = strlen(words) + 1, rest = option->target ? strlen(option->target) + 1 : 0;
-    if (size + rest > sizeof option->text)
-        return;
-    if (option->target) // the target is stored after the name, in the same array
-        option->target = memmove(option->text + size, option->target, rest);
-    memcpy(option->text, words, size);
-}
-
 lam_material material_option_apply(const struct material_option *option, lam_material material)
 {
-    if (option->named) // material_option_mirror has already replaced a metal's name with its keys
+    if (option->named)
         material = lam_material_default();
     // lam_material_parse cannot fail, because material_option_parse has checked the text.
     lam_material_parse(option->text, option->mode, &material, NULL);

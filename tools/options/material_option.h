@@ -15,14 +15,6 @@ struct material_option {
 // Parses a text for lam_material_parse, optionally followed by "@TARGET".
 bool material_option_parse(const char *text, lam_color_mode mode, struct material_option *option, lam_error *error);
 
-// Returns the keys of the physical metal `name`, such as "diffuse=…,metallic=1,roughness=0.2", or NULL if there is no
-// such metal.
-const char *material_option_metal(const char *name);
-
-// Replaces a classic metal with the physical metal of the same name, which reflects the studio. Does nothing unless the
-// option consists only of a metal's name.
-void material_option_mirror(struct material_option *option);
-
 // Returns `material` as changed by the option.
 lam_material material_option_apply(const struct material_option *option, lam_material material);
 

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/words.h>
+
 #include "command_table.h"
 #include "console.h"
 #include "contents.h"
@@ -17,7 +19,6 @@
 #include "job_check.h"
 #include "json.h"
 #include "kept_model.h"
-#include "material_option.h"
 #include "picture_json.h"
 
 static struct kept_model model;
@@ -340,7 +341,7 @@ void web_options(void)
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
         json_open(&json, NULL, '{');
         json_text(&json, "name", lam_material_name((lam_material_id)i));
-        json_text(&json, "metal", material_option_metal(lam_material_name((lam_material_id)i)));
+        json_text(&json, "metal", lam_material_metal((lam_material_id)i));
         json_close(&json, '}');
     }
     json_close(&json, ']');

@@ -87,6 +87,8 @@ struct lam_scene {
     const lam_picture_settings *settings; // the settings of a scene file; NULL for other files
     lam_up up;
     lam_mat4 placement; // the product of all lam_scene_transform calls
+    // the transform that a scene file gives to its first model, in the arena; NULL for other files, and if there is none
+    const lam_mat4 *first_transform;
     lam_rgb ambient;
     lam_material *default_material;  // for parts without a material
     lam_environment *environment;    // may be shared with other scenes; NULL if there is none

@@ -32,6 +32,8 @@ bool json_vfail(const struct json_reader *r, const struct place *place, const ch
     char where[200] = "", sentence[sizeof r->error->text];
     print_place(place, where, sizeof where);
     vsnprintf(sentence, sizeof sentence, format, arguments);
+    if (!r->file)
+        return fail(r->error, LAM_BAD_ARGUMENT, "%s%s%s", where, *where ? ": " : "", sentence);
     int line = r->text ? json_line_of(r->text, r->size, place) : 0;
     char number[16] = "";
     if (line)
@@ -72,9 +74,32 @@ const char *json_kind(const json_t *value, char out[JSON_KIND_SIZE])
     }
 }
 
+// Prints a value in the spelling of options: 1/2/3, yes.
+static void print_word(const json_t *value, char *out, size_t capacity)
+{
+    char shown[SHOWN_NAME_SIZE];
+    size_t used = 0;
+    *out = 0;
+    if (json_is_array(value))
+        for (size_t i = 0; i < json_array_size(value) && used + 1 < capacity; used = strlen(out), i++) {
+            used += (size_t)snprintf(out + used, capacity - used, "%s", i ? "/" : "");
+            print_word(json_array_get(value, i), out + used, capacity - used);
+        }
+    else if (json_is_number(value))
+        snprintf(out, capacity, "%.10g", json_number_value(value));
+    else if (json_is_string(value))
+        snprintf(out, capacity, "%s", shown_name(json_string_value(value), shown));
+    else
+        snprintf(out, capacity, "%s", json_is_true(value) ? "yes" : "no");
+}
+
 bool json_unexpected(const struct json_reader *r, const struct place *place, const json_t *found, const char *expected)
 {
-    char kind[JSON_KIND_SIZE];
+    char kind[JSON_KIND_SIZE], word[200];
+    if (!r->file && place && place->key) {
+        print_word(found, word, sizeof word);
+        return fail(r->error, LAM_BAD_ARGUMENT, "found '%s=%.60s', expected %s", place->key, word, expected);
+    }
     return json_fail(r, place, "found %s, expected %s", json_kind(found, kind), expected);
 }
 
@@ -101,8 +126,12 @@ bool json_check_keys(const struct json_reader *r, const struct place *place, con
             size_t used = strlen(known);
             snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", keys[i]);
         }
-        return nearest ? json_fail(r, KEY_OF(place, key), "unknown key; did you mean '%s'?", nearest)
-                       : json_fail(r, KEY_OF(place, key), "unknown key; expected %s", known);
+        char quoted[SHOWN_NAME_SIZE + 3] = "", shown[SHOWN_NAME_SIZE];
+        if (!r->file)
+            snprintf(quoted, sizeof quoted, " '%s'", shown_name(key, shown));
+        return json_fail(r, r->file ? KEY_OF(place, key) : NULL,
+                         nearest ? "unknown key%s; did you mean '%s'?" : "unknown key%s; expected %s", quoted,
+                         nearest ? nearest : known);
     }
     return true;
 }
@@ -164,7 +193,8 @@ bool json_take_bool(const struct json_reader *r, const struct place *place, cons
     if (!value)
         return true;
     *out = json_is_true(value);
-    return json_is_boolean(value) || json_unexpected(r, KEY_OF(place, key), value, "true or false");
+    return json_is_boolean(value) ||
+           json_unexpected(r, KEY_OF(place, key), value, r->file ? "true or false" : "yes or no");
 }
 
 bool json_take_text(const struct json_reader *r, const struct place *place, const json_t *object, const char *key,

@@ -12,8 +12,10 @@
 #include <stdarg.h>
 
 struct json_reader {
-    const char *file; // the file's name for messages
-    // receives LAM_CANNOT_READ with "FILE: PLACE: sentence", or with "FILE:LINE: PLACE: sentence" if `text` is set
+    // The file's name for messages. NULL: the values are the words of an option (src/core/description/words.c).
+    const char *file;
+    // Receives LAM_CANNOT_READ with "FILE: PLACE: sentence", or with "FILE:LINE: PLACE: sentence" if `text` is set. For
+    // words, receives LAM_BAD_ARGUMENT with "KEY: sentence".
     lam_error *error;
     const char *text; // the file's text, of `size` bytes; if NULL, errors name no line
     size_t size;
@@ -39,7 +41,7 @@ int json_line_of(const char *text, size_t size, const struct place *place);
 bool json_fail(const struct json_reader *r, const struct place *place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 bool json_vfail(const struct json_reader *r, const struct place *place, const char *format, va_list arguments);
-// Reports "found KIND, expected …". Returns false.
+// Reports "found KIND, expected …", or for words "found 'KEY=VALUE', expected …". Returns false.
 bool json_unexpected(const struct json_reader *r, const struct place *place, const json_t *found, const char *expected);
 
 // Describes a value for error messages: a number or a string (in quotes) by its value, others as "a list of 3", "an

@@ -1,9 +1,9 @@
-// scene_write.c: writes a scene and its settings as a scene file that reproduces the picture. A reader recovers the
+// write.c: writes a scene and its settings as a scene file that reproduces the picture. A reader recovers the
 // exact bits of every number.
 //
 // This source file is longer than 600 lines, because it contains one function for each section of a scene file, in the
 // order of these sections.
-#include "scene_write.h"
+#include "write.h"
 
 #include "fail.h"
 #include "float_state.h"

@@ -1,11 +1,11 @@
-// scene_models.c: loads the models of a scene file's objects: built-in shapes, formulas, and files that other importers
+// models.c: loads the models of a scene file's objects: built-in shapes, formulas, and files that other importers
 // read.
 //
 // A model is read once for each kind of normals, even if several objects use it or spell its file name differently. All
 // objects that do not change the model share its meshes and materials. Objects that change the model in the same way
 // share the changed version. An object with other changes gets its own list of parts and materials, but shares the
 // arrays of vertices.
-#include "scene_models.h"
+#include "models.h"
 
 #include "companion.h"
 #include "fail.h"
@@ -33,15 +33,15 @@ struct model {
     int variant_count;                 // number of variants created so far
 };
 
-static bool no_memory(const struct scene_reader *r, size_t bytes)
+static bool no_memory(const struct reader *r, size_t bytes)
 {
-    return call_memory_error(r->source->call, bytes, r->error);
+    return call_memory_error(r->source->call, bytes, r->json.error);
 }
 
 // --- reading
 
 // Builds the shape or formula surface in model->inner, whose memory comes from the outer scene's arena.
-static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
+static bool make_shape(struct reader *r, const struct model_wanted *wanted, struct model *model)
 {
     lam_error reason = {0};
     lam_object object = lam_object_default();
@@ -51,18 +51,18 @@ static bool make_shape(struct scene_reader *r, const struct model_wanted *wanted
                       : scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
     if (object.mesh < 0) {
         if (reason.code == LAM_BAD_ARGUMENT) // also for formulas, whose text may contain errors
-            return fail_place(r, KEY_OF(wanted->place, "shape"), "%s", reason.text);
-        *r->error = reason;
+            return json_fail(&r->json, KEY_OF(wanted->place, "shape"), "%s", reason.text);
+        *r->json.error = reason;
         return false;
     }
     const struct scene_origin *made = model->inner.origins.items;
     model->origin.shape = made->shape;
     model->origin.formula = made->formula;
     model->origin.segments = made->segments;
-    return scene_adopt_object(&model->inner, &object, r->error) >= 0;
+    return scene_adopt_object(&model->inner, &object, r->json.error) >= 0;
 }
 
-static bool import_file(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file,
+static bool import_file(struct reader *r, const struct model_wanted *wanted, struct companion *file,
                         struct model *model)
 {
     struct lam_scene *inner = &model->inner;
@@ -86,48 +86,50 @@ static bool import_file(struct scene_reader *r, const struct model_wanted *wante
     source.file = &file->file;
     source.params = &params;
     source.open_state = &companions;
-    if (!companions_of_model(r->source, wanted->file, file, &inner->arena, &companions, r->error))
+    if (!companions_of_model(r->source, wanted->file, file, &inner->arena, &companions, r->json.error))
         return false;
-    const struct importer *importer = source.importer_for(&source, NULL, r->error);
+    const struct importer *importer = source.importer_for(&source, NULL, r->json.error);
     if (!importer)
         return false;
     if (importer->is_scene_file)
-        return fail_place(r, KEY_OF(wanted->place, "file"), "'%s' is a scene file, expected a model", source.name);
+        return json_fail(&r->json, KEY_OF(wanted->place, "file"), "'%s' is a scene file, expected a model",
+                         source.name);
     inner->up = importer->up;
     inner->format = importer->name;
     inner->color = r->color;
     model->crease_angle_rad = importer_crease(importer, wanted->normals, wanted->crease_angle_rad);
-    if (!importer->load(&source, inner, r->error) ||
-        !scene_repair(inner, source.name, wanted->normals, wanted->crease_angle_rad, source.pool, r->error))
+    if (!importer->load(&source, inner, r->json.error) ||
+        !scene_repair(inner, source.name, wanted->normals, wanted->crease_angle_rad, source.pool, r->json.error))
         return false;
     uint64_t items = 0;
     for (int i = 0; i < inner->meshes.count; i++)
         items += mesh_items(scene_mesh(inner, i));
-    return (items || fail(r->error, LAM_CANNOT_READ, "%s: contains no triangles, lines or points", source.name)) &&
-           scene_give_colors_white(inner, r->error);
+    return (items || fail(r->json.error, LAM_CANNOT_READ, "%s: contains no triangles, lines or points", source.name)) &&
+           scene_give_colors_white(inner, r->json.error);
 }
 
-static bool open_file(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file)
+static bool open_file(struct reader *r, const struct model_wanted *wanted, struct companion *file)
 {
     lam_error reason = {0};
     if (r->source->open_of_scene(r->source, wanted->file, &r->scene->arena, file, &reason))
         return true;
     if (reason.code == LAM_CANNOT_READ)
-        return fail_place(r, KEY_OF(wanted->place, "file"), "%s", reason.text);
-    *r->error = reason;
+        return json_fail(&r->json, KEY_OF(wanted->place, "file"), "%s", reason.text);
+    *r->json.error = reason;
     return false;
 }
 
 // Computes normals, tangents (whose direction depends on the model's format) and extents.
-static bool complete(struct scene_reader *r, const struct model_wanted *wanted, struct model *model)
+static bool complete(struct reader *r, const struct model_wanted *wanted, struct model *model)
 {
     struct lam_scene *inner = &model->inner;
-    return scene_prepare(inner, wanted->normals, model->crease_angle_rad, r->source->pool, r->source->call, r->error) &&
-           scene_make_tangents(inner, false, r->source->call, r->error) &&
-           scene_measure(inner, r->source->pool, r->error);
+    return scene_prepare(inner, wanted->normals, model->crease_angle_rad, r->source->pool, r->source->call,
+                         r->json.error) &&
+           scene_make_tangents(inner, false, r->source->call, r->json.error) &&
+           scene_measure(inner, r->source->pool, r->json.error);
 }
 
-static struct model *read_model(struct scene_reader *r, const struct model_wanted *wanted, struct companion *file)
+static struct model *read_model(struct reader *r, const struct model_wanted *wanted, struct companion *file)
 {
     struct model *model = arena_alloc_zeroed(&r->scene->arena, sizeof *model);
     if (!model)
@@ -147,7 +149,7 @@ static struct model *read_model(struct scene_reader *r, const struct model_wante
     // Even after an error, the outer scene adopts the textures and thereby becomes responsible for freeing them.
     for (int i = 0; i < model->inner.textures.count; i++) {
         lam_texture *texture = ((lam_texture **)model->inner.textures.items)[i];
-        ok = scene_adopt_texture(r->scene, texture, ok ? r->error : NULL) && ok;
+        ok = scene_adopt_texture(r->scene, texture, ok ? r->json.error : NULL) && ok;
     }
     for (int i = 0; ok && i < model->inner.warnings.count; i++)
         scene_warn(r->scene, "%s", ((const char **)model->inner.warnings.items)[i]);
@@ -184,23 +186,23 @@ static bool key_of(const struct model_wanted *wanted, const char *file, char key
     return length > 0 && length < KEY_SIZE;
 }
 
-static struct model *known(const struct scene_reader *r, const char *key)
+static struct model *known(const struct reader *r, const char *key)
 {
     int index = name_table_find(&r->models_by_key, key);
     return index >= 0 ? ((struct model **)r->models.items)[index] : NULL;
 }
 
 // Registers the model under one more key.
-static bool note(struct scene_reader *r, struct model *model, const char *key)
+static bool note(struct reader *r, struct model *model, const char *key)
 {
     const char *kept = arena_string(&r->scene->arena, key);
     if (!kept)
         return no_memory(r, strlen(key));
-    int index = scene_append(r->scene, &r->models, &model, sizeof(struct model *), r->error);
+    int index = scene_append(r->scene, &r->models, &model, sizeof(struct model *), r->json.error);
     return index >= 0 && (name_table_add(&r->models_by_key, kept, index) || no_memory(r, KEY_SIZE));
 }
 
-static struct model *find_file(struct scene_reader *r, const struct model_wanted *wanted, const char *key)
+static struct model *find_file(struct reader *r, const struct model_wanted *wanted, const char *key)
 {
     struct companion file;
     char real_key[KEY_SIZE];
@@ -217,12 +219,12 @@ static struct model *find_file(struct scene_reader *r, const struct model_wanted
     return model;
 }
 
-static struct model *find_model(struct scene_reader *r, const struct model_wanted *wanted)
+static struct model *find_model(struct reader *r, const struct model_wanted *wanted)
 {
     char key[KEY_SIZE];
     if (!key_of(wanted, wanted->file, key)) {
-        fail_place(r, KEY_OF(wanted->place, wanted->file ? "file" : "shape"),
-                   wanted->formula ? "the formula is too long" : "the name is too long");
+        json_fail(&r->json, KEY_OF(wanted->place, wanted->file ? "file" : "shape"),
+                  wanted->formula ? "the formula is too long" : "the name is too long");
         return NULL;
     }
     struct model *model = known(r, key);
@@ -234,7 +236,7 @@ static struct model *find_model(struct scene_reader *r, const struct model_wante
 
 // --- adding to the scene
 
-static bool add_mesh(struct scene_reader *r, const struct model *model, int index, int materials, bool field_tangents)
+static bool add_mesh(struct reader *r, const struct model *model, int index, int materials, bool field_tangents)
 {
     struct lam_scene *scene = r->scene;
     lam_mesh mesh = *scene_mesh(&model->inner, index);
@@ -250,19 +252,19 @@ static bool add_mesh(struct scene_reader *r, const struct model *model, int inde
     if (field_tangents)
         mesh.tangents = NULL;
     return scene_append(scene, &scene->extents, scene_extent(&model->inner, index), sizeof(struct scene_extent),
-                        r->error) >= 0 &&
-           scene_adopt_mesh(scene, &mesh, r->error) >= 0;
+                        r->json.error) >= 0 &&
+           scene_adopt_mesh(scene, &mesh, r->json.error) >= 0;
 }
 
 // Appends the model's items to the scene, with shifted indices.
-static bool add_items(struct scene_reader *r, const struct model *model, bool field_tangents, int *index)
+static bool add_items(struct reader *r, const struct model *model, bool field_tangents, int *index)
 {
     struct lam_scene *scene = r->scene;
     const struct lam_scene *inner = &model->inner;
     int meshes = scene->meshes.count, materials = scene->materials.count, objects = scene->objects.count;
     bool ok = true;
     for (int i = 0; ok && i < inner->materials.count; i++)
-        ok = scene_adopt_material(scene, (const lam_material *)inner->materials.items + i, r->error) >= 0;
+        ok = scene_adopt_material(scene, (const lam_material *)inner->materials.items + i, r->json.error) >= 0;
     for (int i = 0; ok && i < inner->meshes.count; i++)
         ok = add_mesh(r, model, i, materials, field_tangents);
     for (int i = 0; ok && i < inner->objects.count; i++) {
@@ -270,22 +272,22 @@ static bool add_items(struct scene_reader *r, const struct model *model, bool fi
         object.mesh += meshes;
         object.material += object.material >= 0 ? materials : 0;
         object.back_material += object.back_material >= 0 ? materials : 0;
-        ok = scene_adopt_object(scene, &object, r->error) >= 0;
+        ok = scene_adopt_object(scene, &object, r->json.error) >= 0;
     }
     struct scene_origin origin = model->origin;
     origin.field_tangents = field_tangents;
     origin.first_mesh = meshes;
     origin.first_material = materials;
     *index = scene->origins.count;
-    return ok && scene_note_origin(scene, origin, objects, r->error);
+    return ok && scene_note_origin(scene, origin, objects, r->json.error);
 }
 
 // Adds copies of the model's objects, with the same meshes and materials.
-static bool add_objects(struct scene_reader *r, int origin_index)
+static bool add_objects(struct reader *r, int origin_index)
 {
     const struct scene_origin *origin = (const struct scene_origin *)r->scene->origins.items + origin_index;
     for (int i = 0; i < origin->object_count; i++)
-        if (scene_adopt_object(r->scene, &origin->objects[i], r->error) < 0)
+        if (scene_adopt_object(r->scene, &origin->objects[i], r->json.error) < 0)
             return false;
     return true;
 }
@@ -303,7 +305,7 @@ static const struct variant *find_variant(const struct model *model, const struc
     return NULL;
 }
 
-bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *origin, bool *own)
+bool add_model(struct reader *r, const struct model_wanted *wanted, int *origin, bool *own)
 {
     struct lam_scene *scene = r->scene;
     r->models_by_key.memory = &scene->arena;
@@ -322,9 +324,9 @@ bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *o
             (struct variant){wanted->field_tangents, wanted->materials, wanted->parts, *origin};
     }
     for (int i = 0; ok && !r->has_lights && i < model->inner.lights.count; i++)
-        ok = scene_adopt_light(scene, (const lam_light *)model->inner.lights.items + i, r->error) >= 0;
+        ok = scene_adopt_light(scene, (const lam_light *)model->inner.lights.items + i, r->json.error) >= 0;
     for (int i = 0; ok && i < model->inner.cameras.count; i++)
         ok = scene_append(scene, &scene->cameras, (const struct scene_camera *)model->inner.cameras.items + i,
-                          sizeof(struct scene_camera), r->error) >= 0;
+                          sizeof(struct scene_camera), r->json.error) >= 0;
     return ok;
 }

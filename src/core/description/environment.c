@@ -1,31 +1,32 @@
-// scene_environment.c: reads the environment of a scene file: pictures beside the scene file, or a built-in
+// environment.c: reads the environment of a scene file: pictures beside the scene file, or a built-in
 // environment.
 #include "companion.h"
 #include "cube_map.h"
 #include "fail.h"
 #include "linear.h"
-#include "scene_reader.h"
+#include "description.h"
 #include "shown_name.h"
 #include "spelling.h"
 
 #include <string.h>
 
-static bool read_faces(struct scene_reader *r, const struct place *place, const json_t *faces, const char **names)
+static bool read_faces(struct reader *r, const struct place *place, const json_t *faces, const char **names)
 {
     char kind[JSON_KIND_SIZE];
     if (!json_is_array(faces) || json_array_size(faces) != LAM_FACE_COUNT)
-        return fail_place(r, place, "found %s, expected six names of pictures: +x, -x, +y, -y, +z, -z",
-                          json_kind(faces, kind));
+        return json_fail(&r->json, place, "found %s, expected six names of pictures: +x, -x, +y, -y, +z, -z",
+                         json_kind(faces, kind));
     for (size_t i = 0; i < LAM_FACE_COUNT; i++) {
         const json_t *face = json_array_get(faces, i);
         if (!json_is_string(face) || !json_string_length(face))
-            return fail_place(r, ELEMENT_OF(place, i), "found %s, expected a picture's name", json_kind(face, kind));
+            return json_fail(&r->json, ELEMENT_OF(place, i), "found %s, expected a picture's name",
+                             json_kind(face, kind));
         names[i] = json_string_value(face);
     }
     return true;
 }
 
-static bool read_built_in(struct scene_reader *r, const struct place *place, const char **name)
+static bool read_built_in(struct reader *r, const struct place *place, const char **name)
 {
     const char *known[8];
     char shown[SHOWN_NAME_SIZE];
@@ -38,13 +39,13 @@ static bool read_built_in(struct scene_reader *r, const struct place *place, con
         count++;
     }
     const char *near_word = meant_word(*name, known, count);
-    return fail_place(r, place, "found '%s', expected sky or studio%s%s%s", shown_name(*name, shown),
-                      near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
+    return json_fail(&r->json, place, "found '%s', expected sky or studio%s%s%s", shown_name(*name, shown),
+                     near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
 }
 
 // The names of the pictures, and the members of the settings that receive their full paths.
 struct pictures {
-    struct scene_reader *r;
+    struct reader *r;
     const char *const *names;
     const char **paths;
 };
@@ -66,21 +67,21 @@ static bool open_picture(void *user, int index, struct call_control *call, struc
 }
 
 // Reads the pictures. Error messages name the key of the scene file.
-static struct lam_environment *read_pictures(struct scene_reader *r, const struct place *place,
-                                             const char *const *names, int count, const char **paths)
+static struct lam_environment *read_pictures(struct reader *r, const struct place *place, const char *const *names,
+                                             int count, const char **paths)
 {
     lam_error reason = {0};
     struct pictures pictures = {r, names, paths};
     struct picture_source source = {open_picture, &pictures};
     struct lam_environment *environment = environment_read(&source, count, r->color, r->source->call, &reason);
     if (!environment && reason.code == LAM_CANNOT_READ)
-        fail_place(r, place, "%s", reason.text);
+        json_fail(&r->json, place, "%s", reason.text);
     else if (!environment)
-        *r->error = reason;
+        *r->json.error = reason;
     return environment;
 }
 
-static struct lam_environment *load(struct scene_reader *r, const struct place *place, const json_t *faces,
+static struct lam_environment *load(struct reader *r, const struct place *place, const json_t *faces,
                                     const char *picture)
 {
     lam_picture_settings *s = r->settings;
@@ -88,7 +89,7 @@ static struct lam_environment *load(struct scene_reader *r, const struct place *
     const struct place *here = KEY_OF(place, faces ? "faces" : "equirectangular");
     if (s->environment_built_in)
         return read_built_in(r, KEY_OF(place, "builtin"), &s->environment_built_in)
-                   ? lam_environment_built_in(s->environment_built_in, r->error)
+                   ? lam_environment_built_in(s->environment_built_in, r->json.error)
                    : NULL;
     if (picture)
         return read_pictures(r, here, &picture, 1, &s->environment_picture);
@@ -96,7 +97,7 @@ static struct lam_environment *load(struct scene_reader *r, const struct place *
                                              : NULL;
 }
 
-bool read_environment(struct scene_reader *r, const json_t *root)
+bool read_environment(struct reader *r, const json_t *root)
 {
     static const char *const keys[] = {"faces", "equirectangular", "builtin", "rotation", NULL};
     const json_t *value = json_object_get(root, "environment");
@@ -106,17 +107,18 @@ bool read_environment(struct scene_reader *r, const json_t *root)
     double rotation = 0;
     if (!value)
         return true;
-    if (!check_keys(r, place, value, keys) || !take_text(r, place, value, "equirectangular", &picture) ||
+    if (!json_check_keys(&r->json, place, value, keys) || !take_text(r, place, value, "equirectangular", &picture) ||
         !take_text(r, place, value, "builtin", &s->environment_built_in) ||
-        !take_number(r, place, value, "rotation", -360000, 360000, &rotation))
+        !json_take_number(&r->json, place, value, "rotation", -360000, 360000, &rotation))
         return false;
     const json_t *faces = json_object_get(value, "faces");
     if ((faces != NULL) + (picture != NULL) + (s->environment_built_in != NULL) != 1)
-        return fail_place(r, place, "expected one of faces, equirectangular and builtin");
+        return json_fail(&r->json, place, "expected one of faces, equirectangular and builtin");
     s->environment_rotation_rad = math_radians(rotation);
     s->present |= LAM_SETTING_ENVIRONMENT;
     lam_environment *environment = load(r, place, faces, picture);
-    bool ok = environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->error);
+    bool ok =
+        environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->json.error);
     lam_environment_free(environment);
     return ok;
 }

@@ -1,5 +1,5 @@
 // json_print.c: prints JSON for human readers.
-#include "scene_write.h"
+#include "write.h"
 
 #include "fail.h"
 #include "number.h"

@@ -1,8 +1,8 @@
-// scene_write.h: internal functions for writing scene files.
-#ifndef SCENE_WRITE_H
-#define SCENE_WRITE_H
+// write.h: internal functions for writing scene files.
+#ifndef WRITE_H
+#define WRITE_H
 
-#include "scene_reader.h"
+#include "description.h"
 
 struct scene_writer {
     const struct lam_scene *scene;

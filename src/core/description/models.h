@@ -1,8 +1,8 @@
-// scene_models.h: loads the models of a scene file's objects.
-#ifndef SCENE_MODELS_H
-#define SCENE_MODELS_H
+// models.h: loads the models of a scene file's objects.
+#ifndef MODELS_H
+#define MODELS_H
 
-#include "scene_reader.h"
+#include "description.h"
 
 // The model that an object refers to, and its parameters.
 struct model_wanted {
@@ -22,6 +22,6 @@ struct model_wanted {
 // Adds the objects of a model to the scene. Equal requests share meshes and materials. Sets *origin to the index of the
 // model's record in scene->origins. Sets *own to true if the meshes and materials are new; the caller must then apply
 // the object's changes.
-bool add_model(struct scene_reader *r, const struct model_wanted *wanted, int *origin, bool *own);
+bool add_model(struct reader *r, const struct model_wanted *wanted, int *origin, bool *own);
 
 #endif

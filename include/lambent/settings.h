@@ -44,8 +44,7 @@ typedef struct lam_setting {
     // WHOLE, NUMBER and ANGLE: the allowed values, for error messages. WORD and WORDS: the enumeration (lam_…), or the
     // members that share an error.
     const char *expected;
-    // Returns one phrase about the keyword with this index, or NULL if only scene files accept the keyword. The
-    // function is NULL if every keyword explains itself.
+    // Returns one phrase about the keyword with this index. The function is NULL if every keyword explains itself.
     const char *(*word_summary)(int index);
     LAM_RESERVED(5);
 } lam_setting;

@@ -21,10 +21,10 @@ PHYSICAL = {"material": {"metallic": 1, "roughness": 0.4}, "environment": {"buil
 EDGES = {"edges": ["crease", "silhouette"], "edge_angle": 10}
 SUBJECTS = {
     "ambient": ("$defs/ambient_light", LIT, {"type": "ambient"}),
-    "hemisphere": ("$defs/hemisphere", LIT, {"type": "hemisphere"}),
-    "point": ("$defs/point", LIT, {"type": "point", "position": [3, 0.5, 0.5]}),
-    "directional": ("$defs/directional", LIT, {"type": "directional", "direction": [-3, -0.5, -0.5]}),
-    "spot": ("$defs/spot", LIT, {"type": "spot", "position": [3, 0.5, 0.5], "direction": [-3, -0.5, -0.5]}),
+    "hemisphere": ("$defs/hemisphere_light", LIT, {"type": "hemisphere"}),
+    "point": ("$defs/point_light", LIT, {"type": "point", "position": [3, 0.5, 0.5]}),
+    "directional": ("$defs/directional_light", LIT, {"type": "directional", "direction": [-3, -0.5, -0.5]}),
+    "spot": ("$defs/spot_light", LIT, {"type": "spot", "position": [3, 0.5, 0.5], "direction": [-3, -0.5, -0.5]}),
     "material": ("$defs/material", {**SEEN, "environment": {"builtin": "studio"}}, {}),
     "camera": ("properties/camera", {}, {"eye": [2, 1.5, 3]}),
     "environment": ("properties/environment", {**SEEN, "material": {"reflectivity": [0.8, 0.8, 0.8]}}, {"builtin": "studio"}),

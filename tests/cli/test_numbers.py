@@ -294,8 +294,8 @@ class Defaults(Case):
         places = [(own, lambda s: s), (own["image"]["properties"], lambda s: s["image"]), (own["camera"]["properties"], lambda s: s["camera"]),
                   (schema["$defs"]["file"]["properties"], lambda s: s["objects"][0]),
                   (schema["$defs"]["shape"]["properties"], lambda s: s["objects"][1])]
-        for i, kind in enumerate(("ambient_light", "hemisphere", "point", "directional", "spot")):
-            places.append((schema["$defs"][kind]["properties"], lambda s, i=i: s["lights"][i]))
+        for i, kind in enumerate(("ambient", "hemisphere", "point", "directional", "spot")):
+            places.append((schema["$defs"][kind + "_light"]["properties"], lambda s, i=i: s["lights"][i]))
         tried = 0
         without = self.draw({k: v for k, v in self.scene().items()})
         for properties, place in places:
@@ -321,7 +321,7 @@ class Defaults(Case):
         schema = json.loads(generated("scene-schema"))
         own, checked = schema["properties"], 0
         tables = {"Top-level keys": own, "image": own["image"]["properties"], "camera": own["camera"]["properties"],
-                  "Objects": schema["$defs"]["shape"]["properties"], "Lights": schema["$defs"]["point"]["properties"]}
+                  "Objects": schema["$defs"]["shape"]["properties"], "Lights": schema["$defs"]["point_light"]["properties"]}
         page = (ROOT / "docs/scene-file.md").read_text()
         for title, properties in tables.items():
             section = re.search(r"(?ms)^##+ %s\n(.*?)(?=^#|\Z)" % title, page).group(1)

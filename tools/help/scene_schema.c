@@ -6,29 +6,35 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <lambent/words.h>
+
 #include "schema.inc"
 
-static const char every_light[] =
-    "        \"name\": {\"type\": \"string\", \"minLength\": 1},\n"
-    "        \"frame\": {\n"
-    "          \"enum\": [\"world\", \"camera\", \"view\", \"object\"],\n"
-    "          \"default\": \"world\",\n"
-    "          \"description\": \"The coordinate system of position, direction and up.\"\n"
-    "        },\n"
-    "        \"object\": {\"type\": \"string\", \"minLength\": 1, \"description\": "
-    "\"The name of the object, if frame is object. Default: the "
-    "first object.\"}";
-static const char colored_light[] = "        \"color\": {\"$ref\": \"#/$defs/color3\", \"description\": \"color "
-                                    "times intensity sets diffuse and specular. Default: "
-                                    "1, 1, 1.\"},\n"
-                                    "        \"intensity\": {\"type\": \"number\", \"minimum\": 0, \"default\": 1, "
-                                    "\"description\": \"The factor of color.\"}";
+// The keys that are not fields.
+static const struct {
+    const char *key, *schema;
+} other_keys[] = {
+    {"target",
+     "\"$ref\": \"#/$defs/vector\", \"description\": \"Instead of direction: the point at which the light aims.\""},
+    {"color",
+     "\"$ref\": \"#/$defs/color3\", \"description\": \"color times intensity sets the colours that are not given. "
+     "Default: white.\""},
+    {"intensity", "\"type\": \"number\", \"minimum\": 0, \"default\": 1, \"description\": \"The factor of color.\""},
+    {"frame", "\"enum\": [\"world\", \"camera\", \"view\", \"object\"], \"default\": \"world\", \"description\": \"The "
+              "coordinate system of position, direction and up.\""},
+    {"object", "\"type\": \"string\", \"minLength\": 1, \"description\": \"The name of the object, if frame is object. "
+               "Default: the first model.\""},
+    {"name", "\"type\": \"string\", \"minLength\": 1"},
+    {"position",
+     "\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": 3, \"maxItems\": 4, \"description\": "
+     "\"x, y, z, 0: the direction from which the light comes; x, y, z with a target.\""},
+    {"specular_color", "\"$ref\": \"#/$defs/color3\", \"description\": \"The same as specular.\""},
+};
 
 static void print_field(const lam_field *field)
 {
     char standard[80];
     field_standard(field, standard);
-    printf("        \"%s\": {", field->key);
     switch (field->type) {
     case LAM_FIELD_NUMBER:
     case LAM_FIELD_ANGLE:
@@ -56,25 +62,57 @@ static void print_field(const lam_field *field)
             field->min);
         break;
     }
-    printf(", \"description\": \"%s. Default: %s.\"}", field->summary, standard);
+    printf(", \"description\": \"%s. Default: %s.\"", field->summary, standard);
 }
 
-static void print_fields(const char *name, size_t length)
+// Prints a key of a material (`type` −1) or of a light of a type.
+static void print_key(const char *key, int type)
 {
-    static const char *const types[] = {"ambient_light", "hemisphere", "point", "directional", "spot"};
-    const lam_field *(*row)(int) = lam_material_field;
-    int type = -1, count = 0;
-    for (int i = 0; i <= LAM_LIGHT_SPOT; i++)
-        if (strlen(types[i]) == length && memcmp(types[i], name, length) == 0) {
-            row = lam_light_field;
-            type = i;
+    const lam_field *(*row)(int) = type < 0 ? lam_material_field : lam_light_field;
+    printf(",\n        \"%s\": {", key);
+    for (int i = 0; row(i); i++)
+        if (strcmp(row(i)->key, key) == 0 && (type < 0 || row(i)->light_types >> type & 1)) {
+            print_field(row(i));
+            printf("}");
+            return;
         }
-    for (int i = 0; row(i); i++) {
-        if (type >= 0 && !(row(i)->light_types >> type & 1))
-            continue;
-        printf(count++ ? ",\n" : "");
-        print_field(row(i));
+    for (size_t i = 0; i < sizeof other_keys / sizeof *other_keys; i++)
+        if (strcmp(other_keys[i].key, key) == 0)
+            printf("%s}", other_keys[i].schema);
+    for (int i = 0; type < 0 && row(i); i++)
+        if (row(i)->symbol && strcmp(row(i)->symbol, key) == 0)
+            printf("\"type\": \"number\", \"minimum\": 0, \"description\": \"The factor of %s.\"}", row(i)->key);
+}
+
+static void print_material(void)
+{
+    printf("        \"name\": {\"type\": \"string\", \"minLength\": 1, \"description\": \"The material or colour that "
+           "supplies "
+           "missing keys.\"}");
+    for (int i = 0; lam_material_key(i); i++)
+        print_key(lam_material_key(i), -1);
+}
+
+static void print_lights(void)
+{
+    for (int type = 0; type < LAM_LIGHT_TYPE_COUNT; type++) {
+        const lam_light_type_info *about = lam_light_type_describe((lam_light_type)type);
+        printf("%s    \"%s_light\": {\n      \"type\": \"object\",\n      \"description\": \"Light: %s.\",\n      "
+               "\"required\": "
+               "[\"type\"],\n      \"additionalProperties\": false,\n      \"properties\": {\n        \"type\": "
+               "{\"const\": \"%s\"}",
+               type ? ",\n" : "", about->word, about->summary, about->word);
+        for (int i = 0; lam_light_key((lam_light_type)type, i); i++)
+            print_key(lam_light_key((lam_light_type)type, i), type);
+        printf("\n      }\n    }");
     }
+}
+
+static void print_light_refs(void)
+{
+    for (int type = 0; type < LAM_LIGHT_TYPE_COUNT; type++)
+        printf("%s          {\"$ref\": \"#/$defs/%s_light\"}", type ? ",\n" : "",
+               lam_light_type_describe((lam_light_type)type)->word);
 }
 
 static void print_words(const lam_setting *setting)
@@ -126,32 +164,26 @@ static void print_settings(void)
     }
 }
 
-static bool is(const char *name, size_t length, const char *word)
-{
-    return strlen(word) == length && memcmp(name, word, length) == 0;
-}
-
 void generate_scene_schema(void)
 {
+    static const struct {
+        const char *name;
+        void (*print)(void);
+    } parts[] = {{"settings", print_settings},
+                 {"material", print_material},
+                 {"lights", print_lights},
+                 {"light_refs", print_light_refs}};
     for (const char *line = text_scene_schema_json_in; *line;) {
         size_t length = strcspn(line, "\n"), indent = strspn(line, " ");
-        const char *next = line + length + (line[length] != 0);
-        if (line[indent] != '@') {
+        const char *next = line + length + (line[length] != 0), *after = next + strspn(next, " ");
+        if (line[indent] != '@')
             printf("%.*s\n", (int)length, line);
-            line = next;
-            continue;
-        }
-        const char *name = line + indent + 1;
-        size_t name_length = length - indent - 2;
-        if (is(name, name_length, "every_light"))
-            fputs(every_light, stdout);
-        else if (is(name, name_length, "colored_light"))
-            fputs(colored_light, stdout);
-        else if (is(name, name_length, "settings"))
-            print_settings();
-        else
-            print_fields(name, name_length);
-        printf(next[strspn(next, " ")] == '}' ? "\n" : ",\n");
+        for (size_t i = 0; line[indent] == '@' && i < sizeof parts / sizeof *parts; i++)
+            if (strlen(parts[i].name) == length - indent - 2 &&
+                strncmp(parts[i].name, line + indent + 1, length - indent - 2) == 0) {
+                parts[i].print();
+                printf(*after == '}' || *after == ']' ? "\n" : ",\n");
+            }
         line = next;
     }
 }

@@ -42,6 +42,17 @@ static bool mirror_metals(lam_scene *scene, lam_error *error)
     return true;
 }
 
+// Returns whether the materials of the options come from a look, and a scene file describes its own. These replace the
+// look's, like --material.
+static bool file_describes_materials(const struct options *o, const lam_scene *scene)
+{
+    bool described = false;
+    for (int i = 0; i < lam_scene_object_count(scene); i++)
+        described |= lam_scene_object(scene, i)->material >= 0;
+    return described && o->by_look[option_find("material") - option_table] &&
+           strcmp(lam_scene_format(scene), "scene") == 0;
+}
+
 static bool set_materials(const struct texts *texts, bool back, const char *name, const struct options *o,
                           lam_scene *scene, lam_error *error)
 {
@@ -85,7 +96,8 @@ static bool apply_materials(const struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
     lam_scene *scene = job->scene;
-    if (!set_materials(&o->material.materials, false, "material", o, scene, error) ||
+    if ((!file_describes_materials(o, scene) &&
+         !set_materials(&o->material.materials, false, "material", o, scene, error)) ||
         (o->material.model_color && !set_color(o, scene, error)))
         return false;
     char text[100] = "", *at = text;

@@ -34,11 +34,8 @@ static const struct choice *words_of(const lam_setting *setting)
         bits |= value;
     if (setting->type == LAM_SETTING_WORDS)
         add_word("all", bits, NULL);
-    for (int i = 0; (choice = setting->word(i, &value)); i++) {
-        const char *summary = setting->word_summary ? setting->word_summary(i) : "";
-        if (summary)
-            add_word(choice, value, *summary ? summary : NULL);
-    }
+    for (int i = 0; (choice = setting->word(i, &value)); i++)
+        add_word(choice, value, setting->word_summary ? setting->word_summary(i) : NULL);
     add_word(NULL, 0, NULL);
     return first;
 }

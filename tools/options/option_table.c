@@ -700,7 +700,7 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Rotate the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
-     FIELD(shading.environment_rotation_deg), .min = -3600, .max = 3600},
+     FIELD(shading.environment_rotation_deg), .min = -360000, .max = 360000},
     {"reflectivity", 0, GROUP_SHADING, "SHARE", "the materials' own",
      "The share of the environment that every material reflects: 0.5 or r/g/b.", NULL, .now = "material",
      .key = "reflectivity", .store = store_reflectivity, .others = "mirror reflective", FIELD(material.reflectivity),

@@ -117,64 +117,39 @@ static void put_number(FILE *out, const json_t *value)
     fputs(text, out);
 }
 
-// Writes a list of strings, or a list of numbers (a picture's size or a linear colour). Returns false for other items.
-static bool put_list(FILE *out, const json_t *list, char between)
-{
-    size_t i;
-    json_t *item;
-    bool numbers = between != ',';
-    json_array_foreach(list, i, item)
-    {
-        if (numbers ? !json_is_number(item) : !json_is_string(item))
-            return false;
-        if (i)
-            putc(between, out);
-        if (numbers)
-            put_number(out, item);
-        else
-            fputs(json_string_value(item), out);
-    }
-    if (!numbers && json_array_size(list) == 0)
-        fputs("none", out);
-    return numbers ? json_array_size(list) >= 2 && json_array_size(list) <= 4 : true;
-}
-
-// Returns the JSON form that an option's value must have.
-static const char *expected_of(const struct option *option)
-{
-    static const char *const of_type[] = {
-        [LAM_SETTING_WORD] = "a string",          [LAM_SETTING_FLAG] = "true or false",
-        [LAM_SETTING_NOT_FLAG] = "true or false", [LAM_SETTING_WHOLE] = "a number",
-        [LAM_SETTING_NUMBER] = "a number",        [LAM_SETTING_ANGLE] = "a number",
-        [LAM_SETTING_WORDS] = "a list of strings"};
-    if (option->store == store_size)
-        return "a list of two numbers";
-    if (option->store == store_color)
-        return "a colour: a string, or a list of numbers";
-    if (option->setting)
-        return of_type[option->setting->type];
-    if (option->kind == VALUE_ENVIRONMENT)
-        return "a string";
-    return option->words && strcmp(option->name, "samples") != 0 ? "a string" : "a number";
-}
-
-// Writes the value as it would appear on a command line. Returns false if the value's type is wrong.
+// Writes a value of a scene file as it would appear on a command line, where the option's parser checks it. Returns false
+// for values that an option cannot have.
 static bool put_value(FILE *out, const struct option *option, const json_t *value)
 {
-    const char *expected = expected_of(option);
-    if (json_is_array(value) && strstr(expected, "list"))
-        return put_list(out, value, option->store == store_size ? 'x' : option->store == store_color ? '/' : ',');
-    if (json_is_string(value) && (strncmp(expected, "a string", 8) == 0 || option->store == store_color)) {
-        fputs(json_string_value(value), out);
-        return json_string_length(value) == strlen(json_string_value(value));
+    const lam_setting *setting = option->setting;
+    bool words = setting && setting->type == LAM_SETTING_WORDS,
+         on_off = setting && setting->type == LAM_SETTING_NOT_FLAG;
+    size_t i;
+    json_t *item;
+    json_array_foreach(value, i, item)
+    {
+        fputs(!i ? "" : option->store == store_size ? "x" : words ? "," : "/", out);
+        if (json_is_array(item) || !put_value(out, option, item))
+            return false;
     }
-    if (json_is_number(value) && strcmp(expected, "a number") == 0)
+    if (words && json_is_array(value) && !i)
+        fputs("none", out);
+    if (json_is_string(value))
+        fputs(json_string_value(value), out);
+    else if (json_is_number(value))
         put_number(out, value);
-    else if (json_is_boolean(value) && option->setting && option->setting->type == LAM_SETTING_NOT_FLAG)
-        fputs(json_is_true(value) ? "on" : "off", out);
-    else
-        return json_is_boolean(value) && strcmp(expected, "true or false") == 0;
-    return true;
+    else if (json_is_boolean(value))
+        fputs(json_is_true(value) ? (on_off ? "on" : "true") : on_off ? "off" : "false", out);
+    return !json_is_null(value) && !json_is_object(value);
+}
+
+// Returns the kind of value that an option needs, or NULL if `value` may be suitable.
+static const char *expected_of(const struct option *option, const json_t *value)
+{
+    bool is_list = option->store == store_size || (option->setting && option->setting->type == LAM_SETTING_WORDS);
+    if (!option->value)
+        return json_is_boolean(value) ? NULL : "true or false";
+    return is_list && !json_is_array(value) ? "a list" : NULL;
 }
 
 // --- one key
@@ -200,14 +175,16 @@ static bool take_value(struct settings_parser *r, const char *group, const char 
                        const json_t *value)
 {
     char reason[400], *text = r->values, *made = NULL;
+    const char *expected = expected_of(option, value);
     size_t size = 0;
     FILE *out = open_memstream(&made, &size);
-    bool ok = out && put_value(out, option, value);
+    bool ok = out && !expected && put_value(out, option, value);
     ok = out && fclose(out) == 0 && ok && size < FILE_MAX; // the space that remains in `values`
     strcpy(text, ok ? made : "");
     free(made);
     if (!ok) {
-        snprintf(reason, sizeof reason, "found %s, expected %s", kind_of(value), expected_of(option));
+        snprintf(reason, sizeof reason, "found %s, expected %s", kind_of(value),
+                 expected ? expected : "a string, a number or a list");
         return wrong(r, group, key, reason);
     }
     if (option->kind == VALUE_ENVIRONMENT && !environment_option_built_in(text))
@@ -233,23 +210,9 @@ static bool take_ground(struct settings_parser *r, const json_t *value)
 {
     const struct option *option = option_find("ground");
     bool color = json_is_string(value) && strcmp(json_string_value(value), "color") == 0;
-    if (color && !json_is_string(r->ground_color))
-        return wrong(r, NULL, "ground",
-                     "found 'color', expected a string \"ground_color\" as well, such as \"#888888\"");
     if (!color && r->ground_color)
         return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" as well");
-    return take_value(r, NULL, "ground", option, color ? r->ground_color : value);
-}
-
-// Returns whether the value selects the default in scene files, but is not a keyword that the option accepts.
-static bool is_plain_default(const lam_setting *setting, const json_t *value)
-{
-    const char *choice;
-    int number;
-    for (int i = 0; setting->word && setting->word_summary && (choice = setting->word(i, &number)); i++)
-        if (json_is_string(value) && strcmp(choice, json_string_value(value)) == 0)
-            return number == 0 && !setting->word_summary(i);
-    return false;
+    return take_value(r, NULL, "ground", option, color && r->ground_color ? r->ground_color : value);
 }
 
 static bool take_key(struct settings_parser *r, const char *group, const char *key, const json_t *value)
@@ -264,8 +227,6 @@ static bool take_key(struct settings_parser *r, const char *group, const char *k
         return take_ground(r, value);
     if (strcmp(key, "ground_color") == 0) // already handled together with "ground"
         return r->ground_color != NULL;
-    if (is_plain_default(lam_draw_setting(lam_draw_setting_find(key)), value))
-        return true;
     snprintf(name, sizeof name, "%s", key);
     for (char *c = name; *c; c++)
         *c = *c == '_' ? '-' : *c;

@@ -13,10 +13,25 @@ static lam_material material_at(const lam_scene *scene, int index)
     return material ? *material : lam_material_default();
 }
 
+// Returns an invisible copy of a material: surfaces with the copy are not drawn and do not block light.
+static lam_material clear_copy(lam_material material)
+{
+    material.diffuse.a = 0;
+    material.alpha_mode = LAM_ALPHA_MASK;
+    material.alpha_cutoff = 0.5f;
+    return material;
+}
+
+// Returns the material as changed by the option. An option without a text hides the surface (--hide).
+static lam_material changed_by(const struct material_option *option, lam_material material)
+{
+    return *option->text ? material_option_apply(option, material) : clear_copy(material);
+}
+
 // Adds a changed copy of the material and returns its index, or −1 on failure.
 static int add_changed(const struct material_option *option, int from, lam_scene *scene, lam_error *error)
 {
-    lam_material changed = material_option_apply(option, material_at(scene, from));
+    lam_material changed = changed_by(option, material_at(scene, from));
     return lam_scene_add_material(scene, &changed, error);
 }
 
@@ -137,7 +152,7 @@ static int set_materials(const struct material_option *option, lam_scene *scene,
     for (int i = 0; i < lam_scene_material_count(scene); i++) {
         if (!same(lam_scene_material(scene, i)->name, option->target))
             continue;
-        lam_material changed = material_option_apply(option, *lam_scene_material(scene, i));
+        lam_material changed = changed_by(option, *lam_scene_material(scene, i));
         changed.name = option->target;
         if (!lam_scene_set_material(scene, i, &changed, error))
             return -1;
@@ -196,15 +211,6 @@ bool material_option_set(const struct material_option *option, bool back, const 
     return found > 0;
 }
 
-// Returns an invisible copy of a material: surfaces with the copy are not drawn and do not block light.
-static lam_material clear_copy(lam_material material)
-{
-    material.diffuse.a = 0;
-    material.alpha_mode = LAM_ALPHA_MASK;
-    material.alpha_cutoff = 0.5f;
-    return material;
-}
-
 // Hides the objects with this name. Returns their number, or −1 and an error.
 static int hide_objects(const char *target, lam_scene *scene, lam_error *error)
 {
@@ -219,22 +225,6 @@ static int hide_objects(const char *target, lam_scene *scene, lam_error *error)
     return found;
 }
 
-static int hide_parts(const char *target, lam_scene *scene, lam_error *error)
-{
-    int found = 0;
-    for (int m = 0; m < lam_scene_mesh_count(scene); m++)
-        for (uint32_t p = 0; p < lam_scene_mesh(scene, m)->part_count; p++) {
-            if (!same(lam_scene_mesh(scene, m)->parts[p].name, target))
-                continue;
-            lam_material clear = clear_copy(material_at(scene, lam_scene_mesh(scene, m)->parts[p].material));
-            int index = lam_scene_add_material(scene, &clear, error);
-            if (index < 0 || !lam_scene_set_part_material(scene, m, p, index, error))
-                return -1;
-            found++;
-        }
-    return found;
-}
-
 // Hides the objects that show only this material, so that fitting the camera ignores their boxes.
 static bool hide_objects_of(int material, lam_scene *scene, lam_error *error)
 {
@@ -244,29 +234,19 @@ static bool hide_objects_of(int material, lam_scene *scene, lam_error *error)
     return true;
 }
 
-static int hide_materials(const char *target, lam_scene *scene, lam_error *error)
-{
-    int found = 0;
-    for (int i = 0; i < lam_scene_material_count(scene); i++) {
-        if (!same(lam_scene_material(scene, i)->name, target))
-            continue;
-        lam_material clear = clear_copy(*lam_scene_material(scene, i));
-        if (!lam_scene_set_material(scene, i, &clear, error) || !hide_objects_of(i, scene, error))
-            return -1;
-        found++;
-    }
-    return found;
-}
-
 bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, lam_error *error)
 {
+    const struct material_option option = {.target = target};
     int found = hide_objects(target, scene, error);
     if (found == 0)
-        found = hide_parts(target, scene, error);
-    if (found == 0)
-        found = hide_materials(target, scene, error);
+        found = set_parts(&option, scene, error);
     if (found == 0) {
-        struct material_option option = {.target = target};
+        found = set_materials(&option, scene, error);
+        for (int i = 0; found > 0 && i < lam_scene_material_count(scene); i++)
+            if (same(lam_scene_material(scene, i)->name, target) && !hide_objects_of(i, scene, error))
+                return false;
+    }
+    if (found == 0) {
         lam_error reason;
         not_found(&option, false, "hide", scene, &reason);
         if (may_lack)

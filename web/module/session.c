@@ -34,6 +34,13 @@ static struct {
     struct progress progress;
 } session;
 
+// The command line that is drawn now.
+static struct {
+    struct options options;
+    struct job job;
+    lam_error error;
+} call;
+
 char *web_words(uint32_t bytes)
 {
     free(session.text);
@@ -51,10 +58,15 @@ void web_forget(void)
     session.environments = NULL;
 }
 
-// Parses the words. `options` and `job` are then complete; the caller frees the options in any case.
-static bool start(int count, struct options *options, struct job *job, lam_error *error)
+// Parses the words. The call's options and job are then complete; its end frees the options in any case.
+static bool start(int count)
 {
     static bool filled;
+    struct options *options = &call.options;
+    struct job *job = &call.job;
+    lam_error *error = &call.error;
+    *job = (struct job){0};
+    *error = (lam_error){0};
     if (!filled)
         option_table_fill();
     filled = true;
@@ -104,9 +116,11 @@ static bool start(int count, struct options *options, struct job *job, lam_error
     return session.device && kept_model_take(&model, job, &session.progress, error);
 }
 
-// Prints the result of a command line, and ends the job. Returns the exit code.
-static int answer(struct job *job, bool ok, const lam_error *error)
+// Prints the result of a command line, and ends the call. Returns the exit code.
+static int answer(bool ok)
 {
+    struct job *job = &call.job;
+    const lam_error *error = &call.error;
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
     json_flag(&json, "ok", ok);
@@ -124,68 +138,53 @@ static int answer(struct job *job, bool ok, const lam_error *error)
     session.image = job->image;
     job->image = (lam_image){0};
     job_free(job);
+    options_free(&call.options);
     return ok ? 0 : exit_code_of(error->code)->code;
 }
 
 // Ends a call that has printed its own answer (`ok`), or prints the error. Returns the exit code.
-static int end_call(struct job *job, struct options *options, bool ok, const lam_error *error)
+static int end_call(bool ok)
 {
-    int code = 0;
-    if (ok) {
-        fflush(stdout);
-        job->scene = NULL;
-        job_free(job);
-    } else {
-        code = answer(job, false, error);
-    }
-    options_free(options);
-    return code;
+    if (!ok)
+        return answer(false);
+    fflush(stdout);
+    call.job.scene = NULL;
+    job_free(&call.job);
+    options_free(&call.options);
+    return 0;
 }
 
 const void *web_pixels(void) { return session.image.pixels; }
 
 int web_draw(int count)
 {
-    struct options options;
-    struct job job = {0};
-    lam_error error = {0};
-    bool ok = start(count, &options, &job, &error) && job_draw(&job, LAM_RGBA8, &session.progress, &error);
-    int code = answer(&job, ok, &error);
-    options_free(&options);
-    return code;
+    bool ok = start(count) && job_draw(&call.job, LAM_RGBA8, &session.progress, &call.error);
+    return answer(ok);
 }
 
 int web_save(int count)
 {
-    struct options options;
-    struct job job = {0};
-    lam_error error = {0};
-    bool ok = start(count, &options, &job, &error);
-    job.output = options.picture.output;
-    if (ok && (!job.output || strcmp(job.output, "-") == 0))
-        ok = complain(&error, LAM_BAD_ARGUMENT, "expected the file to write after -o");
-    ok = ok && job_run(&job, &session.progress, &error);
-    int code = answer(&job, ok, &error);
-    options_free(&options);
-    return code;
+    bool ok = start(count);
+    call.job.output = call.options.picture.output;
+    if (ok && (!call.job.output || strcmp(call.job.output, "-") == 0))
+        ok = complain(&call.error, LAM_BAD_ARGUMENT, "expected the file to write after -o");
+    ok = ok && job_run(&call.job, &session.progress, &call.error);
+    return answer(ok);
 }
 
 int web_explain(int count, int x, int y)
 {
-    struct options options;
-    struct job job = {0};
-    lam_error error = {0};
     lam_explanation *explanation = NULL;
-    bool ok = start(count, &options, &job, &error);
-    if (ok && (x < 0 || y < 0 || x >= options.picture.width || y >= options.picture.height))
-        ok = complain(&error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", x, y);
+    bool ok = start(count);
+    if (ok && (x < 0 || y < 0 || x >= call.options.picture.width || y >= call.options.picture.height))
+        ok = complain(&call.error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", x, y);
     if (ok)
-        explanation = job_explain(&job, x, y, NULL, &error);
+        explanation = job_explain(&call.job, x, y, NULL, &call.error);
     if (explanation)
-        explain_json(stdout, explanation, &job);
+        explain_json(stdout, explanation, &call.job);
     ok = explanation != NULL;
     lam_explanation_free(explanation);
-    return end_call(&job, &options, ok, &error);
+    return end_call(ok);
 }
 
 enum { CURVE_STEPS = 100 };
@@ -229,14 +228,10 @@ static lam_reflection reflection_named(const char *word)
 
 int web_curves(int count, int light, double farthest, double shininess)
 {
-    struct options options;
-    struct job job = {0};
-    lam_error error = {0};
-    bool ok =
-        start(count - 1, &options, &job, &error) && job_load(&job, NULL, &error) && job_arrange(&job, NULL, &error);
-    lam_light one = ok ? light_of(&job, light) : lam_light_default(LAM_LIGHT_AMBIENT);
+    bool ok = start(count - 1) && job_load(&call.job, NULL, &call.error) && job_arrange(&call.job, NULL, &call.error);
+    lam_light one = ok ? light_of(&call.job, light) : lam_light_default(LAM_LIGHT_AMBIENT);
     if (ok && one.type == LAM_LIGHT_AMBIENT)
-        ok = complain(&error, LAM_BAD_ARGUMENT, "the picture has no light %d with a place or a direction", light);
+        ok = complain(&call.error, LAM_BAD_ARGUMENT, "the picture has no light %d with a place or a direction", light);
     if (ok) {
         const char *word = session.text;
         for (int i = 1; i < count; i++)
@@ -256,38 +251,32 @@ int web_curves(int count, int light, double farthest, double shininess)
         json_close(&json, '}');
         putc('\n', stdout);
     }
-    return end_call(&job, &options, ok, &error);
+    return end_call(ok);
 }
 
 int web_lights(int count)
 {
-    struct options options;
-    struct job job = {0};
-    lam_error error = {0};
     lam_bytes text = {0};
-    bool ok = start(count, &options, &job, &error) && job_load(&job, NULL, &error) && job_arrange(&job, NULL, &error) &&
-              lam_lights_encode(job.scene, job.rig, job.options->draw.ground, &text, &error);
+    bool ok = start(count) && job_load(&call.job, NULL, &call.error) && job_arrange(&call.job, NULL, &call.error) &&
+              lam_lights_encode(call.job.scene, call.job.rig, call.options.draw.ground, &text, &call.error);
     if (ok) {
         fwrite(text.data, 1, text.size, stdout);
     }
     lam_bytes_free(&text);
-    return end_call(&job, &options, ok, &error);
+    return end_call(ok);
 }
 
 int web_contents(int count)
 {
-    struct options options;
-    struct job job = {0};
-    lam_error error = {0};
-    bool ok = start(count, &options, &job, &error) && job_load(&job, NULL, &error);
+    bool ok = start(count) && job_load(&call.job, NULL, &call.error);
     if (ok) {
         struct json json = {.file = stdout};
         json_open(&json, NULL, '{');
-        contents_json(&json, job.scene);
+        contents_json(&json, call.job.scene);
         json_close(&json, '}');
         putc('\n', stdout);
     }
-    return end_call(&job, &options, ok, &error);
+    return end_call(ok);
 }
 
 static void option_json(struct json *json, const struct option *o)

@@ -5,6 +5,7 @@
 #include "linear.h"
 #include "number.h"
 
+#include <stdio.h>
 #include <string.h>
 
 // --- numbers
@@ -217,6 +218,8 @@ bool take_field(struct reader *r, const struct place *place, const json_t *objec
     double numbers[4], min = field->min > -1e30 ? field->min : -1e30, max = field->max < 1e30 ? field->max : 1e30;
     const json_t *value = json_object_get(object, field->key);
     const struct place *here = KEY_OF(place, field->key);
+    struct field_fault fault;
+    char expected[40];
     bool on, is_length = field->light_types && field->unit && strstr(field->unit, "units");
     if (!value)
         return true;
@@ -229,7 +232,10 @@ bool take_field(struct reader *r, const struct place *place, const json_t *objec
         numbers[0] = on;
         break;
     case LAM_FIELD_RGB:
-        return take_rgb(r, place, object, field->key, at);
+        if (!take_rgb(r, place, object, field->key, at))
+            return false;
+        snprintf(expected, sizeof expected, "channels of at most %g", field->max);
+        return field->max > 1e30 || field_fits(field, out, &fault) || json_unexpected(&r->json, here, value, expected);
     case LAM_FIELD_RGBA:
         return take_rgba(r, place, object, field->key, at);
     case LAM_FIELD_POINT:

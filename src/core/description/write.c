@@ -187,7 +187,7 @@ static json_t *material_json(struct scene_writer *w, const lam_material *m, bool
     for (int i = 0; material_field(i); i++) {
         const struct material_field *row = material_field(i);
         bool has = row->reader != FIELD_NEVER && (m->physical || !row->physical);
-        bool implied = row->optional ? field_is_zero(&row->field, m) : row->layer && field_is_standard(&row->field, m);
+        bool implied = (row->optional || row->layer) && field_is_standard(&row->field, m);
         if (has && (whole || !implied))
             put_field(w, out, &row->field, m);
     }
@@ -283,15 +283,24 @@ static bool is_identity(const lam_mat4 *m)
 }
 
 // The changes to an object since it was read.
+enum { MATERIAL, BACK_MATERIAL, ONE_SIDED, CULL, CHANGES };
 struct change {
-    lam_mat4 transform;          // applied after the object's transform in the file
-    int material, back_material; // −1 means unchanged
-    int one_sided, cull;         // −1 means unchanged
+    lam_mat4 transform;  // applied after the object's transform in the file
+    int values[CHANGES]; // −1 means unchanged
 };
+
+static void values_of(const lam_object *object, int values[CHANGES])
+{
+    values[MATERIAL] = object->material;
+    values[BACK_MATERIAL] = object->back_material;
+    values[ONE_SIDED] = object->one_sided;
+    values[CULL] = (int)object->cull;
+}
 
 static struct change change_of(const struct scene_writer *w, const lam_object *object, const lam_object *own)
 {
-    struct change change = {.transform = object->transform, .material = -1, .back_material = -1};
+    struct change change = {.transform = object->transform};
+    int own_values[CHANGES];
     lam_mat4 inverse, placed = mat4_mul(&w->scene->placement, &own->transform);
     // The model file still contains the object's own transform. A reader that applies the scene's placement to this
     // transform obtains the same bits.
@@ -301,12 +310,10 @@ static struct change change_of(const struct scene_writer *w, const lam_object *o
         change.transform = w->scene->placement;
     else if (!is_identity(&own->transform) && mat4_inverse_affine(&own->transform, &inverse))
         change.transform = mat4_mul(&object->transform, &inverse);
-    if (object->material >= 0 && object->material != own->material)
-        change.material = object->material;
-    if (object->back_material >= 0 && object->back_material != own->back_material)
-        change.back_material = object->back_material;
-    change.one_sided = object->one_sided != own->one_sided ? object->one_sided : -1;
-    change.cull = object->cull != own->cull ? (int)object->cull : -1;
+    values_of(object, change.values);
+    values_of(own, own_values);
+    for (int k = 0; k < CHANGES; k++)
+        change.values[k] = change.values[k] != own_values[k] ? change.values[k] : -1;
     return change;
 }
 
@@ -315,8 +322,9 @@ static struct change change_of(const struct scene_writer *w, const lam_object *o
 static bool common_change(const struct scene_writer *w, const struct scene_origin *origin, int first,
                           struct change *common)
 {
-    bool material = true, back = true, sides = true, cull = true, changed[4] = {0};
-    const lam_object *one = lam_scene_object(w->scene, first);
+    bool same[CHANGES] = {true, true, true, true}, changed[CHANGES] = {0}, shared = true;
+    int wanted[CHANGES], values[CHANGES];
+    values_of(lam_scene_object(w->scene, first), wanted);
     for (int i = 0; i < origin->object_count; i++) {
         const lam_object *object = lam_scene_object(w->scene, first + i);
         if (!object || origin_of(w->scene, object->mesh) != origin)
@@ -324,22 +332,18 @@ static bool common_change(const struct scene_writer *w, const struct scene_origi
         struct change change = change_of(w, object, &origin->objects[i]);
         if (i == 0)
             *common = change;
-        if (memcmp(&change.transform, &common->transform, sizeof change.transform) != 0)
-            return false;
-        material &= object->material == one->material;
-        back &= object->back_material == one->back_material;
-        sides &= object->one_sided == one->one_sided;
-        cull &= object->cull == one->cull;
-        changed[0] |= change.material >= 0;
-        changed[1] |= change.back_material >= 0;
-        changed[2] |= change.one_sided >= 0;
-        changed[3] |= change.cull >= 0;
+        shared &= memcmp(&change.transform, &common->transform, sizeof change.transform) == 0;
+        values_of(object, values);
+        for (int k = 0; k < CHANGES; k++) {
+            same[k] &= values[k] == wanted[k];
+            changed[k] |= change.values[k] >= 0;
+        }
     }
-    common->material = changed[0] ? one->material : -1;
-    common->back_material = changed[1] ? one->back_material : -1;
-    common->one_sided = changed[2] ? one->one_sided : -1;
-    common->cull = changed[3] ? (int)one->cull : -1;
-    return (material || !changed[0]) && (back || !changed[1]) && (sides || !changed[2]) && (cull || !changed[3]);
+    for (int k = 0; k < CHANGES; k++) {
+        common->values[k] = changed[k] ? wanted[k] : -1;
+        shared &= same[k] || !changed[k];
+    }
+    return shared;
 }
 
 static json_t *formula_json(struct scene_writer *w, const lam_formula *formula)
@@ -392,24 +396,22 @@ static bool put_object(struct scene_writer *w, json_t *list, const lam_object *o
             origin->crease_angle_rad <= 1e-6 ? json_integer(0) : degrees(origin->crease_angle_rad));
     if (origin->field_tangents)
         put(w, entry, "tangents", json_string("field"));
-    if (origin->scene)
-        put(w, entry, "scene", json_string(origin->scene));
-    if (origin->variant)
-        put(w, entry, "variant", json_string(origin->variant));
-    if (origin->animation)
-        put(w, entry, "animation", json_string(origin->animation));
+    put_name(w, entry, "scene", origin->scene);
+    put_name(w, entry, "variant", origin->variant);
+    put_name(w, entry, "animation", origin->animation);
     if (origin->time_s != 0)
         put(w, entry, "time", number(origin->time_s));
     if (!is_identity(&change->transform))
         put(w, entry, "transform", list_of(w, &change->transform.m[0][0], 16));
-    if (change->material >= 0)
-        put(w, entry, "material", material_json(w, lam_scene_material(w->scene, change->material), false));
-    if (change->back_material >= 0)
-        put(w, entry, "back_material", material_json(w, lam_scene_material(w->scene, change->back_material), true));
-    if (change->one_sided >= 0)
-        put(w, entry, "two_sided", json_boolean(!change->one_sided));
-    if (change->cull >= 0)
-        put(w, entry, "cull", word(cull_words, change->cull));
+    const int *values = change->values;
+    if (values[MATERIAL] >= 0)
+        put(w, entry, "material", material_json(w, lam_scene_material(w->scene, values[MATERIAL]), false));
+    if (values[BACK_MATERIAL] >= 0)
+        put(w, entry, "back_material", material_json(w, lam_scene_material(w->scene, values[BACK_MATERIAL]), true));
+    if (values[ONE_SIDED] >= 0)
+        put(w, entry, "two_sided", json_boolean(!values[ONE_SIDED]));
+    if (values[CULL] >= 0)
+        put(w, entry, "cull", word(cull_words, values[CULL]));
     put_parts(w, entry, origin);
     return put_changes(w, entry, origin);
 }

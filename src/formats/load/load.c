@@ -63,7 +63,9 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
         return false;
     if (!check_not_empty(scene, source->name, error))
         return false;
-    show_clear_scene(scene, source->name);
+    // A scene file describes its own transparency, but the MTL files of its models may be wrong.
+    if (!importer->is_scene_file || scene->clear_materials)
+        show_clear_scene(scene, source->name);
     // The importer of scene files has already recorded the origin of each model.
     struct scene_origin origin = {.normals = params->normals, .crease_angle_rad = params->crease_angle_rad};
     if (!importer->is_scene_file && source->path) {

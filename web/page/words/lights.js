@@ -132,7 +132,7 @@ const STANDARD = ['ambient=0/0/0', 'diffuse=1/1/1', 'specular=1/1/1', 'attenuati
 // Converts a light of a scene file to a value of --light, without the keys that have their defaults.
 export function lightWords({ type, name, ...fields }) {
   const pairs = Object.entries(fields).map(([key, value]) => [key, Array.isArray(value) ? value.join('/') : value === true ? 'yes' : value === false ? 'no' : String(value)]);
-  const keys = new Map(pairs.filter((pair) => !STANDARD.includes(pair.join('='))));
+  const keys = new Map(pairs.filter((pair) => type === 'ambient' || !STANDARD.includes(pair.join('='))));
   // A name on the command line cannot contain these characters.
   if (name) keys.set('name', name.replace(/[,=\s]+/g, '-'));
   return lightText({ plus: '', type, keys });

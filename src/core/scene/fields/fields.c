@@ -114,7 +114,7 @@ bool field_fits(const lam_field *field, const void *object, struct field_fault *
     int count = lam_field_get(field, object, numbers);
     const char *const *parts = types[field->type].parts;
     if (field->type == LAM_FIELD_ANGLE) {
-        min = math_radians(min);
+        min = math_radians(min) - (min < 0 ? 1e-6 : 0);
         max = math_radians(max) + 1e-6; // π and π/2, rounded to float, may exceed the exact values by 1e-7
     }
     for (int i = 0; i < count; i++) {

@@ -26,11 +26,9 @@ struct material_field {
     // are the same as in other shaders; "" means that the field occurs only in the products.
     const char *product, *product_summary;
     enum field_reader reader;
-    bool optional; // a scene file omits the field if the value is 0, the default
+    bool optional; // a scene file omits the field if its value is the default
     bool physical; // only physical materials have the field, so writing it makes a material physical
-    // for FIELD_LAYER, the layer (LAYER_…) that reads the field; a scene file omits the field if its value is the
-    // default
-    int layer;
+    int layer;     // for FIELD_LAYER, the layer (LAYER_…) that reads the field; such a field is optional too
 };
 const struct material_field *material_field(int index); // returns NULL past the end
 

@@ -34,7 +34,7 @@ WORDS(shading_words, {"flat", LAM_SHADING_FLAT, "one colour for each triangle"},
       {"smooth", LAM_SHADING_GOURAUD, "an alias of gouraud"},
       {"phong", LAM_SHADING_PHONG, "interpolated normals, with lighting evaluated for each pixel"},
       {"normal", LAM_SHADING_PHONG, "an alias of phong"})
-WORDS(stage_words, {"auto", LAM_STAGE_AUTO, NULL},
+WORDS(stage_words, {"auto", LAM_STAGE_AUTO, "the stage that suits the shading"},
       {"application", LAM_STAGE_APPLICATION, "before drawing; for flat and Gouraud shading"},
       {"vertex", LAM_STAGE_VERTEX, "for each vertex; for flat and Gouraud shading"},
       {"fragment", LAM_STAGE_FRAGMENT, "for each fragment; for flat and Phong shading"})
@@ -61,7 +61,7 @@ WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
       {"shadow", LAM_GROUND_SHADOW, "a transparent plane that shows only shadows and occlusion, in translucent black"},
       {"checker", LAM_GROUND_CHECKER,
        "a checkerboard; the side of a square is 1, 2 or 5 times a power of ten in the model's units"},
-      {"color", LAM_GROUND_COLOR, NULL})
+      {"color", LAM_GROUND_COLOR, "a plane in one colour, by default black"})
 WORDS(edges_words, {"crease", LAM_EDGES_CREASE, "edges at which two faces meet at an angle"},
       {"boundary", LAM_EDGES_BOUNDARY, "edges that belong to only one face"},
       {"silhouette", LAM_EDGES_SILHOUETTE, "edges between front and back faces"})

@@ -15,31 +15,14 @@
 
 // --- materials
 
-// Returns whether metals that are only named reflect the studio: the picture is lit by the studio, and no option requires
-// the classic values.
-static bool metals_mirror(const struct options *o, const lam_scene *scene)
+// Metals that are only named reflect the studio, unless an option requires the classic values.
+static bool mirror_metals(const struct options *o, lam_scene *scene, lam_error *error)
 {
-    const lam_draw_params *draw = &o->draw;
-    return !o->lighting.has_rig && !o->lighting.lights.count && lam_scene_light_count(scene) == 0 &&
-           !environment_option_is_none(o->shading.environment) && !draw->reflection && !draw->shading && !draw->stage &&
-           !draw->gl1 && o->picture.color_mode == LAM_COLOR_SRGB;
-}
-
-// Replaces each metal that an option or a scene file only names by the physical metal, which reflects the studio.
-static bool mirror_metals(lam_scene *scene, lam_error *error)
-{
-    for (int i = 0; i < lam_scene_material_count(scene); i++) {
-        const lam_material *metal = lam_scene_material(scene, i);
-        lam_material physical = lam_material_default();
-        if (!metal->metal)
-            continue;
-        physical.name = metal->name;
-        if (!lam_material_parse(lam_material_metal((lam_material_id)(metal->metal - 1)), LAM_COLOR_SRGB, &physical,
-                                error) ||
-            !lam_scene_set_material(scene, i, &physical, error))
-            return false;
-    }
-    return true;
+    lam_draw_params draw = o->draw;
+    bool lit = o->lighting.has_rig || o->lighting.lights.count || environment_option_is_none(o->shading.environment);
+    draw.rig = lit ? LAM_RIG_STUDIO : LAM_RIG_AUTO;
+    draw.color = (lam_color_mode)o->picture.color_mode;
+    return lam_scene_mirror_metals(scene, &draw, error);
 }
 
 // Returns whether the materials of the options come from a look, and a scene file describes its own. These replace the
@@ -113,7 +96,7 @@ static bool apply_materials(const struct job *job, lam_error *error)
             return false;
     }
     if (!set_materials(&o->material.back_materials, true, "back-material", o, scene, error) ||
-        (metals_mirror(o, scene) && !mirror_metals(scene, error)))
+        !mirror_metals(o, scene, error))
         return false;
     for (int i = 0; i < o->material.hidden.count; i++)
         if (!material_option_hide(o->material.hidden.items[i], job->one_of_many, scene, error))

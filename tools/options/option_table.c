@@ -478,7 +478,7 @@ struct option option_table[OPTIONS_MAX] = {
      "default is `1r/2r/3r`, or `1r/-3r/2r` with Z up. `position=x/y/z/0` is a directional light that shines from this "
      "direction. `direction=x/y/z` is the direction in which the light travels, and `target=x/y/z` is the point at "
      "which the light aims. By default, a directional light shines along 0/0/-1, and a spot aims at the model's "
-     "centre. `frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the "
+     "centre, or straight ahead in the frame `camera`. `frame=world|camera|view|object|object:NAME` selects the coordinate frame. `world` is the frame of the "
      "scene. `camera` is the frame of the eye: x points right, y points up, and the eye looks along -z. In this frame, "
      "a light without a position is at the eye. `view` uses the axes of the eye, with the origin at the middle of the "
      "scene's box. `object` is the frame of the model before `--rotate`, and `object:NAME` is the frame of a named "

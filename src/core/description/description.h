@@ -74,7 +74,6 @@ bool find_sphere(struct reader *r, const struct place *place, bool needed);
 
 extern const struct json_choice color_words[], normals_words[], cull_words[], up_words[], frame_words[],
     tangent_words[];
-void tone_words(struct json_choice words[LAM_TONE_COUNT + 1]);
 
 // --- parts of a picture
 

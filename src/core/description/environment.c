@@ -5,8 +5,6 @@
 #include "fail.h"
 #include "linear.h"
 #include "description.h"
-#include "shown_name.h"
-#include "spelling.h"
 
 #include <string.h>
 
@@ -26,21 +24,16 @@ static bool read_faces(struct reader *r, const struct place *place, const json_t
     return true;
 }
 
-static bool read_built_in(struct reader *r, const struct place *place, const char **name)
+static bool read_built_in(struct reader *r, const struct place *place, const json_t *value, const char **name)
 {
-    const char *known[8];
-    char shown[SHOWN_NAME_SIZE];
-    int count = 0;
-    while (count < 8 && (known[count] = lam_environment_built_in_name(count))) {
-        if (strcmp(known[count], *name) == 0) {
-            *name = known[count];
-            return true;
-        }
-        count++;
-    }
-    const char *near_word = meant_word(*name, known, count);
-    return json_fail(&r->json, place, "found '%s', expected sky or studio%s%s%s", shown_name(*name, shown),
-                     near_word ? "; did you mean '" : "", near_word ? near_word : "", near_word ? "'?" : "");
+    struct json_choice known[8] = {0};
+    int chosen = 0;
+    for (int i = 0; i < 7 && (known[i].name = lam_environment_built_in_name(i)); i++)
+        known[i].value = i;
+    if (value && !json_choice_of(&r->json, KEY_OF(place, "builtin"), value, known, &chosen))
+        return false;
+    *name = value ? known[chosen].name : NULL;
+    return true;
 }
 
 // The names of the pictures, and the members of the settings that receive their full paths.
@@ -88,9 +81,7 @@ static struct lam_environment *load(struct reader *r, const struct place *place,
     const char *names[LAM_FACE_COUNT];
     const struct place *here = KEY_OF(place, faces ? "faces" : "equirectangular");
     if (s->environment_built_in)
-        return read_built_in(r, KEY_OF(place, "builtin"), &s->environment_built_in)
-                   ? lam_environment_built_in(s->environment_built_in, r->json.error)
-                   : NULL;
+        return lam_environment_built_in(s->environment_built_in, r->json.error);
     if (picture)
         return read_pictures(r, here, &picture, 1, &s->environment_picture);
     return read_faces(r, here, faces, names) ? read_pictures(r, here, names, LAM_FACE_COUNT, s->environment_faces)
@@ -108,7 +99,7 @@ bool read_environment(struct reader *r, const json_t *root)
     if (!value)
         return true;
     if (!json_check_keys(&r->json, place, value, keys) || !take_text(r, place, value, "equirectangular", &picture) ||
-        !take_text(r, place, value, "builtin", &s->environment_built_in) ||
+        !read_built_in(r, place, json_object_get(value, "builtin"), &s->environment_built_in) ||
         !json_take_number(&r->json, place, value, "rotation", -360000, 360000, &rotation))
         return false;
     const json_t *faces = json_object_get(value, "faces");

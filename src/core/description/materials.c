@@ -33,6 +33,27 @@ const char *lam_material_metal(lam_material_id id)
     return (unsigned)id < LAM_MATERIAL_COUNT ? metals[id] : NULL;
 }
 
+bool lam_scene_mirror_metals(lam_scene *scene, const lam_draw_params *draw, lam_error *error)
+{
+    if (!scene || !draw)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_scene_mirror_metals: %s is NULL", scene ? "draw" : "scene");
+    if (draw->rig || draw->reflection || draw->shading || draw->stage || draw->gl1 || draw->color != LAM_COLOR_SRGB ||
+        scene->lights.count)
+        return true;
+    for (int i = 0; i < scene->materials.count; i++) {
+        const lam_material *metal = lam_scene_material(scene, i);
+        lam_material physical = lam_material_default();
+        if (!metal->metal)
+            continue;
+        physical.name = metal->name;
+        if (!lam_material_parse(lam_material_metal((lam_material_id)(metal->metal - 1)), draw->color, &physical,
+                                error) ||
+            !lam_scene_set_material(scene, i, &physical, error))
+            return false;
+    }
+    return true;
+}
+
 static bool unknown_name(struct reader *r, const struct place *place, const char *name)
 {
     struct spelling spelling = spelling_of(name);

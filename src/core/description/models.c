@@ -45,10 +45,13 @@ static bool make_shape(struct reader *r, const struct model_wanted *wanted, stru
 {
     lam_error reason = {0};
     lam_object object = lam_object_default();
-    object.name = !wanted->formula ? wanted->shape : wanted->formula->implicit ? "implicit" : "parametric";
-    object.mesh = wanted->formula
-                      ? scene_add_formula(&model->inner, wanted->formula, r->source->call, &reason)
-                      : scene_add_shape(&model->inner, wanted->shape, &wanted->segments, r->source->call, &reason);
+    object.name = !wanted->origin.formula            ? wanted->origin.shape
+                  : wanted->origin.formula->implicit ? "implicit"
+                                                     : "parametric";
+    object.mesh =
+        wanted->origin.formula
+            ? scene_add_formula(&model->inner, wanted->origin.formula, r->source->call, &reason)
+            : scene_add_shape(&model->inner, wanted->origin.shape, &wanted->origin.segments, r->source->call, &reason);
     if (object.mesh < 0) {
         if (reason.code == LAM_BAD_ARGUMENT) // also for formulas, whose text may contain errors
             return json_fail(&r->json, KEY_OF(wanted->place, "shape"), "%s", reason.text);
@@ -70,13 +73,13 @@ static bool import_file(struct reader *r, const struct model_wanted *wanted, str
     lam_load_params params = *r->source->params;
     params.color = r->color;
     params.format = NULL;
-    params.normals = wanted->normals;
+    params.normals = wanted->origin.normals;
     params.polygon_edges |= r->settings->draw.wireframe || r->settings->draw.edges;
-    params.crease_angle_rad = wanted->crease_angle_rad;
-    params.scene = wanted->scene;
-    params.variant = wanted->variant;
-    params.animation = wanted->animation;
-    params.time_s = wanted->time_s;
+    params.crease_angle_rad = wanted->origin.crease_angle_rad;
+    params.scene = wanted->origin.scene;
+    params.variant = wanted->origin.variant;
+    params.animation = wanted->origin.animation;
+    params.time_s = wanted->origin.time_s;
     struct import_source source = *r->source;
     source.name = file->shown;
     source.path = file->path;
@@ -97,9 +100,10 @@ static bool import_file(struct reader *r, const struct model_wanted *wanted, str
     inner->up = importer->up;
     inner->format = importer->name;
     inner->color = r->color;
-    model->crease_angle_rad = importer_crease(importer, wanted->normals, wanted->crease_angle_rad);
+    model->crease_angle_rad = importer_crease(importer, wanted->origin.normals, wanted->origin.crease_angle_rad);
     if (!importer->load(&source, inner, r->json.error) ||
-        !scene_repair(inner, source.name, wanted->normals, wanted->crease_angle_rad, source.pool, r->json.error))
+        !scene_repair(inner, source.name, wanted->origin.normals, wanted->origin.crease_angle_rad, source.pool,
+                      r->json.error))
         return false;
     uint64_t items = 0;
     for (int i = 0; i < inner->meshes.count; i++)
@@ -123,7 +127,7 @@ static bool open_file(struct reader *r, const struct model_wanted *wanted, struc
 static bool complete(struct reader *r, const struct model_wanted *wanted, struct model *model)
 {
     struct lam_scene *inner = &model->inner;
-    return scene_prepare(inner, wanted->normals, model->crease_angle_rad, r->source->pool, r->source->call,
+    return scene_prepare(inner, wanted->origin.normals, model->crease_angle_rad, r->source->pool, r->source->call,
                          r->json.error) &&
            scene_make_tangents(inner, false, r->source->call, r->json.error) &&
            scene_measure(inner, r->source->pool, r->json.error);
@@ -134,14 +138,9 @@ static struct model *read_model(struct reader *r, const struct model_wanted *wan
     struct model *model = arena_alloc_zeroed(&r->scene->arena, sizeof *model);
     if (!model)
         return no_memory(r, sizeof *model), NULL;
-    model->origin = (struct scene_origin){.path = file ? file->path : NULL,
-                                          .normals = wanted->normals,
-                                          .crease_angle_rad = wanted->crease_angle_rad,
-                                          .scene = wanted->scene,
-                                          .variant = wanted->variant,
-                                          .animation = wanted->animation,
-                                          .time_s = wanted->time_s};
-    model->crease_angle_rad = wanted->crease_angle_rad;
+    model->origin = wanted->origin;
+    model->origin.path = file ? file->path : NULL;
+    model->crease_angle_rad = wanted->origin.crease_angle_rad;
     model->inner.arena = r->scene->arena;
     model->inner.default_material = &model->inner_material;
     bool ok = (file ? import_file(r, wanted, file, model) : make_shape(r, wanted, model)) && complete(r, wanted, model);
@@ -164,10 +163,10 @@ static struct model *read_model(struct reader *r, const struct model_wanted *wan
 // Makes the key that identifies the surface of a formula. Returns false if the key is too long.
 static bool key_of_formula(const struct model_wanted *wanted, char key[KEY_SIZE])
 {
-    const lam_formula *f = wanted->formula;
+    const lam_formula *f = wanted->origin.formula;
     int length =
-        snprintf(key, KEY_SIZE, "formula %d %a %d %d %d %d %s\n%s\n%s\n%s\n%s\n%s", (int)wanted->normals,
-                 wanted->crease_angle_rad, f->u_segments, f->v_segments, f->flip, f->implicit, f->u ? f->u : "",
+        snprintf(key, KEY_SIZE, "formula %d %a %d %d %d %d %s\n%s\n%s\n%s\n%s\n%s", (int)wanted->origin.normals,
+                 wanted->origin.crease_angle_rad, f->u_segments, f->v_segments, f->flip, f->implicit, f->u ? f->u : "",
                  f->v ? f->v : "", f->x ? f->x : "", f->y ? f->y : "", f->z ? f->z : "", f->text);
     return length > 0 && length < KEY_SIZE;
 }
@@ -175,14 +174,17 @@ static bool key_of_formula(const struct model_wanted *wanted, char key[KEY_SIZE]
 // Makes the key that identifies a model: the kind of normals, and the shape, the formula or the file.
 static bool key_of(const struct model_wanted *wanted, const char *file, char key[KEY_SIZE])
 {
-    if (wanted->formula)
+    if (wanted->origin.formula)
         return key_of_formula(wanted, key);
-    const lam_shape_params *s = &wanted->segments;
-    int length = file ? snprintf(key, KEY_SIZE, "file %d %a %a %s\n%s\n%s\n%s", (int)wanted->normals,
-                                 wanted->crease_angle_rad, wanted->time_s, file, wanted->scene ? wanted->scene : "",
-                                 wanted->variant ? wanted->variant : "", wanted->animation ? wanted->animation : "")
-                      : snprintf(key, KEY_SIZE, "shape %d %a %a %d %d %s", (int)wanted->normals,
-                                 wanted->crease_angle_rad, s->radius, s->slices, s->stacks, wanted->shape);
+    const lam_shape_params *s = &wanted->origin.segments;
+    int length = file
+                     ? snprintf(key, KEY_SIZE, "file %d %a %a %s\n%s\n%s\n%s", (int)wanted->origin.normals,
+                                wanted->origin.crease_angle_rad, wanted->origin.time_s, file,
+                                wanted->origin.scene ? wanted->origin.scene : "",
+                                wanted->origin.variant ? wanted->origin.variant : "",
+                                wanted->origin.animation ? wanted->origin.animation : "")
+                     : snprintf(key, KEY_SIZE, "shape %d %a %a %d %d %s", (int)wanted->origin.normals,
+                                wanted->origin.crease_angle_rad, s->radius, s->slices, s->stacks, wanted->origin.shape);
     return length > 0 && length < KEY_SIZE;
 }
 
@@ -224,7 +226,7 @@ static struct model *find_model(struct reader *r, const struct model_wanted *wan
     char key[KEY_SIZE];
     if (!key_of(wanted, wanted->file, key)) {
         json_fail(&r->json, KEY_OF(wanted->place, wanted->file ? "file" : "shape"),
-                  wanted->formula ? "the formula is too long" : "the name is too long");
+                  wanted->origin.formula ? "the formula is too long" : "the name is too long");
         return NULL;
     }
     struct model *model = known(r, key);
@@ -298,8 +300,8 @@ static const struct variant *find_variant(const struct model *model, const struc
 {
     for (int i = 0; i < model->variant_count && i < VARIANTS; i++) {
         const struct variant *variant = &model->variants[i];
-        if (variant->field_tangents == wanted->field_tangents && same_json(variant->materials, wanted->materials) &&
-            same_json(variant->parts, wanted->parts))
+        if (variant->field_tangents == wanted->origin.field_tangents &&
+            same_json(variant->materials, wanted->materials) && same_json(variant->parts, wanted->parts))
             return variant;
     }
     return NULL;
@@ -319,9 +321,9 @@ bool add_model(struct reader *r, const struct model_wanted *wanted, int *origin,
         *origin = variant->origin;
         ok = add_objects(r, *origin);
     } else {
-        ok = add_items(r, model, wanted->field_tangents, origin);
+        ok = add_items(r, model, wanted->origin.field_tangents, origin);
         model->variants[model->variant_count++ % VARIANTS] =
-            (struct variant){wanted->field_tangents, wanted->materials, wanted->parts, *origin};
+            (struct variant){wanted->origin.field_tangents, wanted->materials, wanted->parts, *origin};
     }
     for (int i = 0; ok && !r->has_lights && i < model->inner.lights.count; i++)
         ok = scene_adopt_light(scene, (const lam_light *)model->inner.lights.items + i, r->json.error) >= 0;

@@ -6,16 +6,9 @@
 
 // The model that an object refers to, and its parameters.
 struct model_wanted {
-    const struct place *place; // the position of the object in the file
-    // only one of `file`, `shape` and `formula` is set; the file name is spelled as in the scene file
-    const char *file, *shape;
-    const lam_formula *formula;
-    lam_shape_params segments; // the parameters of a shape
-    lam_normals normals;
-    double crease_angle_rad; // 0 means the default
-    bool field_tangents;
-    const char *scene, *variant, *animation; // for a glTF file, as in lam_load_params
-    double time_s;
+    const struct place *place;       // the position of the object in the file
+    const char *file;                // the file name as it is spelled in the scene file; NULL for a shape or a formula
+    struct scene_origin origin;      // the shape or the formula, and the parameters of the model
     const json_t *materials, *parts; // the object's changes to the model, or NULL
 };
 

@@ -205,8 +205,10 @@ static bool read_formula(struct reader *r, const struct place *place, const json
 
 static bool read_object(struct reader *r, const struct place *place, const json_t *value)
 {
-    const char *shape = NULL, *file = NULL, *name = NULL, *inner = NULL, *variant = NULL, *animation = NULL;
-    double time_s = 0;
+    struct model_wanted wanted = {
+        .place = place, .materials = json_object_get(value, "materials"), .parts = json_object_get(value, "parts")};
+    struct scene_origin *o = &wanted.origin;
+    const char *name = NULL;
     int normals = LAM_NORMALS_FILE, field = false;
     double crease_deg = -1;
     bool is_file = json_is_object(value) && json_object_get(value, "file");
@@ -227,36 +229,24 @@ static bool read_object(struct reader *r, const struct place *place, const json_
         if (json_object_get(value, of_shapes[i]))
             return json_fail(&r->json, KEY_OF(place, of_shapes[i]),
                              "applies only to built-in shapes, but the shape is a formula");
-    if ((!is_formula && !take_text(r, place, value, "shape", &shape)) || !take_text(r, place, value, "file", &file) ||
-        !take_text(r, place, value, "name", &name) || !take_text(r, place, value, "scene", &inner) ||
-        !take_text(r, place, value, "variant", &variant) || !take_text(r, place, value, "animation", &animation) ||
-        !json_take_number(&r->json, place, value, "time", -1e9, 1e9, &time_s) ||
+    if ((!is_formula && !take_text(r, place, value, "shape", &o->shape)) ||
+        !take_text(r, place, value, "file", &wanted.file) || !take_text(r, place, value, "name", &name) ||
+        !take_text(r, place, value, "scene", &o->scene) || !take_text(r, place, value, "variant", &o->variant) ||
+        !take_text(r, place, value, "animation", &o->animation) ||
+        !json_take_number(&r->json, place, value, "time", -1e9, 1e9, &o->time_s) ||
         !json_take_word(&r->json, place, value, "normals", normals_words, &normals) ||
         !json_take_number(&r->json, place, value, "crease_angle", 0, 180, &crease_deg) ||
         !json_take_word(&r->json, place, value, "tangents", tangent_words, &field))
         return false;
-    struct model_wanted wanted = {
-        .place = place,
-        .file = file,
-        .shape = shape,
-        .formula = is_formula ? &formula : NULL,
-        .normals = (lam_normals)normals,
-        // 0 means the importer's default; a tiny angle makes every edge a crease.
-        .crease_angle_rad = crease_deg < 0   ? 0
-                            : crease_deg > 0 ? math_radians(crease_deg)
-                                             : 1e-6,
-        .field_tangents = field,
-        .scene = inner,
-        .variant = variant,
-        .animation = animation,
-        .time_s = time_s,
-        .materials = json_object_get(value, "materials"),
-        .parts = json_object_get(value, "parts"),
-    };
-    if (shape && lam_shape_find(shape) >= 0 &&
-        (!json_take_number(&r->json, place, value, "radius", 1e-30, 1e30, &wanted.segments.radius) ||
-         !take_whole(r, place, value, "slices", 3, 16384, &wanted.segments.slices) ||
-         !take_whole(r, place, value, "stacks", 1, 16384, &wanted.segments.stacks)))
+    o->formula = is_formula ? &formula : NULL;
+    o->normals = (lam_normals)normals;
+    o->field_tangents = field;
+    // 0 means the importer's default; a tiny angle makes every edge a crease.
+    o->crease_angle_rad = crease_deg < 0 ? 0 : crease_deg > 0 ? math_radians(crease_deg) : 1e-6;
+    if (o->shape && lam_shape_find(o->shape) >= 0 &&
+        (!json_take_number(&r->json, place, value, "radius", 1e-30, 1e30, &o->segments.radius) ||
+         !take_whole(r, place, value, "slices", 3, 16384, &o->segments.slices) ||
+         !take_whole(r, place, value, "stacks", 1, 16384, &o->segments.stacks)))
         return false;
     struct entry entry = {r->scene->objects.count, r->scene->lights.count, r->scene->cameras.count};
     int index;

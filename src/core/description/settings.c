@@ -55,19 +55,21 @@ static bool read_image(struct reader *r, const json_t *root)
         s->draw.samples = n;
         s->present |= LAM_SETTING_SAMPLES;
     }
-    s->draw.background.a = 0;
-    if (!take_rgba(r, place, image, "background", &s->draw.background) ||
-        !json_take_number(&r->json, place, image, "exposure", -100, 100, &s->draw.exposure))
-        return false;
-    s->present |= json_object_get(image, "background") ? LAM_SETTING_BACKGROUND : 0;
-    s->present |= json_object_get(image, "exposure") ? LAM_SETTING_EXPOSURE : 0;
-    struct json_choice tones[LAM_TONE_COUNT + 1];
+    static const struct {
+        const char *key;
+        unsigned bit;
+    } rows[] = {{"background", LAM_SETTING_BACKGROUND}, {"exposure", LAM_SETTING_EXPOSURE}, {"tone", LAM_SETTING_TONE}};
+    struct json_choice tones[LAM_TONE_COUNT + 1] = {0};
     int tone = LAM_TONE_AUTO;
-    tone_words(tones);
-    if (!json_take_word(&r->json, place, image, "tone", tones, &tone))
+    for (int i = 0; i < LAM_TONE_COUNT; i++)
+        tones[i] = (struct json_choice){lam_tone_name((lam_tone)i), i};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        s->present |= json_object_get(image, rows[i].key) ? rows[i].bit : 0;
+    if (!take_rgba(r, place, image, "background", &s->draw.background) ||
+        !json_take_number(&r->json, place, image, "exposure", -100, 100, &s->draw.exposure) ||
+        !json_take_word(&r->json, place, image, "tone", tones, &tone))
         return false;
     s->draw.tone = (lam_tone)tone;
-    s->present |= json_object_get(image, "tone") ? LAM_SETTING_TONE : 0;
     return true;
 }
 

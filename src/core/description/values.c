@@ -141,13 +141,6 @@ const struct json_choice frame_words[] = {{"world", LAM_FRAME_WORLD},
                                           {NULL, 0}};
 const struct json_choice tangent_words[] = {{"file", false}, {"field", true}, {NULL, 0}};
 
-void tone_words(struct json_choice words[LAM_TONE_COUNT + 1])
-{
-    for (int i = 0; i < LAM_TONE_COUNT; i++)
-        words[i] = (struct json_choice){lam_tone_name((lam_tone)i), i};
-    words[LAM_TONE_COUNT] = (struct json_choice){NULL, 0};
-}
-
 // --- colours
 
 // Reads linear numbers: one for all three channels, or a list of three, or of four with an alpha.

@@ -32,16 +32,28 @@ static json_t *number(double x)
     return whole ? json_integer((json_int_t)x) : json_real(x);
 }
 
-// Makes the number with the fewest decimals that converts to the same float.
+// Finds the number with the fewest decimals that a reader converts to the same value. Returns false if there is none.
+static bool find_decimal(double x, double wanted, double (*read)(double decimal), double *decimal)
+{
+    double power = 1, size = x < 0 ? -x : x;
+    for (int decimals = 0; decimals <= 15 && size * power < 1e15; decimals++, power *= 10) {
+        *decimal = (double)(int64_t)(x * power + (x < 0 ? -0.5 : 0.5)) / power;
+        if (read(*decimal) == wanted)
+            return true;
+    }
+    *decimal = x;
+    return false;
+}
+
+static double read_float(double decimal) { return (double)(float)decimal; }
+static double read_degrees(double decimal) { return math_radians(decimal); }
+static double read_degrees_float(double decimal) { return (double)(float)math_radians(decimal); }
+
 static json_t *number_float(float f)
 {
-    double x = (double)f, size = x < 0 ? -x : x, power = 1;
-    for (int decimals = 0; decimals <= 15 && size * power < 1e15; decimals++, power *= 10) {
-        double shorter = (double)(int64_t)(x * power + (x < 0 ? -0.5 : 0.5)) / power;
-        if ((float)shorter == f)
-            return number(x == 0 ? x : shorter);
-    }
-    return number(x);
+    double decimal;
+    find_decimal((double)f, (double)f, read_float, &decimal);
+    return number(f == 0 ? (double)f : decimal);
 }
 
 static json_t *list_of(struct scene_writer *w, const double *numbers, int count)
@@ -66,13 +78,9 @@ static json_t *color(struct scene_writer *w, const float *parts, int count)
 // possible.
 static json_t *degrees(double radians)
 {
-    double plain = math_degrees(radians), power = 1, best = plain, error = 1e300;
-    for (int decimals = 0; decimals <= 12; decimals++, power *= 10) {
-        double shorter = (double)(int64_t)(plain * power + (plain < 0 ? -0.5 : 0.5)) / power,
-               back = math_radians(shorter);
-        if (back == radians)
-            return number(shorter);
-    }
+    double plain = math_degrees(radians), best, error = 1e300;
+    if (find_decimal(plain, radians, read_degrees, &best))
+        return number(best);
     int64_t bits;
     memcpy(&bits, &plain, sizeof bits);
     for (int step = -4; step <= 4; step++) {
@@ -87,6 +95,13 @@ static json_t *degrees(double radians)
         }
     }
     return number(best);
+}
+
+static double degrees_float(float radians)
+{
+    double decimal;
+    find_decimal(math_degrees((double)radians), (double)radians, read_degrees_float, &decimal);
+    return decimal;
 }
 
 static json_t *word(const struct json_choice *words, int value)
@@ -578,18 +593,6 @@ static bool put_environment(struct scene_writer *w, json_t *root, const lam_pict
     return true;
 }
 
-// Converts an angle to degrees, with the fewest decimals from which a reader obtains the same float in radians.
-static json_t *angle_float(float radians)
-{
-    double plain = math_degrees((double)radians), power = 1;
-    for (int decimals = 0; decimals <= 12; decimals++, power *= 10) {
-        double shorter = (double)(int64_t)(plain * power + 0.5) / power;
-        if ((float)math_radians(shorter) == radians)
-            return number(shorter);
-    }
-    return number(plain);
-}
-
 static json_t *words_of(struct scene_writer *w, const lam_setting *setting, int bits)
 {
     json_t *list = json_array();
@@ -620,7 +623,7 @@ static void put_setting(struct scene_writer *w, json_t *root, const lam_setting 
     else if (setting->type == LAM_SETTING_WORDS)
         value = words_of(w, setting, *(const int *)member);
     else if (setting->type == LAM_SETTING_ANGLE)
-        value = angle_float(*(const float *)member);
+        value = number(degrees_float(*(const float *)member));
     else
         value = number_float(*(const float *)member > 0 ? *(const float *)member : 0);
     put(w, root, setting->key, value);

@@ -3,6 +3,7 @@
 
 #include <lambent/render.h>
 #include <lambent/scene_file.h>
+#include <lambent/words.h>
 
 #include <stdio.h>
 #include <string.h>
@@ -77,6 +78,8 @@ static bool draw(lam_scene *scene, const lam_render_params *params, lam_image *i
     lam_scene_picture_settings(scene, &settings);
     lam_draw_params drawn = params->draw ? *params->draw : settings.draw;
     bool made = !image->pixels;
+    if (!lam_scene_mirror_metals(scene, &drawn, error))
+        return false;
     if (made) {
         bool given = settings.present & LAM_SETTING_SIZE;
         int width = image->width ? image->width : given ? settings.width : LAM_RENDER_SIZE;

@@ -77,18 +77,12 @@ static bool check(const struct options *given, lam_error *error)
 
 static void take_limits(const struct options *limits, struct options *out)
 {
-    out->limits.memory_limit_bytes = limits->limits.memory_limit_bytes;
-    out->limits.time_limit_s = limits->limits.time_limit_s;
-    out->limits.triangle_limit = limits->limits.triangle_limit;
-    out->limits.pixel_limit = limits->limits.pixel_limit;
-    out->limits.file_limit_bytes = limits->limits.file_limit_bytes;
-    out->limits.json_depth_limit = limits->limits.json_depth_limit;
-    out->limits.expansion_limit = limits->limits.expansion_limit;
-    out->limits.object_limit = limits->limits.object_limit;
-    out->limits.layer_limit = limits->limits.layer_limit;
-    out->work.threads = limits->work.threads;
-    out->limits.in_flight = limits->limits.in_flight;
+    struct limits_options own = out->limits;
+    out->limits = limits->limits;
+    out->limits.allow_paths = own.allow_paths; // each of the options frees its own list
+    out->limits.sandbox = own.sandbox;
     out->limits.files_inside = true;
+    out->work.threads = limits->work.threads;
 }
 
 bool view_words_parse(struct view_words *w, const char *text, size_t size, const struct view_files *files,

@@ -40,7 +40,7 @@ def written(value):
     if isinstance(value, (bool, str)):
         return ("no", "yes")[value] if isinstance(value, bool) else value
     try:
-        return "/".join(repr(float(number)) for number in (value if hasattr(value, "__iter__") else [value]))
+        return "/".join(number if isinstance(number, str) else repr(float(number)) for number in (value if hasattr(value, "__iter__") else [value]))
     except (TypeError, ValueError, OverflowError):
         raise BadValue("found %s, expected a string, a number or a list of numbers" % shown(value)) from None
 
@@ -126,15 +126,17 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
     """A material: `Material("ruby")`, `Material("gold,opacity=0.5")`, `Material(diffuse="#ff8800", shininess=80)`.
 
     The words follow the program's option --material: a name of the classic table, then keys with values. Colours are linear reflectances as three or
-    four numbers or one number, or a string such as "#ff8800" or "orange", which is decoded from sRGB."""
+    four numbers or one number, or a string such as "#ff8800" or "orange", which is decoded from sRGB. Keywords may also be the keys color,
+    specular_color, ka, kd, ks and kr."""
 
     def __init__(self, words="", **fields):
         self.kept = []
         self.struct = ffi.new("lam_material *", words if isinstance(words, ffi.CData) else lib.lam_material_default())
-        if not isinstance(words, ffi.CData) and not (isinstance(words, str) and not words):
-            call(lib.lam_material_parse, text_bytes("Material", words), lib.LAM_COLOR_SRGB, self.struct)
-        for key, value in fields.items():
-            setattr(self, key, value)
+        for key in set(fields).difference(every(lib.lam_material_key)):
+            setattr(self, key, fields[key]) # raises AttributeError
+        text = ["" if isinstance(words, ffi.CData) else text_bytes("Material", words).decode(), *("%s=%s" % (key, written(value)) for key, value in fields.items())]
+        if any(text):
+            call(lib.lam_material_parse, text_bytes("Material", ",".join(filter(None, text))), lib.LAM_COLOR_SRGB, self.struct)
 
     def _row(self, field):
         return field.rows[0]

@@ -72,7 +72,10 @@ def properties(schema, subject):
     for step in filter(None, SUBJECTS[subject][0].split("/")):
         at = at[step]
     found = {key: value for key, value in at["properties"].items() if key != "type" and not (subject == "setting" and key in NOT_SETTINGS)}
-    return {key: {**schema["$defs"][value["$ref"].rsplit("/", 1)[1]], **value} if "$ref" in value else value for key, value in found.items()}
+
+    def resolved(value):
+        return {**resolved(schema["$defs"][value["$ref"].rsplit("/", 1)[1]]), **value} if "$ref" in value else value
+    return {key: resolved(value) for key, value in found.items()}
 
 
 def number_values(about):

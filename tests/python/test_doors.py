@@ -21,9 +21,7 @@ DECIDED = {
     "setting: up *": "a scene file has its own up axis, and the keyword turns only the camera and the sky",
 }
 KNOWN = {
-    "*: more: *radii*": "a unit is a text, also in a list",
     "point: more: object in frame": "the object is looked up in the scene that is drawn",
-    "material: more: *": "color, specular_color, ka, kd, ks and kr are attributes",
     "environment: *rotation*": "-360000 to 360000 degrees",
     "setting: ambient *": "a colour without alpha",
     "setting: ground_color *": "a colour without alpha",

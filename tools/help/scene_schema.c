@@ -10,27 +10,6 @@
 
 #include "schema.inc"
 
-// The keys that are not fields.
-static const struct {
-    const char *key, *schema;
-} other_keys[] = {
-    {"target",
-     "\"$ref\": \"#/$defs/vector\", \"description\": \"Instead of direction: the point at which the light aims.\""},
-    {"color",
-     "\"$ref\": \"#/$defs/color3\", \"description\": \"color times intensity sets the colours that are not given. "
-     "Default: white.\""},
-    {"intensity", "\"type\": \"number\", \"minimum\": 0, \"default\": 1, \"description\": \"The factor of color.\""},
-    {"frame", "\"enum\": [\"world\", \"camera\", \"view\", \"object\"], \"default\": \"world\", \"description\": \"The "
-              "coordinate system of position, direction and up.\""},
-    {"object", "\"type\": \"string\", \"minLength\": 1, \"description\": \"The name of the object, if frame is object. "
-               "Default: the first model.\""},
-    {"name", "\"type\": \"string\", \"minLength\": 1"},
-    {"position",
-     "\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": 3, \"maxItems\": 4, \"description\": "
-     "\"x, y, z, 0: the direction from which the light comes; x, y, z with a target.\""},
-    {"specular_color", "\"$ref\": \"#/$defs/color3\", \"description\": \"The same as specular.\""},
-};
-
 static void print_field(const lam_field *field)
 {
     char standard[80];
@@ -69,41 +48,38 @@ static void print_field(const lam_field *field)
 static void print_key(const char *key, int type)
 {
     const lam_field *(*row)(int) = type < 0 ? lam_material_field : lam_light_field;
-    printf(",\n        \"%s\": {", key);
+    printf("        \"%s\": {", key);
     for (int i = 0; row(i); i++)
         if (strcmp(row(i)->key, key) == 0 && (type < 0 || row(i)->light_types >> type & 1)) {
             print_field(row(i));
             printf("}");
             return;
         }
-    for (size_t i = 0; i < sizeof other_keys / sizeof *other_keys; i++)
-        if (strcmp(other_keys[i].key, key) == 0)
-            printf("%s}", other_keys[i].schema);
-    for (int i = 0; type < 0 && row(i); i++)
-        if (row(i)->symbol && strcmp(row(i)->symbol, key) == 0)
-            printf("\"type\": \"number\", \"minimum\": 0, \"description\": \"The factor of %s.\"}", row(i)->key);
+    // scene.schema.json.in describes the keys that are not fields, and the factors of colours.
+    bool factor = type < 0 && strlen(key) == 2;
+    printf("\"$ref\": \"#/$defs/key_%s\"}", factor ? "factor" : key);
 }
 
 static void print_material(void)
 {
-    printf("        \"name\": {\"type\": \"string\", \"minLength\": 1, \"description\": \"The material or colour that "
-           "supplies "
-           "missing keys.\"}");
-    for (int i = 0; lam_material_key(i); i++)
+    for (int i = 0; lam_material_key(i); i++) {
+        printf(i ? ",\n" : "");
         print_key(lam_material_key(i), -1);
+    }
 }
 
 static void print_lights(void)
 {
     for (int type = 0; type < LAM_LIGHT_TYPE_COUNT; type++) {
         const lam_light_type_info *about = lam_light_type_describe((lam_light_type)type);
-        printf("%s    \"%s_light\": {\n      \"type\": \"object\",\n      \"description\": \"Light: %s.\",\n      "
-               "\"required\": "
-               "[\"type\"],\n      \"additionalProperties\": false,\n      \"properties\": {\n        \"type\": "
-               "{\"const\": \"%s\"}",
-               type ? ",\n" : "", about->word, about->summary, about->word);
-        for (int i = 0; lam_light_key((lam_light_type)type, i); i++)
+        printf("%s    \"%s_light\": {\n      \"type\": \"object\",\n      \"required\": [\"type\"],\n      ",
+               type ? ",\n" : "", about->word);
+        printf("\"additionalProperties\": false,\n      \"description\": \"A light %s.\",\n      ", about->summary);
+        printf("\"properties\": {\n        \"type\": {\"const\": \"%s\"}", about->word);
+        for (int i = 0; lam_light_key((lam_light_type)type, i); i++) {
+            printf(",\n");
             print_key(lam_light_key((lam_light_type)type, i), type);
+        }
         printf("\n      }\n    }");
     }
 }

@@ -74,6 +74,8 @@ class Scene(Case):
     def test_every_field_of_a_material(self):
         """Each key of the schema is a key of --material, and is saved, read again, and explained."""
         for key, field in SCHEMA["$defs"]["material"]["properties"].items():
+            if field.get("$ref", "").startswith("#/$defs/key_"):  # a key that sets other fields: test_doors.py
+                continue
             word, value = {"boolean": ("yes", True), "number": ("0.5", 0.5)}.get(field.get("type"), ("0.5/0.25/0.125", [0.5, 0.25, 0.125]))
             with self.subTest(key):
                 self.good("sphere", "-s", 8, "--material", f"{key}={word}", "-o", "a.png", "--save-scene", "a.json", "-q")
@@ -332,7 +334,7 @@ class Environment(Case):
             self.assertEqual((self.folder / "asked.png").read_bytes(), (self.folder / "saved.png").read_bytes())
         self.scene("bad.json", {"lambent": 1, "environment": {"builtin": "studoi"}, "objects": [{"shape": "cube"}]})
         self.given |= self.new_files()
-        self.bad(2, "bad.json", says=("environment.builtin", "'studoi'", "sky or studio", "did you mean 'studio'"))
+        self.bad(2, "bad.json", says=("environment.builtin", "studoi", "sky or studio", "did you mean 'studio'"))
 
     def scene(self, name, content):
         (self.folder / name).write_text(json.dumps(content))

@@ -76,8 +76,7 @@ class Reading(Settings):
             with self.subTest(key=key, value=value):
                 self.write({key: value})
                 found = json.loads(self.good("config", "--json", env=self.env).stdout)["settings"]
-                default = (key, value) == ("stage", "auto")  # which cannot be expressed as options
-                self.assertEqual([(row["name"], row["line"]) for row in found], [] if default else [(key.replace("_", "-"), 2)])
+                self.assertEqual([(row["name"], row["line"]) for row in found], [(key.replace("_", "-"), 2)])
 
     def test_precedence(self):
         self.write({"image": {"size": [40, 30]}, "shading": "flat", "edges": ["crease"]})

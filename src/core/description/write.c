@@ -485,9 +485,11 @@ static bool put_objects(struct scene_writer *w, json_t *root)
 static json_t *light_json(struct scene_writer *w, const lam_light *given)
 {
     lam_light placed_light = *given, *l = &placed_light;
-    // The model in the file keeps its original position, so the light is moved with the scene's placement instead.
-    if (l->frame == LAM_FRAME_MODEL) {
-        const lam_mat4 *m = &w->scene->placement;
+    // The model in the file keeps its original position, so the light is moved with the scene's placement instead. Without
+    // a name, an object is the first one.
+    bool first = l->frame == LAM_FRAME_OBJECT && !l->object && w->scene->objects.count;
+    if (l->frame == LAM_FRAME_MODEL || first) {
+        const lam_mat4 *m = first ? &scene_object(w->scene, 0)->transform : &w->scene->placement;
         l->frame = LAM_FRAME_WORLD;
         l->position = mat4_point(m, l->position);
         l->direction = mat4_vector(m, l->direction);

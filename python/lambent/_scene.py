@@ -280,6 +280,8 @@ def change(scene, options, task, params):
         params.rig = lib.LAM_RIG_NONE
     if "environment" in options:
         scene.set_environment(options.get("environment"), options.get("environment_rotation", 0), _control=task.control, _mode=params.color)
+    if "rig" not in options:
+        call(lib.lam_scene_mirror_metals, scene._handle, params)
 
 
 def draw(scene, options, size, task, changes=False):

@@ -115,8 +115,8 @@ class Plot(Case):
     def test_errors(self):
         self.bad(1, "plot", says="missing")
         self.bad(1, "plot", "spott", says="did you mean 'spot'?")
-        self.bad(1, "plot", "spot", "cutoff=100", says="100 degrees")
-        self.bad(1, "plot", "spot", "inner=30,outer=20", says="30 and outer is 20 degrees")
+        self.bad(1, "plot", "spot", "cutoff=100", says="up to 90, or 180")
+        self.bad(1, "plot", "spot", "inner=30,outer=20", says="less than outer, which is 20")
         for word in ("1", "1/2", "1/2/3/4/5", "1/2/x", "a", "0/0/0", "-1/0/1", "1//2"):
             self.bad(1, "plot", "attenuation", "--", word, says="plot attenuation")
         for word in ("30", "cutoff=30,inner=3", "cutoff", "cutoff=120", "inner=30,outer=20", "inner=20", "cutoff=1,cutoff=2",

@@ -154,7 +154,7 @@ class Shadows(Case):
     def test_what_is_refused(self):
         self.bad(1, self.scene(), "--shadow-samples", "0", says="1 to 256")
         self.bad(1, self.scene(), "--shadow-terminator", "maybe", says="on")
-        self.bad(1, "teapot", "--light", "directional:radius=1r", says="0 to 89 degrees")
+        self.bad(1, "teapot", "--light", "directional:radius=1r", says="expected a number")
         self.bad(1, "teapot", "--light", "point:radius=-1", says="at least 0")
         self.bad(1, "teapot", "--light", "ambient:radius=1", says="no 'radius'")
         self.bad(2, self.scene("bad.json", shadows=1), says="shadows")

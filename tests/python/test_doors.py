@@ -18,15 +18,14 @@ PROGRAM = os.environ["LAMBENT"]
 # Disagreements that stay, with the reason, and those of today, as in tests/cli/test_doors.py.
 DECIDED = {
     "camera: more: no*": "Camera has the default eye of a scene file; --camera without eye changes the fitted camera",
-    "setting: up *": "a scene file has its own up axis, and the keyword turns only the camera and the sky",
+    "material: name empty": "Material has the default name \"\", a material without a name",
 }
 KNOWN = {
+    "point: more: object named": "the object is looked up in the scene that is drawn",
     "point: more: object in frame": "the object is looked up in the scene that is drawn",
     "environment: *rotation*": "-360000 to 360000 degrees",
     "setting: ambient *": "a colour without alpha",
     "setting: ground_color *": "a colour without alpha",
-    "setting: stage auto": "each value of the table is a word of the option",
-    "setting: ground color": "black without ground_color",
 }
 
 

@@ -31,7 +31,9 @@ static bool check(struct reader *r, const struct place *place, const json_t *val
     if (near && !(camera->near_plane < camera->far_plane && (ortho || camera->near_plane > 0)))
         return json_fail(&r->json, place, "near is %.10g and far is %.10g, expected %snear < far", camera->near_plane,
                          camera->far_plane, ortho ? "" : "0 < ");
-    if (v3_length(v3_sub(camera->eye, camera->target)) == 0)
+    // If words are checked before the scene is read, the default target is not known.
+    bool aimed = json_object_get(value, "target") || r->source;
+    if (aimed && v3_length(v3_sub(camera->eye, camera->target)) == 0)
         return json_fail(&r->json, place, "eye and target are the same point");
     return true;
 }

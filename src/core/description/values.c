@@ -148,7 +148,7 @@ static bool linear_color(struct reader *r, const struct place *place, const json
 {
     double part[4] = {0, 0, 0, 1};
     if (json_is_number(value)) {
-        if (!json_number_of(&r->json, place, value, 0, 1e30, &part[0]))
+        if (!json_number_of(&r->json, place, value, 0, 3.4e38, &part[0]))
             return false;
         part[1] = part[2] = part[0];
     } else if (!json_numbers_of(&r->json, place, value, 3, max, part, NULL)) {

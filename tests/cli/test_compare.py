@@ -192,7 +192,7 @@ class Compare(Case):
                 one = self.alone(model, "-s", "48x40", *defaults, *words, "--shading", "gouraud")
                 self.assertTrue(part(page, 3, 3, 48, 40) == one)
         # They also override the anisotropic picture's own changes of the material.
-        for words, more in (((), (*GLOSSY, "--material", "diffuse=0.3,shininess=30")), (("--material", "gold"), ())):
+        for words, more in (((), (*GLOSSY, "--material", "ambient=0.62,diffuse=0.3,shininess=30")), (("--material", "gold"), ())):
             page = self.sheet("sphere", "-s", "48x40", "--no-captions", *words)
             one = self.alone("sphere", "-s", "48x40", *sphere, *LIGHT, *more, *words, "--reflection", "kajiya-kay")
             self.assertTrue(part(page, 3 + 4 * 51, 3, 48, 40) == one)

@@ -42,7 +42,7 @@ class Docs(Case):
                 self.assertIn(f"\n## `{link[1:]}`\n", page)
             else:
                 self.assertTrue((ROOT / "docs" / "check" / link).exists(), link)
-        for lecture in (ROOT / "tests" / "check" / "lectures").iterdir():
+        for lecture in (ROOT / "classroom" / "tests" / "check" / "lectures").iterdir():
             self.assertIn(f"lectures/{lecture.stem}.", page)
 
     def test_brief_help(self):

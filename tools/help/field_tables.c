@@ -1,5 +1,5 @@
 // field_tables.c: prints the tables of material and light fields, as Markdown, for the man page, and for `help`.
-#include "help.h"
+#include "help_texts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // scene_schema.c: prints the JSON Schema of scene files: scene.schema.json.in with the fields of materials and lights
 // inserted.
-#include "help.h"
+#include "help_texts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "command_table.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "json.h"
 #include "plan.h"
 #include "sandbox_start.h"
@@ -332,47 +330,19 @@ static void json_plan(struct json *json, const struct job *job)
     json_close(json, '}');
 }
 
-void json_error(struct json *json, const lam_error *error)
-{
-    if (!error || error->code == LAM_OK) {
-        json_none(json, "error");
-        return;
-    }
-    json_open(json, "error", '{');
-    json_text(json, "code", exit_code_of(error->code)->name);
-    json_count(json, "exit", (uint64_t)exit_code_of(error->code)->code);
-    json_message(json, "text", error->text);
-    json_close(json, '}');
-}
-
-static void json_sandbox(struct json *json, const struct sandbox_state *state)
-{
-    json_open(json, "sandbox", '{');
-    json_count(json, "landlock", (uint64_t)state->landlock);
-    json_flag(json, "seccomp", state->filter);
-    json_close(json, '}');
-}
-
 void report_json(FILE *file, const struct job *job, const lam_error *error)
 {
     struct json json = {.file = file};
-    json_open(&json, NULL, '{');
-    json_text(&json, "lambent", lam_version());
-    json_sandbox(&json, sandbox_active());
-    if (job) {
-        json_model(&json, job);
-    } else {
-        json_none(&json, "model");
-    }
-    if (job)
-        settings_json(&json, job->options);
-    if (job && job->planned) {
+    report_begin(&json);
+    json_model(&json, job);
+    settings_json(&json, job->options);
+    if (job->planned) {
         json_plan(&json, job);
         json_camera(&json, &job->camera);
         json_device(&json, job->device);
     }
     // Camera, device and times are reported only for a written picture.
-    if (job && job->written) {
+    if (job->written) {
         json_image(&json, job);
         json_camera(&json, &job->camera);
         json_device(&json, job->device);
@@ -380,46 +350,10 @@ void report_json(FILE *file, const struct job *job, const lam_error *error)
         json_counts(&json, &job->times.frame);
     }
     json_open(&json, "warnings", '[');
-    for (int i = 0; job && job->scene && lam_scene_warning(job->scene, i); i++)
+    for (int i = 0; job->scene && lam_scene_warning(job->scene, i); i++)
         json_message(&json, NULL, lam_scene_warning(job->scene, i));
     json_close(&json, ']');
     json_error(&json, error);
     json_close(&json, '}');
     putc('\n', file);
-}
-
-FILE *report_stream(const struct options *options)
-{
-    if (!options->report.json)
-        return NULL;
-    return options->picture.output && strcmp(options->picture.output, "-") == 0 ? stderr : stdout;
-}
-
-// Prints the command that shows the help of an option or a command. `text` is a usage error that starts with its name.
-static void say_where_to_look(const char *text)
-{
-    char name[64];
-    static const char before[] = "option '--";
-    bool of_option = strncmp(text, before, sizeof before - 1) == 0;
-    if (of_option)
-        text += sizeof before - 1;
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, of_option ? "'" : ": "), text);
-    if (of_option && option_find(name))
-        say_plain("Try 'lambent help %s'.\n", name);
-    else if (!of_option && find_command(name))
-        say_plain("Try 'lambent %s -h'.\n", name);
-    else
-        say_plain("Try 'lambent -h'.\n");
-}
-
-int report_failure(const lam_error *error, const struct options *options)
-{
-    FILE *stream = report_stream(options);
-    if (stream != stderr)
-        say_error(error->text);
-    if (stream)
-        report_json(stream, NULL, error);
-    else if (error->code == LAM_BAD_ARGUMENT)
-        say_where_to_look(error->text);
-    return exit_code_of(error->code)->code;
 }

@@ -1,5 +1,5 @@
 // lecture_style.h: parses the source of a shader printed by `lambent shader --style lecture` to find out which lighting
-// the shader computes. The parser recognises the lines of classroom/lecture/lecture.glsl, even if they contain a known
+// the shader computes. The parser recognises the lines of src/gpu/glsl/lecture/lecture.glsl, even if they contain a known
 // mistake.
 #ifndef LECTURE_STYLE_H
 #define LECTURE_STYLE_H

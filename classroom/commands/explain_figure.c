@@ -35,6 +35,7 @@ static const struct {
 struct figure {
     const json_t *explanation; // the line of `lambent explain --json`
     int x, y, width, height;   // the explained pixel, and the size of the picture
+    bool threads;              // the reflection model shades threads
     lam_camera camera;         // the camera that rendered the picture; only its projection is set
     lam_image picture;
 };
@@ -82,19 +83,9 @@ static double sum_of(const json_t *o, const char *key)
     return c.x + c.y + c.z;
 }
 
-// Returns whether the reflection model shades threads.
-static bool shades_threads(const char *model)
+static struct subject find_subject(const struct figure *f)
 {
-    bool threads = false;
-    for (int i = 0; i < LAM_REFLECTION_COUNT; i++)
-        threads |= strcmp(lam_reflection_describe((lam_reflection)i)->word, model ? model : "") == 0 &&
-                   lam_reflection_describe((lam_reflection)i)->tangents;
-    return threads;
-}
-
-static struct subject find_subject(const json_t *explanation)
-{
-    struct subject s = {.fragment = element(member(explanation, "triangles"), 0)};
+    struct subject s = {.fragment = element(member(f->explanation, "triangles"), 0)};
     const json_t *points = member(s.fragment, "points"), *weights = member(s.fragment, "weights");
     size_t corner = 0;
     for (size_t i = 1; i < json_array_size(points); i++)
@@ -112,7 +103,7 @@ static struct subject find_subject(const json_t *explanation)
     }
     s.vectors[0] = vector(s.point, "n");
     s.vectors[2] = vector(s.point, "v");
-    s.threads = !is_zero(vector(s.point, "t")) && shades_threads(text_of(s.fragment, "model"));
+    s.threads = f->threads && !is_zero(vector(s.point, "t"));
     if (s.threads)
         s.vectors[5] = vector(s.point, "t");
     s.vectors[1] = vector(s.light, "l");
@@ -551,7 +542,7 @@ static bool draw_ring(struct drawing *d, struct point middle, double unit, lam_e
 static bool draw(const struct figure *f, const char *own_title, struct drawing *d, lam_error *error)
 {
     const json_t *e = f->explanation;
-    struct subject s = find_subject(e);
+    struct subject s = find_subject(f);
     double unit = unit_of(f);
     char title[256];
     const char *model = text_of(e, "model"), *slash = model ? strrchr(model, '/') : NULL;
@@ -597,6 +588,7 @@ static bool read_request(const lam_bytes *request, struct figure *f, bool *svg, 
     f->y = whole(read[1], "y");
     f->camera.fovy_rad = number(read[0], "fovy_rad");
     f->camera.ortho_half_height = number(read[0], "ortho_half_height");
+    f->threads = json_is_true(member(read[0], "threads"));
     *svg = json_is_true(member(read[0], "svg"));
     // The picture is not changed.
     f->picture =

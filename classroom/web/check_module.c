@@ -6,9 +6,7 @@
 
 #include "check.h"
 #include "console.h"
-#include "exercises.h"
 #include "json.h"
-#include "painter.h"
 
 static const size_t max_cache_bytes = (size_t)64 << 20;
 

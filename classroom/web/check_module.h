@@ -3,6 +3,8 @@
 #ifndef CHECK_MODULE_H
 #define CHECK_MODULE_H
 
+#include <lambent/check.h>
+#include <lambent/lambent.h>
 #include <stdint.h>
 
 #define WEB_EXPORT(name) __attribute__((export_name(#name)))
@@ -25,5 +27,23 @@ void web_check_lists(void) WEB_EXPORT(web_check_lists);
 
 // Prints the shaders of an exercise with its mistake and without it. The text of the call names the mistake.
 void web_exercise(void) WEB_EXPORT(web_exercise);
+
+// --- the exercises of the tab of shaders. They contain the mistakes of `lambent shader --mistake`.
+
+struct json;
+
+// Writes the member "exercises": the id, visible effect and description of each mistake.
+void exercises_list(struct json *json);
+
+// Prints the texts with a mistake, the texts without it, and their highlight. Returns false if no mistake has this id,
+// or if memory is insufficient.
+bool exercise_put(const char *mistake, lam_error *error);
+
+// --- the painter of a check with WebGL 2.
+
+extern const lam_check_painter web_painter;
+
+// Returns whether the browser has stopped a shader since the last call. The page's WebGL context is then lost.
+bool web_painter_was_stopped(void);
 
 #endif

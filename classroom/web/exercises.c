@@ -6,7 +6,6 @@
 #include <lambent/shader.h>
 
 #include "check_module.h"
-#include "exercises.h"
 #include "json.h"
 
 // An exercise uses the first of these scenes that meets the requirements of its mistake.

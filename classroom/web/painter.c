@@ -1,6 +1,6 @@
 // painter.c: the painter of a check with WebGL 2. It calls painter.js, which draws. Numbers identify render targets and
 // programs. Texts end with a 0.
-#include "painter.h"
+#include "check_module.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -11,7 +11,6 @@
 
 #include "console.h"
 #include "file_io.h"
-#include "writer_files.h"
 
 #ifdef __linux__
 

@@ -1,5 +1,5 @@
 // writer_files.c: checks paths before the writer replaces them, and replaces sets of files.
-#include "writer_files.h"
+#include "writer.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -18,7 +18,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "gl_painter.h"
+#include "draw_request.h"
 
 enum { TEST_SIZE = 40, MAX_TEXTS = 1 << 18 };
 

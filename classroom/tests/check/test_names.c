@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "name_similarity.h"
-#include "visible_names.h"
+#include "diagnostics.h"
 
 // The candidates are separated by blanks. `expected` is "" for none.
 static void nearest(const char *name, const char *candidates, const char *expected)

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "gl_painter.h"
+#include "draw_request.h"
 #include "shader_dialect.h"
 
 #ifndef TEST_SHADERS

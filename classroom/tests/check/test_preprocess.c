@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "preprocess.h"
+#include "declarations.h"
 
 // The words of a text, separated by blanks.
 static void leaves(const char *text, const char *expected)

@@ -101,6 +101,7 @@ static bool make_request(const struct job *job, const lam_explanation *e, bool s
         return complain(error, LAM_MACHINE, "out of memory");
     json_open(&json, NULL, '{');
     json_flag(&json, "svg", svg);
+    json_flag(&json, "threads", lam_reflection_describe(e->reflection)->tangents);
     json_number(&json, "fovy_rad", job->camera.fovy_rad);
     json_number(&json, "ortho_half_height", job->camera.ortho_half_height);
     json_close(&json, '}');

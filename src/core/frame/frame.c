@@ -1,8 +1,7 @@
 // frame.c: builds a frame from a scene, a camera and the draw parameters.
 #include "frame.h"
 
-#include "cube_map.h"
-#include "environment_samples.h"
+#include "environment.h"
 #include "fail.h"
 #include "fields.h"
 #include "frame_ground.h"

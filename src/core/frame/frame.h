@@ -238,6 +238,9 @@ static inline void frame_to_world(const struct frame_draw *draw, const float fro
 
 // Returns whether a reflection model lights physical materials.
 bool frame_is_physical(lam_reflection model);
+// Returns the factor of a classic material's exponent: a Phong highlight with the exponent α/4 looks like a Blinn–Phong
+// highlight with α.
+float frame_exponent_share(lam_reflection model);
 
 // Returns the maximum number of materials that frame_materials_build and frame_back_material convert to the other kind.
 size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene);

@@ -2,7 +2,7 @@
 // the environment.
 #include "frame_lights.h"
 
-#include "environment_lamp.h"
+#include "environment.h"
 #include "fail.h"
 #include "fields.h"
 #include "linear.h"

@@ -6,8 +6,8 @@
 #ifndef EDGES_H
 #define EDGES_H
 
-#include "hierarchy.h"
 #include "mesh_edges.h"
+#include "rays.h"
 
 struct edge_stroke;
 

@@ -179,7 +179,7 @@ bool mikktspace(struct mesh_tangents *out, const lam_mesh *mesh, bool t_down, st
     struct tangent_maker m = {.mesh = mesh, .t_down = t_down};
     struct arena scratch;
     arena_start(&scratch, call);
-    m.kernels = CPU_WIDEST(16, &tangent_kernels_scalar, &tangent_kernels_avx2, &tangent_kernels_avx512);
+    m.kernels = CPU_WIDEST(16, tangent_kernels);
     m.groups = arena_array(arena, corners, sizeof *m.groups);
     bool ok = m.groups ? group(&m, &scratch, call, error) : call_memory_error(call, corners * sizeof *m.groups, error);
     float(*sums)[4] = NULL;

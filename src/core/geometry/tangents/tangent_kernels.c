@@ -203,6 +203,4 @@ static void add(const lam_mesh *mesh, uint32_t first, uint32_t end, const uint8_
     }
 }
 
-#define JOIN(a, b) a##b
-#define NAME(isa)  JOIN(tangent_kernels_, isa)
-const struct tangent_kernels NAME(ISA) = {look, add};
+const struct tangent_kernels FOR_ISA(tangent_kernels) = {look, add};

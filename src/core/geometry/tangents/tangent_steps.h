@@ -3,6 +3,7 @@
 #define TANGENT_STEPS_H
 
 #include "arena.h"
+#include "cpu_features.h"
 
 #include <lambent/mesh.h>
 
@@ -71,6 +72,6 @@ struct tangent_kernels {
                 float (*sums)[4]);
 };
 
-extern const struct tangent_kernels tangent_kernels_scalar, tangent_kernels_avx2, tangent_kernels_avx512;
+CPU_VERSIONS(const struct tangent_kernels, tangent_kernels);
 
 #endif

@@ -1,6 +1,6 @@
 // pick.c: implements lam_pick: traces one ray through the triangles of a frame.
 #include "frame.h"
-#include "opacity.h"
+#include "rays.h"
 
 #include "fail.h"
 #include "float_state.h"

@@ -1,47 +1,20 @@
-// shade.inc: computes the colours of fragments. Attributes are fetched and interpolated once for each visible triangle
-// of a pixel. Lights are evaluated for LANES points of one surface at a time, so that materials and lights are the same
-// in every lane.
-//
-// The file is longer than 600 lines because it contains the complete path of points through shading; sections that can
-// be separated are in the .inc files that it includes.
-
-#include "cube_lookup.h"
+// shade.c: prepares fragments for lighting. Attributes are fetched and interpolated once for each visible triangle of a
+// pixel, maps are read, and lights that cannot reach the points are dropped. lights.c then lights the points of one
+// surface together. This file is compiled once for each instruction set, with LANES and ISA defined (kernels.h), and
+// once with RECORDING, to shade one pixel and record its values.
 #include "double_lanes.h"
-#include "lighting.h"
-#include "light_rays.h"
+#include "group.h"
+#include "point.h"
 
-#include "screen_occlusion.inc"
+#include "kernels.h"
+#include "light_bounds.h"
+#include "occlusion.h"
+#include "samples.h"
+#include "translucent_fragments.h"
+#include "vertex_colors.h"
 
-// The fragments of one surface and side, and all data for shading them.
-struct group {
-    const struct shade_frame *shade;
-    const struct frame *frame;
-    struct fragments *fragments;
-    struct shading *shading;
-    const struct tile *tile;
-    const struct frame_draw *draw;
-    const lam_mesh *mesh;
-    const struct material_products *material;
-    const float *decode;         // colour byte → linear light
-    const float *share;          // alpha byte → 0…1
-    bool flip;                   // the back side, lit with −n
-    bool translucent;            // the fragments are layers
-    bool blends;                 // the fragments may have an alpha below 1
-    bool catches;                // the ground that catches shadows: alpha is the missing fraction of light
-    bool separate_texture_terms; // colours of vertices are interpolated, and maps multiply only some of their terms
-    bool maps_emission;          // additionally, an emission map multiplies the emission at each fragment
-    bool has_map_rows;           // the rows of a batch contain the material's values after maps
-    bool widens;                 // the rows also contain the roughness widened by the variance of normals
-                                 // (lam_specular_aa)
-    lam_reflection reflection;
-    uint32_t first_id;
-    const float *normals;                  // NULL if face normals are used
-    const struct visible_normals *visible; // computed for the frame; NULL if the mesh's own normals are used
-    const struct light_list *lights;       // NULL if all lights of the frame are used
-    const struct hierarchy *hierarchy;     // NULL if no rays are traced
-    bool occlusion;                        // if false, all surrounding light arrives
-    struct recorder *recorder;
-};
+#include <stdlib.h>
+#include <string.h>
 
 // Returns whether an output is a value of the geometry. Every fragment provides such a value, with every shading
 // method.
@@ -65,111 +38,41 @@ static struct group group_of(const struct shade_frame *shade, struct fragments *
     const struct visible_normals *visible = draw->crease_rad > 0 && shade->visible.normals ? &shade->visible : NULL;
     const struct material_products *material = &shade->materials[back ? range->back : range->front];
     bool separate = material->maps && shades_vertices(shade->frame) && !output_is_vector(shade->frame->settings.output);
-    return (struct group){.shade = shade,
-                          .frame = shade->frame,
-                          .fragments = fragments,
-                          .shading = shading,
-                          .tile = tile,
-                          .draw = draw,
-                          .mesh = draw->mesh,
-                          .material = material,
-                          .decode =
-                              draw->mesh->colors_format == LAM_COLORS_SRGB8 ? shade->decode_srgb : shade->decode_linear,
-                          .share = shade->decode_linear,
-                          .translucent = range->translucent,
-                          .blends = range->translucent && material->given->alpha_mode == LAM_ALPHA_BLEND,
-                          .catches = draw->ground && shade->frame->ground.kind == LAM_GROUND_SHADOW &&
-                                     !output_is_value(shade->frame->settings.output),
-                          .reflection = range->reflection,
-                          .separate_texture_terms = separate,
-                          .maps_emission = material->maps >> LAM_MAP_EMISSION & 1,
-                          .has_map_rows = material->maps && !separate,
-                          .widens = shade->frame->widens_highlights && frame_is_physical(range->reflection),
-                          .flip = back,
-                          .first_id = draw->first_id,
-                          .normals = visible ? &visible->normals[0][0] : draw->mesh->normals,
-                          .visible = visible,
-                          .hierarchy = shade->hierarchy,
-                          .occlusion = shade->occlusion || shade->occlusion_pattern,
-                          .recorder = shade->recorder};
-}
-
-// --- lights
-
-LANE_FN vec3 vec3_from(const float v[3]) { return (vec3){num_of(v[0]), num_of(v[1]), num_of(v[2])}; }
-
-// Converts a light for the lighting equations; the values are the same in every lane.
-LANE_FN light_source source_of(const struct frame_light *light, const struct light_products *products)
-{
-    light_source s;
-    s.position = vec3_from(light->position);
-    s.direction = vec3_from(light->axis);
-    s.constant = num_of(light->attenuation[0]);
-    s.linear = num_of(light->attenuation[1]);
-    s.quadratic = num_of(light->attenuation[2]);
-    s.inverse_range = num_of(light->inverse_range);
-    s.cos_cutoff = num_of(light->cos_cutoff);
-    s.exponent = num_of(light->exponent);
-    s.cos_outer = num_of(light->cos_outer);
-    s.inverse_width = num_of(light->inverse_width);
-    s.diffuse = vec3_from(products->diffuse);
-    s.specular = vec3_from(products->specular);
-    return s;
-}
-
-LANE_FN lobe_parameters parameters_of(const struct group *g)
-{
-    return lobe_parameters_of(g->material->given, g->material->shininess);
-}
-
-// Returns the Fresnel factor of a physical material at points whose base colour is multiplied by `color`.
-LANE_FN fresnel fresnel_at(const struct group *g, surface s, lobe_parameters m, vec3 color)
-{
-    num gain = g->frame->settings.single_scattering ? num_of(0.0f) : scattering_gain(s, m.roughness);
-    return fresnel_of(mul3(vec3_from(g->material->diffuse), color), m.metallic, gain);
+    return (struct group){
+        .shade = shade,
+        .frame = shade->frame,
+        .fragments = fragments,
+        .shading = shading,
+        .tile = tile,
+        .draw = draw,
+        .mesh = draw->mesh,
+        .material = material,
+        .decode = draw->mesh->colors_format == LAM_COLORS_SRGB8 ? shade->decode_srgb : shade->decode_linear,
+        .share = shade->decode_linear,
+        .translucent = range->translucent,
+        .blends = range->translucent && material->given->alpha_mode == LAM_ALPHA_BLEND,
+        .catches = draw->ground && shade->frame->ground.kind == LAM_GROUND_SHADOW &&
+                   !output_is_value(shade->frame->settings.output),
+        .reflection = range->reflection,
+        .separate_texture_terms = separate,
+        .maps_emission = material->maps >> LAM_MAP_EMISSION & 1,
+        .has_map_rows = material->maps && !separate,
+        .widens = shade->frame->widens_highlights && frame_is_physical(range->reflection),
+        .flip = back,
+        .first_id = draw->first_id,
+        .normals = visible ? &visible->normals[0][0] : draw->mesh->normals,
+        .visible = visible,
+        .hierarchy = shade->hierarchy,
+        .tangents = lam_reflection_describe(range->reflection)->tangents || material->layers & LAYER_ANISOTROPY ||
+                    shade->frame->settings.output == LAM_OUTPUT_TANGENTS,
+        .occlusion = shade->occlusion || shade->occlusion_pattern,
+        .recorder = shade->recorder};
 }
 
 // Barycentric weights of corners 1 and 2; the weight of corner 0 is 1 minus both.
 struct weights {
     num b1, b2;
 };
-
-// Loads and stores vectors in the rows of a batch.
-LANE_FN vec3 load3(float rows[3][BATCH_ROW], int at)
-{
-    return (vec3){num_load(rows[0] + at), num_load(rows[1] + at), num_load(rows[2] + at)};
-}
-
-LANE_FN void store3(float rows[3][BATCH_ROW], int at, vec3 v)
-{
-    num_store(rows[0] + at, v.x);
-    num_store(rows[1] + at, v.y);
-    num_store(rows[2] + at, v.z);
-}
-
-LANE_FN surface load_surface(struct shading_batch *batch, int at)
-{
-    return (surface){load3(batch->p, at), load3(batch->n, at), load3(batch->v, at), load3(batch->t, at)};
-}
-
-// Returns the material's parameters for lobes at LANES points.
-LANE_FN lobe_parameters parameters_at(const struct group *g, const struct shading_batch *batch, int at)
-{
-    lobe_parameters m = parameters_of(g);
-    if (g->has_map_rows) {
-        m.shininess = num_load(batch->power + at);
-        m.metallic = num_load(batch->metallic + at);
-    }
-    if (g->has_map_rows || g->widens)
-        m.roughness = num_load(batch->roughness + at);
-    return m;
-}
-
-// Returns the fraction of the surrounding light that is not occluded, at LANES points.
-LANE_FN num unoccluded_share(const struct group *g, const struct shading_batch *batch, int at)
-{
-    return g->occlusion ? num_load(batch->unoccluded + at) : num_of(1.0f);
-}
 
 // Normalizes vectors like unit3, in short loops that keep the processor busy (light_loop.inc).
 static void make_unit(float rows[3][BATCH_ROW], int count)
@@ -185,15 +88,8 @@ static void make_unit(float rows[3][BATCH_ROW], int count)
         store3(rows, i, scale3(load3(rows, i), rsqrt_from(num_load(square + i), num_load(near + i))));
 }
 
-// Returns a light after it has passed through coloured surfaces.
-LANE_FN light_source tinted_light(light_source light, vec3 tint)
-{
-    light.diffuse = mul3(light.diffuse, tint);
-    light.specular = mul3(light.specular, tint);
-    return light;
-}
+#include "record_points.inc"
 
-#include "record.inc"
 #include "attributes.inc"
 #include "triangle_runs.inc"
 
@@ -203,58 +99,13 @@ LANE_FN struct weights load_weights(const struct shading_batch *batch, int at)
 }
 
 #include "textures.inc"
-#include "light_loop.inc"
-#include "ray_occlusion.inc"
-
-// Returns the environment's light that the surface mirrors to the eye: the environment is looked up in the direction of
-// the reflected eye vector. Returns 0 if there is no normal or no direction to the eye.
-LANE_FN vec3 environment_of(const struct frame *frame, surface s)
-{
-    const float(*m)[3] = frame->to_environment;
-    vec3 r = mirror3(s.v, s.n);
-    struct cube_color c = cube_look(frame->environment, row3(m[0], r), row3(m[1], r), row3(m[2], r));
-    return pick3(both(present(s.n), present(s.v)), vec3_of(c.r, c.g, c.b), black3());
-}
-
-#include "environment_light.inc"
-
-// Returns the terms of LANES points of one surface before lights are added. The terms already include the hemisphere
-// lights.
-LANE_FN terms terms_before(const struct group *g, surface s)
-{
-    const struct material_products *m = g->material;
-    terms sum = start_terms(vec3_from(m->ambient), vec3_from(m->emission));
-    for (int i = 0; i < g->frame->hemisphere_count; i++) {
-        hemisphere h = {vec3_from(g->frame->hemispheres[i].up), vec3_from(m->sky[i]), vec3_from(m->ground[i])};
-        sum = add_hemisphere(sum, s, h);
-        RECORD(record_hemisphere(g, i, s, h));
-    }
-    return sum;
-}
-
-// Completes the terms after the lights are added: applies the environment and the vertex colours.
-LANE_FN terms terms_after(const struct group *g, surface s, terms sum, struct shading_batch *batch, int at)
-{
-    const struct material_products *m = g->material;
-    if (m->mirrors)
-        sum = add_environment(sum, vec3_from(m->reflectivity), environment_of(g->frame, s));
-    RECORD(record_environment(g, s));
-    vec3 ambient = mul3(sum.ambient, g->has_map_rows ? load3(batch->ambient_color, at) : load3(batch->color, at));
-    sum = tint_terms(sum, load3(batch->color, at));
-    sum.ambient = ambient;
-    return sum;
-}
-
-#include "output.inc"
-
-// --- batches
 
 // Converts the rows of a batch to the surfaces that the lighting equations use. The rows contain positions in mesh
 // space, and normals and tangents in eye space, which may have any length. With `has_tangent`, the rows contain
 // tangents; otherwise a direction field supplies them if the reflection model needs them.
 static void make_surfaces(const struct group *g, struct shading_batch *batch, int count, bool has_tangent)
 {
-    bool tangents = wants_tangents(g), distant = g->frame->distant_viewer;
+    bool tangents = g->tangents, distant = g->frame->distant_viewer;
     for (int i = 0; i < count; i += LANES) {
         vec3 mesh_point = load3(batch->p, i);
         RECORD(record_position(g, mesh_point));
@@ -271,139 +122,9 @@ static void make_surfaces(const struct group *g, struct shading_batch *batch, in
     }
 }
 
-// Stores the colours of points, computed from the terms that the output shows. For a vertex, it stores the terms that a
-// diffuse map multiplies, and separately all other terms.
-LANE_FN void store_terms(const struct group *g, struct shading_batch *batch, int at, terms t)
+static bool shows_emission(lam_output output)
 {
-    vec3 shown = output_terms(g, t);
-    RECORD(record_terms(g, t, shown));
-    store3(batch->color, at, shown);
-    if (!g->separate_texture_terms)
-        return;
-    terms matte = {t.ambient, t.diffuse, black3(), black3(), black3()};
-    terms rest = {black3(), black3(), t.specular, t.emission, t.reflection};
-    if (g->maps_emission)
-        rest.emission = black3();
-    store3(batch->color, at, output_terms(g, matte));
-    store3(batch->rest, at, output_terms(g, rest));
-}
-
-#include "layered.inc"
-
-// Shades unlit points: the vertices' colours times the material's colour.
-static void shade_unlit(const struct group *g, struct shading_batch *batch, int count)
-{
-    for (int i = 0; i < count; i += LANES) {
-        vec3 color = load3(batch->color, i);
-        RECORD(record_surface(g, load_surface(batch, i), color, unoccluded_share(g, batch, i)));
-        store_terms(g, batch, i, tint_terms(unlit_terms(vec3_from(g->material->diffuse)), color));
-    }
-}
-
-// `model` is a constant after inlining.
-LANE_FN void shade_light_batch(const struct group *g, struct shading_batch *batch, int first, int count, int model)
-{
-    struct light_batch *lit = &batch->lit; // not on the stack, which may be small in a caller's thread
-    for (int i = 0; i < count; i += LANES) {
-        surface s = load_surface(batch, first + i);
-        RECORD(record_surface(g, s, load3(batch->color, first + i), unoccluded_share(g, batch, first + i)));
-        store3(lit->ambient, i, terms_before(g, s).ambient);
-        store3(lit->diffuse, i, black3());
-        store3(lit->specular, i, black3());
-        if (lobe_properties(model) & LOBE_MICROFACET) {
-            fresnel f = fresnel_at(g, s, parameters_at(g, batch, first + i), load3(batch->color, first + i));
-            store3(lit->f0, i, f.f0);
-            store3(lit->rest, i, f.rest);
-        }
-    }
-    add_lights(g, batch, first, count, lit, model);
-    RECORD(record_lights(g, batch, first, model));
-    for (int i = 0; i < count; i += LANES) {
-        surface s = load_surface(batch, first + i);
-        vec3 specular = pick3(present(s.v), load3(lit->specular, i), black3()); // see add_diffuse
-        terms t = {load3(lit->ambient, i), load3(lit->diffuse, i), specular, vec3_from(g->material->emission),
-                   black3()};
-        if (g->has_map_rows)
-            t = textured_terms(g, batch, first + i, t);
-        if (g->occlusion)
-            t.ambient = scale3(t.ambient, num_load(batch->unoccluded + first + i));
-        t = terms_after(g, s, t, batch, first + i);
-        if (lobe_properties(model) & LOBE_MICROFACET)
-            t = add_environment_light(g, batch, first + i, s, t, (fresnel){load3(lit->f0, i), load3(lit->rest, i)});
-        store_terms(g, batch, first + i, t);
-    }
-}
-
-LANE_FN void shade_with_model(const struct group *g, struct shading_batch *batch, int count, int model)
-{
-    for (int first = 0; first < count; first += LIGHT_BATCH)
-        shade_light_batch(g, batch, first, count - first < LIGHT_BATCH ? count - first : LIGHT_BATCH, model);
-}
-
-// Replaces the batch's vertex colours with the shaded colours.
-static void shade_surface(const struct group *g, struct shading_batch *batch, int count)
-{
-    if (output_is_vector(g->frame->settings.output)) {
-        for (int i = 0; i < count; i += LANES)
-            store3(batch->color, i, output_vector(g, load_surface(batch, i)));
-        return;
-    }
-    if (output_is_material(g->frame->settings.output)) {
-        if (g->frame->settings.output == LAM_OUTPUT_LOD)
-            find_levels(g, count);
-        for (int i = 0; i < count; i += LANES)
-            store3(batch->color, i, output_material(g, batch, i));
-        return;
-    }
-    if (g->material->layers && lobe_properties((int)g->reflection) & LOBE_MICROFACET) {
-        shade_layered(g, batch, count);
-        return;
-    }
-    switch (g->reflection) {
-#define LOBE(NAME, ...)                                                                                                \
-    case LAM_REFLECTION_##NAME:                                                                                        \
-        shade_with_model(g, batch, count, LAM_REFLECTION_##NAME);                                                      \
-        break;
-        LOBES(LOBE)
-#undef LOBE
-    default:
-        shade_unlit(g, batch, count);
-        break;
-    }
-}
-
-LANE_FN num luminance(vec3 c) { return dot3(vec3_of(num_of(0.2126f), num_of(0.7152f), num_of(0.0722f)), c); }
-
-// Shades the ground that catches shadows. The colour of the ground is black, and its alpha is the blocked fraction of
-// the light.
-static void shade_catcher(const struct group *g, struct shading_batch *batch, int count)
-{
-    _Alignas(64) float received[BATCH_ROW];
-    struct group open = *g; // without shadows
-    open.hierarchy = NULL;
-    open.occlusion = false;
-    open.recorder = NULL;
-    shade_surface(g, batch, count);
-    for (int i = 0; i < count; i += LANES) {
-        num_store(received + i, luminance(load3(batch->color, i)));
-        store3(batch->color, i, vec3_of(num_of(1.0f), num_of(1.0f), num_of(1.0f)));
-    }
-    shade_surface(&open, batch, count);
-    for (int i = 0; i < count; i += LANES) {
-        num arrives = num_load(received + i), all = luminance(load3(batch->color, i));
-        RECORD(record_catcher(g, arrives, all));
-        num share = pick(all > arrives, 1.0f - arrives / all, num_of(0.0f));
-        num_store(batch->alpha + i, num_load(batch->alpha + i) * share);
-        store3(batch->color, i, black3());
-    }
-}
-
-static void shade(const struct group *g, struct shading_batch *batch, int count)
-{
-    if (g->catches)
-        shade_catcher(g, batch, count);
-    else
-        shade_surface(g, batch, count);
+    return output == LAM_OUTPUT_PICTURE || output == LAM_OUTPUT_CLIPPED || output == LAM_OUTPUT_EMISSION;
 }
 
 // Counts shaded points. Returns false if the frame must stop.
@@ -563,13 +284,31 @@ static void load_occlusion(const struct group *g, struct shading_batch *batch, i
     }
 }
 
+static struct ray_surface ray_surface_of(const struct group *g)
+{
+    return (struct ray_surface){g->draw, g->normals, g->visible, g->flip};
+}
+
+// Computes the start points of the rays and, if rays compute the ambient occlusion, traces these rays.
+static void start_fragment_rays(const struct group *g, int count)
+{
+    struct shading_batch *batch = g->shading->batch;
+    struct light_rays rays = light_rays_of(g);
+    struct ray_surface lit = ray_surface_of(g);
+    struct ray_points points = {count, batch->triangle, NULL, batch->b1, batch->b2, batch->x, batch->y};
+    ray_starts_find(&rays, &lit, &points, LANES, g->shading->starts);
+    if (g->shade->occlusion_pattern)
+        g->shade->ray_kernels->occlude(&rays, &lit, g->shading->starts, &points, batch->unoccluded);
+    g->shading->rays += rays.sent;
+}
+
 // Prepares fragments one attribute after the other, so that the processor can work on several packets of LANES at the
 // same time.
 static void prepare_fragments(const struct group *g, int first, int count)
 {
     struct shading_batch *batch = g->shading->batch;
-    bool has_tangent = (wants_tangents(g) || reads_map(g, LAM_MAP_NORMAL) || reads_map(g, LAM_MAP_CLEARCOAT_NORMAL)) &&
-                       g->mesh->tangents;
+    bool has_tangent =
+        (g->tangents || reads_map(g, LAM_MAP_NORMAL) || reads_map(g, LAM_MAP_CLEARCOAT_NORMAL)) && g->mesh->tangents;
     locate_fragments(g, first, count);
     if (g->normals)
         interpolate_normals(g, batch, count);
@@ -589,9 +328,39 @@ static void prepare_fragments(const struct group *g, int first, int count)
         start_fragment_rays(g, count);
     if (g->shade->occlusion)
         load_occlusion(g, batch, count);
-    else if (g->shade->occlusion_pattern)
-        occlude_by_rays(g, batch, count);
     make_surfaces(g, batch, count, has_tangent);
+}
+
+// Computes the level of detail of the selected map at each point.
+static void find_levels(const struct group *g, int count)
+{
+    struct shading_batch *batch = g->shading->batch;
+    struct map_reader reader = map_reader_of(g, count);
+    int slot = 0;
+    while (slot < LOD_MAPS && !reads_map(g, frame_lod_maps[slot]))
+        slot++;
+    bool placed = slot < LOD_MAPS && frame_has_texcoords(g->mesh, g->material->given->maps[frame_lod_maps[slot]]);
+    if (placed)
+        read_map(&reader, frame_lod_maps[slot]);
+    for (int i = 0; i < reader.count && !placed; i += LANES)
+        num_store(batch->level + i, num_of(slot < LOD_MAPS ? -50.0f : 0.0f));
+}
+
+static void output_geometry(const struct group *g, int first, int count)
+{
+    struct shading_batch *batch = g->shading->batch;
+    for (int i = 0; i < count; i++) {
+        uint32_t id = g->fragments->id[g->fragments->order[first + i]], triangle = (id & ~BACK_SIDE) - g->first_id;
+        float facing = id & BACK_SIDE ? -1.0f : 1.0f, depth = -batch->p[2][i];
+        bool ids = g->frame->settings.output == LAM_OUTPUT_IDS;
+        float same = g->frame->settings.output == LAM_OUTPUT_DEPTH ? depth
+                     : g->frame->settings.output == LAM_OUTPUT_AMBIENT_OCCLUSION
+                         ? g->occlusion ? batch->unoccluded[i] : 1
+                         : facing;
+        batch->color[0][i] = ids ? (float)(triangle & 0xffffff) : same;
+        batch->color[1][i] = ids ? (float)g->draw->object : same;
+        batch->color[2][i] = ids ? (float)(triangle >> 24) : same;
+    }
 }
 
 // Light beyond the range of floats is limited to this value, so that sums of samples stay finite. The value also
@@ -620,7 +389,7 @@ static void scatter_colors(const struct shading_batch *batch, float *const color
 static void scatter_through(const struct group *g, int first, int count)
 {
     const struct shading_batch *batch = g->shading->batch;
-    bool passes = g->material->layers & LAYER_TRANSMISSION && lobe_properties((int)g->reflection) & LOBE_MICROFACET;
+    bool passes = g->material->layers & LAYER_TRANSMISSION && frame_is_physical(g->reflection);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < count; i++)
             g->fragments->through[c][g->fragments->order[first + i]] = passes ? batch->through[c][i] : 0;
@@ -639,8 +408,10 @@ static void shade_prepared(const struct group *g, int first, int end, bool prepa
             prepare_fragments(g, first, count);
         if (output_is_geometry(g->frame->settings.output))
             output_geometry(g, first, count);
-        else
-            shade(g, g->shading->batch, count);
+        else if (g->frame->settings.output == LAM_OUTPUT_LOD)
+            find_levels(g, count);
+        if (!output_is_geometry(g->frame->settings.output))
+            FOR_ISA(light_points)(g, g->shading->batch, count);
         scatter_colors(g->shading->batch, g->fragments->color, g->fragments->order + first, count);
         if (g->translucent && g->fragments->through[0])
             scatter_through(g, first, count);
@@ -748,3 +519,11 @@ static void shade_fragments(const struct shade_frame *shade, struct fragments *f
         }
     }
 }
+
+#ifdef RECORDING
+#include "record_pixel.inc"
+
+const struct recording_kernels recording_kernels = {.record_fragments = record_fragments, .record_pixel = record_pixel};
+#else
+const struct shade_kernels FOR_ISA(shade_kernels) = {mask_fragments, shade_fragments, light_vertices};
+#endif

@@ -1,5 +1,5 @@
 // occlusion_pattern.c: computes the rays of ambient occlusion.
-#include "occlusion_pattern.h"
+#include "rays.h"
 
 #include "linear.h"
 

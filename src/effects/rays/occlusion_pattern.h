@@ -34,6 +34,4 @@ static inline uint32_t occlusion_turn(uint32_t x, uint32_t y)
     return (uint32_t)((uint64_t)part * 3472289 >> 16) >> 24; // the fractional part of 52.9829189 · part
 }
 
-void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count);
-
 #endif

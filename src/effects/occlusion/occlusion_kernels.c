@@ -1,6 +1,9 @@
-// screen_occlusion.inc: ambient occlusion from screen-space depths (screen_occlusion.h). Lanes are neighbouring cells.
-// Include it after lighting.h, with the same LANES.
-#include "screen_occlusion.h"
+// occlusion_kernels.c: ambient occlusion from screen-space depths (occlusion.h). Lanes are neighbouring cells. This file
+// is compiled once for each instruction set, with LANES and ISA defined (meson.build).
+#include "occlusion_kernels.h"
+
+#include "occlusion_pattern.h"
+#include "prelude_c.h"
 
 enum { STEPS = 4, ROTATIONS = 16 };
 
@@ -26,8 +29,6 @@ static const float jitter_of[ROTATIONS] = {-0.47f, 0.28f, -0.28f, 0.47f, 0.03f, 
 static const float cosines[ROTATIONS] = {
     1.0f, 0.98078528f,  0.92387953f,  0.83146961f,  0.70710678f,  0.55557023f,  0.38268343f,  0.19509032f,
     0.0f, -0.19509032f, -0.38268343f, -0.55557023f, -0.70710678f, -0.83146961f, -0.92387953f, -0.98078528f};
-
-LANE_FN num gather_float(const float *from, inum at) { return num_of_bits(igather((const int32_t *)from, at)); }
 
 // A row of the pattern for LANES cells, which may begin at any of its four columns.
 struct pattern_row {
@@ -460,5 +461,5 @@ static void pixel_rows(const struct screen_occlusion *o, int first, int end)
         }
 }
 
-static const struct occlusion_kernels occlusion_kernels = {cell_rows, occlude_rows, smooth_rows_across,
-                                                           smooth_rows_down, pixel_rows};
+const struct occlusion_kernels FOR_ISA(occlusion_kernels) = {cell_rows, occlude_rows, smooth_rows_across,
+                                                             smooth_rows_down, pixel_rows};

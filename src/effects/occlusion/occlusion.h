@@ -1,16 +1,16 @@
-// screen_occlusion.h: ambient occlusion of every pixel from the depths of the surfaces around it.
+// occlusion.h: ambient occlusion of every pixel from the depths of the surfaces around it.
 //
 // The visible surfaces are treated as a height field. Around a pixel, a plane through the view vector cuts the height
 // field. In this plane, the horizon on either side bounds the part of the hemisphere that surrounding light comes from
 // (Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016). The planes of 4 × 4
 // neighbouring pixels are rotated by different angles, and an edge-aware filter averages the results.
-// docs/lighting/occlusion.md lists the formulas.
-#ifndef SCREEN_OCCLUSION_H
-#define SCREEN_OCCLUSION_H
+// docs/lighting/occlusion.md lists the formulas. This header is the entry to this folder: other wings include only this
+// header of the folder, and call only the functions that it declares (tests/structure.py).
+#ifndef OCCLUSION_H
+#define OCCLUSION_H
 
 #include "buffer.h"
 #include "frame.h"
-#include "occlusion_pattern.h"
 #include "normals_memory.h"
 
 struct pool;
@@ -89,20 +89,8 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                             int lent_count, struct buffer *storage, struct pool *pool, struct call_control *call,
                             lam_error *error);
 
-// The steps (screen_occlusion.inc, compiled for each instruction set), for the rows of cells from `first` to `end` − 1:
-// the depths of the cells (with step 2), their occlusion, the two passes of the filter, and the pixels of the cells.
-// Each step processes all rows before the next step begins.
-struct occlusion_kernels {
-    void (*cell_rows)(const struct screen_occlusion *occlusion, int first, int end);
-    void (*occlude_rows)(const struct screen_occlusion *occlusion, int first, int end);
-    void (*smooth_rows_across)(const struct screen_occlusion *occlusion, int first, int end);
-    void (*smooth_rows_down)(const struct screen_occlusion *occlusion, int first, int end);
-    void (*pixel_rows)(const struct screen_occlusion *occlusion, int first, int end);
-};
-
-// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL). If the call is stopped, the results are
-// incomplete.
-void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
-                           struct pool *pool, struct call_control *call);
+// Computes `unoccluded` from `depth` with the threads of `pool` (may be NULL), for at most `lanes` cells at a time. If
+// the call is stopped, the results are incomplete.
+void screen_occlusion_find(struct screen_occlusion *occlusion, int lanes, struct pool *pool, struct call_control *call);
 
 #endif

@@ -40,7 +40,7 @@ def sources(machine, long):
     of_isa["src/effects/environment/environment_kernels.c"] = [("scalar", 4)]
     of_isa.update({path: [("scalar", 1)] for path in (
         "src/core/geometry/normals/corner_fan_simd.c", "src/core/geometry/normals/positions/position_simd.c",
-        "src/core/geometry/tangents/tangent_kernels.c", "src/effects/edges/edge_rays.c")})
+        "src/formats/prepare/tangent_kernels.c", "src/effects/edges/edge_rays.c")})
     skipped = LEFT_OUT + machine["without"] + [os.path.basename(path) for path in of_isa]
     for_each = [(path, isa) for path, isas in of_isa.items() for isa in isas]
     return [(f, []) for f in files if os.path.basename(f) not in skipped] + [

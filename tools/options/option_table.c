@@ -5,6 +5,7 @@
 #include "options.h"
 
 #include <lambent/check.h>
+#include <lambent/light.h>
 #include <lambent/shader.h>
 
 // The limits of --fov in degrees, which also apply to --camera if its only key is fovy.

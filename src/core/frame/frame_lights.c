@@ -8,6 +8,8 @@
 #include "linear.h"
 #include "up_axis.h"
 
+#include <lambent/light.h>
+
 #include <string.h>
 
 static float rounded(double x) { return (float)x; }

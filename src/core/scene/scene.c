@@ -6,6 +6,7 @@
 #include "linear.h"
 #include "normals.h"
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 #include <lambent/text.h>
 

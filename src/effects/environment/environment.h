@@ -119,7 +119,7 @@ bool environment_samples_make(struct environment_samples *samples, const struct 
 struct physical_point;
 struct returned_light;
 
-// What lookups need of a frame.
+// The environment of a frame, for lookups.
 struct environment_view {
     const struct lam_environment *cube;
     const float (*to_environment)[3];          // from the axes of the caller's directions to the environment's axes

@@ -11,6 +11,10 @@
 
 // --- the triangles that block rays
 
+// Sets the members that rays need, and determines whether any light casts shadows. The draws and lights must have been
+// built.
+void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
+
 // Builds the hierarchy of a frame, unless the existing one has the same meshes at the same positions. Stores in *built
 // whether a hierarchy was built. Fails with LAM_LIMIT (memory, time) or LAM_CANCELLED.
 const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, const struct frame *frame,
@@ -31,7 +35,7 @@ void light_pattern_fill(struct light_pattern *pattern, int count);
 // `count` is the number of rays from each point, 1 … OCCLUSION_RAYS_MAX.
 void occlusion_pattern_fill(struct occlusion_pattern *pattern, int count);
 
-// What rays need of a frame, and what they leave behind.
+// The input of rays, and counters.
 struct light_rays {
     const struct frame *frame;
     const struct hierarchy *hierarchy;

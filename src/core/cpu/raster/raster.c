@@ -26,7 +26,6 @@
 #include "translucent_fragments.inc"
 #include "visibility_resolve.inc"
 #include "fragment_store.inc"
-#include "tile_depth.inc"
 #include "resolve.inc"
 
 const struct raster_kernels FOR_ISA(raster_kernels) = {

@@ -1,8 +1,53 @@
 // texture_batch.c: decodes the pictures of a model, each content once, in parallel.
 #include "texture_batch.h"
 
+#include "codec.h"
+#include "fail.h"
+#include "float_state.h"
+#include "srgb.h"
+
 #include <stdlib.h>
 #include <string.h>
+
+// Decodes the sRGB-encoded 16-bit values of a picture to linear values.
+static bool decode_wide(lam_image *image, lam_error *error)
+{
+    size_t count = (size_t)image->width * (size_t)image->height;
+    float *table = malloc(65536 * sizeof *table), *pixel = image->pixels;
+    if (!table)
+        return fail_memory(error, 65536 * sizeof *table);
+    for (int i = 0; i < 65536; i++)
+        table[i] = (float)srgb_linear(i / 65535.0);
+    for (size_t i = 0; i < count; i++, pixel += 4)
+        for (int channel = 0; channel < 3; channel++)
+            pixel[channel] = table[(int)(pixel[channel] * 65535.0f + 0.5f)];
+    free(table);
+    return true;
+}
+
+struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
+                                   struct call_control *call, lam_error *error)
+{
+    struct picture_file file = {bytes, size, name, call};
+    lam_image image;
+    bool wide = false;
+    uint64_t state = float_state_enter();
+    bool ok = picture_decode_wide(&file, &wide, &image, error);
+    if (ok && wide && values == LAM_TEXTURE_COLOR) {
+        ok = decode_wide(&image, error);
+        if (!ok)
+            picture_free(call, &image);
+    } else if (ok && !wide && image.format == LAM_RGBA32F)
+        texture_unpremultiply(&image);
+    struct lam_texture *texture = ok ? texture_of_image(&image, values, name, call, error) : NULL;
+    float_state_leave(state);
+    return texture;
+}
+
+bool texture_is_optional(const lam_error *error)
+{
+    return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
+}
 
 int texture_source_order(const struct texture_source *a, const struct texture_source *b)
 {

@@ -5,6 +5,14 @@
 #include "pool.h"
 #include "texture_levels.h"
 
+// Makes a texture from the bytes of a picture file. With LAM_COLOR_RAW as `color`, colours are used without conversion.
+struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
+                                   struct call_control *call, lam_error *error);
+
+// Returns whether a model may be loaded without a texture if texture_decode failed with this error. If not, loading the
+// model fails.
+bool texture_is_optional(const lam_error *error);
+
 // A picture file that a model uses, and the texture that is made from it.
 struct texture_source {
     const uint8_t *bytes;

@@ -1,6 +1,6 @@
 // scene_repair.c: repairs the meshes of a file: leaves out items (triangles, lines and points) without a finite
 // position, and computes normals that have no direction.
-#include "scene_internal.h"
+#include "prepare.h"
 
 #include "fail.h"
 #include "linear.h"

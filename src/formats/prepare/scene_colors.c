@@ -1,5 +1,5 @@
 // scene_colors.c: materials for surfaces with vertex colours but without a material.
-#include "scene_internal.h"
+#include "prepare.h"
 
 #include <lambent/material.h>
 

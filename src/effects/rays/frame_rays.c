@@ -1,7 +1,9 @@
 // frame_rays.c: computes the data that rays need: the frame's draws and lights, in world space and in double precision.
-#include "frame.h"
+#include "rays.h"
 
 #include "linear.h"
+
+#include <lambent/light.h>
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // frame_edges.c: selects the edges that a frame draws as lines, and their appearance.
-#include "frame.h"
+#include "edges.h"
 
 #include "linear.h"
 #include "settings_check.h"

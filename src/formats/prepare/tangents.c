@@ -1,6 +1,6 @@
 // tangents.c: computes tangents of a scene's meshes with MikkTSpace.
 #include "mikktspace.h"
-#include "scene_internal.h"
+#include "prepare.h"
 
 #include "fail.h"
 #include "float_state.h"

@@ -2,6 +2,7 @@
 #include "fail.h"
 #include "linear.h"
 
+#include <lambent/light.h>
 #include <lambent/render.h>
 
 #include <stdlib.h>

@@ -6,7 +6,8 @@ the library or of a program uses none below it in the list, and none of the othe
 that order; this test checks function calls, and the programs' headers (a fifth rule). A sixth: no C file outside src/system asks for Windows. A seventh: no folder of the library, the program or the web page has more than 25 files. The third rule: every file that a page or a comment names exists.
 The fourth keeps reflection models replaceable: only a lobe's row in src/core/lighting/lobes.h describes it. The ninth orders the scripts of the web page: they import
 only from their own folder and folders before it in the list FOLDERS of web/bundle.py, and never in a circle. The tenth: only public functions have more
-than 8 parameters."""
+than 8 parameters. The eleventh holds the wings of src: the core uses only itself, src/system and the entry headers of the effects, apart from CORE_USES, and the other
+wings also enter the effects by these headers only."""
 import collections
 import functools
 import glob
@@ -22,7 +23,7 @@ def library_folders():
     """The folders in their order: the base's own, and the subdir() lines of src/meson.build with their wings."""
     text = open(os.path.join(ROOT, "src", "meson.build")).read()
     inner = re.findall(r"'(\w+)'", re.search(r"^base_folders = \[(.*)\]", text, re.M)[1])
-    names = re.findall(r"^subdir\('([\w/]+)'\)", text, re.M)
+    names = re.findall(r"^ *subdir\('([\w/]+)'\)", text, re.M)
     return ["core/base/" + name for name in inner] + [name for name in names if name != "core/base"]
 
 
@@ -76,7 +77,8 @@ def headers_back(order):
 def objects(build):
     for top in ("src", "program", "classroom/check", "lambent.p", "lambent-classroom.p"):
         for path, _, names in os.walk(os.path.join(build, top)):
-            yield from (os.path.join(path, name) for name in names if name.endswith(".o"))
+            # without_effects.c defines the same functions as the effects.
+            yield from (os.path.join(path, name) for name in names if name.endswith(".o") and "without-effects" not in path)
 
 
 def source_of(build, path):
@@ -143,6 +145,47 @@ def circles(edges):
         if v not in index:
             visit(v)
     return found
+
+
+# The only headers of src/effects that other wings include. They call only functions that these headers or include/lambent declare.
+ENTRIES = ["environment/environment.h", "rays/rays.h", "edges/edges.h", "occlusion/occlusion.h"]
+# What the core uses outside core, system and these headers: the reader of scene files reads JSON, and adds the shapes and model files that a scene names.
+CORE_USES = {"core/scene_file": ("formats/json", "formats/import", "formats/prepare", "formats/shapes"), "core/description": ("formats/json",)}
+WING = re.compile(r"core|effects|formats|gpu|system")
+
+
+def leaves_wing(edges):
+    """(file, complaint) for each include or call that leaves a wing of src where it must not."""
+    src = os.path.join(ROOT, "src")
+    read = lambda path: open(os.path.join(ROOT, path), encoding="utf-8").read()  # noqa: E731
+    place = collections.defaultdict(set)
+    files = [os.path.relpath(os.path.join(path, name), src) for path, _, names in os.walk(src) for name in names if name.endswith((".c", ".h", ".inc"))]
+    for file in files:
+        place[os.path.basename(file)].add(file)
+    declared = "".join(read("src/effects/" + name) for name in ENTRIES)
+    declared += "".join(read(name) for name in glob.glob("include/lambent/*.h", root_dir=ROOT))
+
+    def allowed(file, wing, folder):
+        return wing in ("core", "system") or folder in CORE_USES.get("/".join(file.split("/")[:2]), ())
+
+    for file in sorted(files):
+        own = file.split("/")[0]
+        for name in re.findall(r'^#include "([^"]+)"', read("src/" + file), re.M):
+            for header in place[name] if len(place[name]) == 1 else ():
+                wing, folder = header.split("/")[0], "/".join(header.split("/")[:2])
+                if own != "effects" and wing == "effects" and header[len("effects/"):] not in ENTRIES:
+                    yield file, "includes %s, which is no entry of the effects" % header
+                elif own == "core" and wing != "effects" and not allowed(file, wing, folder):
+                    yield file, "includes " + header
+    for file in sorted(edges):
+        own = file.split("/")[0]
+        for other in sorted(edges[file]) if WING.fullmatch(own) else ():
+            wing, folder = other.split("/")[0], "/".join(other.split("/")[:2])
+            if own != "effects" and wing == "effects":
+                inner = [name for name in edges[file][other] if not re.search(r"\b%s\(" % name, declared)]
+                yield from ((file, "calls %s of %s" % (name, other)) for name in sorted(inner))
+            elif own == "core" and not allowed(file, wing, folder):
+                yield file, "calls %s of %s" % (", ".join(sorted(edges[file][other])), other)
 
 
 TOPS = "src|program|classroom|tools|tests|include|web|scripts|bench|examples|docs"
@@ -283,7 +326,8 @@ def options_in_messages():
 def main():
     edges, order = graph(sys.argv[1]), Order()
     used = lambda a, b: "%s uses %s: %s" % (a, b, ", ".join(sorted(edges[a][b])[:6]))  # noqa: E731
-    back = sorted((a, b) for a in edges for b in edges[a] if not order.allows(folder_of(a), folder_of(b)))
+    enters = lambda a, b: a.startswith("core/") and b.startswith("effects/")  # noqa: E731  the eleventh rule
+    back = sorted((a, b) for a in edges for b in edges[a] if not order.allows(folder_of(a), folder_of(b)) and not enters(a, b))
     rules = [
         ("no circle between files", [used(a, b) for part in circles(edges) for a in part for b in part if b in edges[a]]),
         ("no folder uses one below it", [used(a, b) for a, b in back]),
@@ -294,7 +338,8 @@ def main():
         ("Windows is known to src/system alone", ["%s asks for it" % file for file in sorted(windows_elsewhere())]),
         ("no folder has more than 25 files", ["%s has %d" % one for one in sorted(large_folders())]),
         ("no script of the page imports from a folder after its own", ["%s %s" % one for one in imports_back()]),
-        ("no internal function has more than 8 parameters", ["%s: %s has %d" % one for one in long_parameter_lists()])]
+        ("no internal function has more than 8 parameters", ["%s: %s has %d" % one for one in long_parameter_lists()]),
+        ("the wings of src use one another only as listed", ["%s %s" % one for one in leaves_wing(edges)])]
     print("1..%d" % len(rules))
     for number, (rule, complaints) in enumerate(rules, 1):
         print("%s %d - %s" % ("not ok" if complaints else "ok", number, rule))

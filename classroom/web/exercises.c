@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include <lambent/check.h>
+#include <lambent/light.h>
 #include <lambent/shader.h>
 
 #include "check_module.h"

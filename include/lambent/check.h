@@ -7,6 +7,7 @@
 #define LAMBENT_CHECK_H
 
 #include "device.h"
+#include "light.h"
 
 #ifdef __cplusplus
 extern "C" {

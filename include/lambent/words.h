@@ -6,6 +6,7 @@
 #define LAMBENT_WORDS_H
 
 #include "camera.h"
+#include "light.h"
 #include "material.h"
 
 #ifdef __cplusplus

@@ -4,6 +4,7 @@
 // The file is longer than 600 lines because it contains one row for each option, in the order of the help.
 #include "options.h"
 
+#include <lambent/light.h>
 #include <lambent/shader.h>
 
 // The limits of --fov in degrees, which also apply to --camera if its only key is fovy.

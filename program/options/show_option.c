@@ -1,6 +1,8 @@
 // show_option.c: parses the value of --show: a word, optionally with a light, as in "diffuse", "light:key" and "n.l:2".
 #include "show_option.h"
 
+#include <lambent/light.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

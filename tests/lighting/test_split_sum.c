@@ -15,6 +15,7 @@
 #include <lambent/lambent.h>
 
 #include "cpu_features.h"
+#include "environment.h"
 #include "environment_kernels.h"
 #include "environment_scene.h"
 #include "share.h"
@@ -205,8 +206,7 @@ static void test_kernels(void **state)
     }
     static float texels[3][LAM_FACE_COUNT * (SIZE + 2) * ROW + CUBE_TEXELS_AFTER];
     for (int lanes = 0; lanes < 3; lanes++) {
-        const struct environment_kernels *kernels =
-            CPU_WIDEST(4 << lanes, &environment_kernels_scalar, &environment_kernels_avx2, &environment_kernels_avx512);
+        const struct environment_kernels *kernels = CPU_WIDEST(4 << lanes, environment_kernels);
         struct lam_environment out = {.size = SIZE, .texels = texels[lanes]};
         for (int row = 0; row < LAM_FACE_COUNT * SIZE; row++) {
             int face = row / SIZE, t = row % SIZE;

@@ -14,7 +14,7 @@
 #define LANES 1
 #include "lighting.h"
 
-static const char *const equation_files[] = {"lobes.h", "light_kinds.h", "lights.h", "sum.h", "point.h"};
+static const char *const equation_files[] = {"surface.h", "lobes.h", "light_kinds.h", "lights.h", "sum.h", "point.h"};
 enum { EQUATION_FILES = sizeof equation_files / sizeof *equation_files };
 
 struct word {
@@ -54,6 +54,9 @@ static char *read_text(const char *name)
     size_t size = fread(text, 1, (1 << 17) - 1, file);
     fclose(file);
     assert_true(size > 100 && size < (1 << 17) - 1);
+    char *once = strstr(text, "#pragma once\n"); // embed.py omits this line
+    if (once)
+        memset(once, ' ', strlen("#pragma once"));
     char *end = strstr(text, "// --- C only");
     if (end)
         *end = 0;

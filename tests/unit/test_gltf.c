@@ -3,6 +3,8 @@
 // one format.
 #include "gltf_document.h"
 
+#include <lambent/light.h>
+
 #include <math.h>
 
 // Four corners of the unit square in the plane z = 0 (48 bytes), and its two triangles as shorts (12 bytes).

@@ -3,6 +3,8 @@
 #include "../lighting/random.h"
 #include "loading.h"
 
+#include <lambent/light.h>
+
 #include <math.h>
 #include <string.h>
 

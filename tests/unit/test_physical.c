@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include <lambent/device.h>
+#include <lambent/light.h>
 #include <lambent/words.h>
 
 #include "device_type.h"

@@ -1,4 +1,5 @@
 // test_rays.c: rays in the hierarchy give the same answer as testing every triangle separately, for any scene.
+#include <lambent/light.h>
 #include <lambent/scene.h>
 
 #include <math.h>
@@ -13,6 +14,7 @@
 
 #define LANES 8
 #include "ray_lanes.h"
+#include "rays.h"
 
 static uint64_t seed = 1;
 

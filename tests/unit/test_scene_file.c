@@ -1,6 +1,8 @@
 // test_scene_file.c: scene files: every key, every error, truncated files, failed allocations, and writing.
 #include "loading.h"
 
+#include <lambent/light.h>
+
 #include <math.h>
 #include <unistd.h>
 

@@ -2,6 +2,8 @@
 // encodings.
 #include "scenes.h"
 
+#include <lambent/light.h>
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

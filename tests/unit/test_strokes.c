@@ -2,6 +2,8 @@
 #include "device_fixture.h"
 #include "loading.h"
 
+#include <lambent/light.h>
+
 #include <math.h>
 
 enum { SIDE = 64 };

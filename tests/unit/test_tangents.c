@@ -201,8 +201,7 @@ static void same_bytes(void **state)
         uint8_t flags[3][TRIANGLES + TRIANGLES_AFTER];
         float sums[3][20][4] = {{{0}}};
         for (int lanes = 0; lanes < 3; lanes++) {
-            const struct tangent_kernels *kernels =
-                CPU_WIDEST(1 << (lanes + 2), &tangent_kernels_scalar, &tangent_kernels_avx2, &tangent_kernels_avx512);
+            const struct tangent_kernels *kernels = CPU_WIDEST(1 << (lanes + 2), tangent_kernels);
             kernels->look(&mesh, 0, TRIANGLES, flags[lanes]);
             kernels->add(&mesh, 0, 16, flags[lanes], groups, sums[lanes]);
             kernels->add(&mesh, 16, TRIANGLES, flags[lanes], groups, sums[lanes]);

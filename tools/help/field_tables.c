@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 const char *field_standard(const lam_field *field, char text[80])

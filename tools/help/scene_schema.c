@@ -2,6 +2,8 @@
 // inserted.
 #include "help_texts.h"
 
+#include <lambent/light.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

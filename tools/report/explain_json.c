@@ -7,6 +7,7 @@
 #include "vectors.h"
 
 #include <lambent/fields.h>
+#include <lambent/light.h>
 
 static void color(struct json *json, const char *key, lam_rgb c)
 {

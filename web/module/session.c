@@ -2,6 +2,8 @@
 // is loaded once.
 #include "session.h"
 
+#include <lambent/light.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

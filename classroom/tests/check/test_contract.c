@@ -10,6 +10,8 @@
 
 #include "prefix.h"
 
+#include <lambent/light.h>
+
 #define GOOD                                                                                                           \
     "{\"contract\": 1, \"name\": \"mine\", \"space\": \"world\", \"attributes\": {\"pos\": {\"role\": \"position\", "  \
     "\"type\": \"vec3\"}}, \"uniforms\": {"

@@ -1,8 +1,7 @@
 // gl_device.c: creates and frees the OpenGL device, runs the steps of a frame, and reports the memory use.
 #include "gl_device.h"
 
-#include "cube_map.h"
-#include "environment_lamp.h"
+#include "environment.h"
 #include "fail.h"
 #include "lecture.h"
 #include "srgb.h"

@@ -19,8 +19,8 @@
 #include "device_type.h"
 #include "fields.h"
 #include "glsl_declarations.h"
-#include "hierarchy.h"
-#include "screen_occlusion.h"
+#include "occlusion.h"
+#include "rays.h"
 #include "vertex_colors.h"
 
 enum {

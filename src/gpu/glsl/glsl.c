@@ -1,6 +1,6 @@
 // glsl.c: generates a vertex and a fragment shader from a set of choices.
 #include "glsl.h"
-#include "environment_light.h"
+#include "environment.h"
 #include "fail.h"
 #include "glsl_constants.h"
 #include "glsl_declarations.h"

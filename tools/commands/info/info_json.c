@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 #include "json.h"

@@ -38,10 +38,7 @@ static const char *text_of(int index)
 static void answer_error(const lam_error *error)
 {
     struct json json = {.file = stdout};
-    json_open(&json, NULL, '{');
-    json_flag(&json, "ok", false);
-    json_text(&json, "error", error->text);
-    json_close(&json, '}');
+    json_put(&json, OBJECT(NULL, FLAG("ok", false), TEXT("error", error->text)));
 }
 
 static bool check(lam_check_params *params, lam_error *error)
@@ -133,17 +130,11 @@ static void list_contract(struct json *json, const lam_check_contract *contract)
 {
     lam_check_name row;
     json_open(json, NULL, '{');
-    json_text(json, "name", lam_check_contract_name(contract));
-    json_text(json, "title", lam_check_contract_title(contract));
+    json_put(json, TEXT("name", lam_check_contract_name(contract)), TEXT("title", lam_check_contract_title(contract)));
     json_open(json, "names", '[');
     for (int i = 0; lam_check_contract_row(contract, i, &row); i++) {
-        json_open(json, NULL, '{');
-        json_text(json, "name", row.name);
-        json_text(json, "type", row.type);
-        json_text(json, "meaning", row.meaning);
-        json_text(json, "space", row.space);
-        json_flag(json, "attribute", row.attribute);
-        json_close(json, '}');
+        json_put(json, OBJECT(NULL, TEXT("name", row.name), TEXT("type", row.type), TEXT("meaning", row.meaning),
+                              TEXT("space", row.space), FLAG("attribute", row.attribute)));
     }
     json_close(json, ']');
     json_close(json, '}');
@@ -153,10 +144,7 @@ static void list_texts(struct json *json, const char *key, const char *(*name)(i
 {
     json_open(json, key, '[');
     for (int i = 0; name(i); i++) {
-        json_open(json, NULL, '{');
-        json_text(json, "name", name(i));
-        json_text(json, "meaning", meaning(i));
-        json_close(json, '}');
+        json_put(json, OBJECT(NULL, TEXT("name", name(i)), TEXT("meaning", meaning(i))));
     }
     json_close(json, ']');
 }

@@ -75,21 +75,15 @@ void exercises_list(struct json *json)
     lam_shader_mistake mistake;
     json_open(json, "exercises", '[');
     for (int i = 0; lam_shader_mistake_row(i, &mistake); i++) {
-        json_open(json, NULL, '{');
-        json_text(json, "mistake", mistake.id);
-        json_text(json, "looks", mistake.looks);
-        json_text(json, "wrong", explanation_of(mistake.id));
-        json_close(json, '}');
+        json_put(json, OBJECT(NULL, TEXT("mistake", mistake.id), TEXT("looks", mistake.looks),
+                              TEXT("wrong", explanation_of(mistake.id))));
     }
     json_close(json, ']');
 }
 
 static void put_texts(struct json *json, const char *key, const lam_shader *shader)
 {
-    json_open(json, key, '{');
-    json_text(json, "vertex", shader->vertex);
-    json_text(json, "fragment", shader->fragment);
-    json_close(json, '}');
+    json_put(json, OBJECT(key, TEXT("vertex", shader->vertex), TEXT("fragment", shader->fragment)));
 }
 
 // Prints the texts of one setting. Returns false if the setting does not meet a requirement of the mistake, or if this

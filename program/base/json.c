@@ -76,24 +76,6 @@ void json_number(struct json *json, const char *key, double value)
     fputs(text, json->file);
 }
 
-void json_count(struct json *json, const char *key, uint64_t value)
-{
-    before(json, key);
-    fprintf(json->file, "%" PRIu64, value);
-}
-
-void json_none(struct json *json, const char *key)
-{
-    before(json, key);
-    fputs("null", json->file);
-}
-
-void json_flag(struct json *json, const char *key, bool value)
-{
-    before(json, key);
-    fputs(value ? "true" : "false", json->file);
-}
-
 void json_numbers(struct json *json, const char *key, const double *values, int count)
 {
     json_open(json, key, '[');
@@ -102,13 +84,45 @@ void json_numbers(struct json *json, const char *key, const double *values, int 
     json_close(json, ']');
 }
 
-void json_vector(struct json *json, const char *key, lam_vec3 v)
-{
-    json_numbers(json, key, (double[]){v.x, v.y, v.z}, 3);
-}
-
 void json_message(struct json *json, const char *key, const char *text)
 {
     char shown[MESSAGE_SIZE];
     json_text(json, key, text ? name_options(text, shown) : NULL);
+}
+
+void json_values(struct json *json, const struct result_value *values)
+{
+    for (const struct result_value *v = values; v->kind != RESULT_END; v++)
+        switch (v->kind) {
+        case RESULT_COUNT:
+            before(json, v->key);
+            fprintf(json->file, "%" PRIu64, v->whole);
+            break;
+        case RESULT_FLAG:
+            before(json, v->key);
+            fputs(v->whole ? "true" : "false", json->file);
+            break;
+        case RESULT_NUMBER:
+            json_number(json, v->key, v->numbers[0]);
+            break;
+        case RESULT_NUMBERS:
+            json_numbers(json, v->key, v->numbers, v->count);
+            break;
+        case RESULT_OBJECT:
+        case RESULT_LIST:
+            json_open(json, v->key, v->kind == RESULT_LIST ? '[' : '{');
+            json_values(json, v->values);
+            json_close(json, v->kind == RESULT_LIST ? ']' : '}');
+            break;
+        default:
+            json_text(json, v->key, v->kind == RESULT_TEXT ? v->text : NULL);
+        }
+}
+
+void json_warnings(struct json *json, const lam_scene *scene)
+{
+    json_open(json, "warnings", '[');
+    for (int i = 0; scene && lam_scene_warning(scene, i); i++)
+        json_message(json, NULL, lam_scene_warning(scene, i));
+    json_close(json, ']');
 }

@@ -6,30 +6,26 @@
 #include "command_table.h"
 #include "console.h"
 #include "exit_codes.h"
+#include "option_names.h"
 #include "sandbox_start.h"
 
 void report_begin(struct json *json)
 {
-    const struct sandbox_state *state = sandbox_active();
     json_open(json, NULL, '{');
-    json_text(json, "lambent", lam_version());
-    json_open(json, "sandbox", '{');
-    json_count(json, "landlock", (uint64_t)state->landlock);
-    json_flag(json, "seccomp", state->filter);
-    json_close(json, '}');
+    const struct sandbox_state *sandbox = sandbox_active();
+    json_put(json, TEXT("lambent", lam_version()),
+             OBJECT("sandbox", COUNT("landlock", sandbox->landlock), FLAG("seccomp", sandbox->filter)));
 }
 
 void json_error(struct json *json, const lam_error *error)
 {
-    if (!error || error->code == LAM_OK) {
-        json_none(json, "error");
-        return;
-    }
-    json_open(json, "error", '{');
-    json_text(json, "code", exit_code_of(error->code)->name);
-    json_count(json, "exit", (uint64_t)exit_code_of(error->code)->code);
-    json_message(json, "text", error->text);
-    json_close(json, '}');
+    const struct exit_code *code = error && error->code != LAM_OK ? exit_code_of(error->code) : NULL;
+    char shown[MESSAGE_SIZE];
+    if (code)
+        json_put(json, OBJECT("error", TEXT("code", code->name), COUNT("exit", code->code),
+                              TEXT("text", name_options(error->text, shown))));
+    else
+        json_put(json, NONE("error"));
 }
 
 FILE *report_stream(const struct options *options)
@@ -44,9 +40,8 @@ static void report_without_job(FILE *file, const lam_error *error)
 {
     struct json json = {.file = file};
     report_begin(&json);
-    json_none(&json, "model");
-    json_open(&json, "warnings", '[');
-    json_close(&json, ']');
+    json_put(&json, NONE("model"));
+    json_warnings(&json, NULL);
     json_error(&json, error);
     json_close(&json, '}');
     putc('\n', file);

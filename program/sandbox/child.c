@@ -40,7 +40,7 @@ bool child_start(struct child *child, child_work *work, void *user)
     }
     close(in[0]);
     close(out[1]);
-    *child = (struct child){pid, in[1], out[0]};
+    *child = (struct child){.pid = pid, .to = in[1], .from = out[0]};
     return true;
 }
 
@@ -70,6 +70,12 @@ void child_kill(const struct child *child)
 {
     if (child->pid > 0)
         kill(child->pid, SIGKILL);
+}
+
+void child_free(struct child *child)
+{
+    free(child->received.data);
+    *child = NO_CHILD;
 }
 
 bool child_bytes_reserve(struct child_bytes *b, size_t more)

@@ -6,13 +6,22 @@
 #include <stddef.h>
 #include <sys/types.h>
 
+// Received bytes.
+struct child_bytes {
+    char *data; // allocated with malloc
+    size_t size, capacity;
+};
+
 struct child {
     pid_t pid;    // 0 if there is no process
     int to, from; // the pipes to and from the process; −1 if closed
+    struct child_bytes received;
+    double stop_ms; // the clock_ms() at which the owner kills the process; 0 if never
+    bool stopped;   // whether the owner killed the process at `stop_ms`
 };
 
 // A struct child without a process.
-#define NO_CHILD ((struct child){0, -1, -1})
+#define NO_CHILD ((struct child){.to = -1, .from = -1})
 
 // Starts `work` in a copy of this process. The copy ends when this process ends. `work` reads from `from`, writes to
 // `to` and does not return. If this process has other threads, `work` must make only system calls, because the other
@@ -28,14 +37,11 @@ int child_wait(struct child *child);
 
 void child_kill(const struct child *child);
 
+// Frees the received bytes of a process that has ended.
+void child_free(struct child *child);
+
 // Like child_wait, for a process that is known only by its ID. Does nothing if `pid` is not positive.
 int child_wait_pid(pid_t pid);
-
-// Received bytes.
-struct child_bytes {
-    char *data; // allocated with malloc
-    size_t size, capacity;
-};
 
 // child_bytes_reserve makes room for `more` more bytes, and child_bytes_add appends bytes. Both return false if memory
 // runs out.

@@ -194,19 +194,13 @@ static void print_json(const struct convert *c)
 {
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
-    json_text(&json, "lambent", lam_version());
-    json_text(&json, "model", c->model);
-    json_text(&json, "output", c->output);
-    json_count(&json, "triangles", c->job.model_counts.triangles);
-    json_count(&json, "lines", c->job.model_counts.lines);
-    json_count(&json, "points", c->job.model_counts.points);
+    json_put(&json, TEXT("lambent", lam_version()), TEXT("model", c->model), TEXT("output", c->output),
+             COUNT("triangles", c->job.model_counts.triangles), COUNT("lines", c->job.model_counts.lines),
+             COUNT("points", c->job.model_counts.points));
     json_open(&json, "files", '[');
     for (int i = 0; lam_export_file_name(c->result, i); i++) {
         char *path = path_of(c, i);
-        json_open(&json, NULL, '{');
-        json_text(&json, "path", path);
-        json_count(&json, "bytes", lam_export_file(c->result, i).size);
-        json_close(&json, '}');
+        json_put(&json, OBJECT(NULL, TEXT("path", path), COUNT("bytes", lam_export_file(c->result, i).size)));
         free(path);
     }
     json_close(&json, ']');
@@ -214,10 +208,7 @@ static void print_json(const struct convert *c)
     for (int i = 0; lam_export_loss(c->result, i); i++)
         json_text(&json, NULL, lam_export_loss(c->result, i));
     json_close(&json, ']');
-    json_open(&json, "warnings", '[');
-    for (int i = 0; lam_scene_warning(c->job.scene, i); i++)
-        json_message(&json, NULL, lam_scene_warning(c->job.scene, i));
-    json_close(&json, ']');
+    json_warnings(&json, c->job.scene);
     json_close(&json, '}');
     putchar('\n');
 }

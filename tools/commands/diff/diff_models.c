@@ -90,12 +90,10 @@ static void put_json(FILE *file, const struct model_diff *diff, json_t *const *r
 {
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
-    json_text(&json, "lambent", lam_version());
-    json_text(&json, "old", diff->old);
-    json_text(&json, "new", diff->new);
-    json_number(&json, "tolerance", diff->options->diff.tolerance);
+    json_put(&json, TEXT("lambent", lam_version()), TEXT("old", diff->old), TEXT("new", diff->new),
+             NUMBER("tolerance", diff->options->diff.tolerance));
     for (int i = 0; i < CHANGE_COUNT; i++)
-        json_count(&json, change_names[i], diff->counts[i]);
+        json_put(&json, COUNT(change_names[i], diff->counts[i]));
     json_text(&json, "page", diff->page);
     json_open(&json, "models", '[');
     for (size_t i = 0; i < diff->plan.count; i++) {
@@ -103,9 +101,8 @@ static void put_json(FILE *file, const struct model_diff *diff, json_t *const *r
         static const char *const numbers[] = {"maximum", "mean", "share_over_1"};
         static const char *const texts[] = {"counts_before", "counts_after"};
         json_open(&json, NULL, '{');
-        json_text(&json, "name", diff->pairs[i].name);
-        json_text(&json, "change", change_names[diff_change_of(record)]);
-        json_text(&json, "error", json_string_value(json_object_get(record, "error")));
+        json_put(&json, TEXT("name", diff->pairs[i].name), TEXT("change", change_names[diff_change_of(record)]),
+                 TEXT("error", json_string_value(json_object_get(record, "error"))));
         for (int k = 0; k < 3; k++)
             if (json_object_get(record, numbers[k]))
                 json_number(&json, numbers[k], json_number_value(json_object_get(record, numbers[k])));

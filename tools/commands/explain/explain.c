@@ -99,12 +99,9 @@ static bool make_request(const struct job *job, const lam_explanation *e, bool s
     struct json json = {.file = file};
     if (!file)
         return complain(error, LAM_MACHINE, "out of memory");
-    json_open(&json, NULL, '{');
-    json_flag(&json, "svg", svg);
-    json_flag(&json, "threads", lam_reflection_describe(e->reflection)->tangents);
-    json_number(&json, "fovy_rad", job->camera.fovy_rad);
-    json_number(&json, "ortho_half_height", job->camera.ortho_half_height);
-    json_close(&json, '}');
+    json_put(&json, OBJECT(NULL, FLAG("svg", svg), FLAG("threads", lam_reflection_describe(e->reflection)->tangents),
+                           NUMBER("fovy_rad", job->camera.fovy_rad),
+                           NUMBER("ortho_half_height", job->camera.ortho_half_height)));
     putc('\n', file);
     explain_json(file, e, job);
     fwrite(job->image.pixels, 4, (size_t)job->image.width * (size_t)job->image.height, file);

@@ -268,11 +268,8 @@ static void say_summary(const struct hash_run *run, const struct result *r)
 static void head_json(struct json *json, const struct hash_run *run, const char *options_text)
 {
     json_open(json, NULL, '{');
-    json_text(json, "lambent", lam_version());
-    json_text(json, "file", run->path);
-    json_text(json, "options", options_text);
-    json_text(json, "file_version", run->then.version);
-    json_text(json, "file_options", run->then.options);
+    json_put(json, TEXT("lambent", lam_version()), TEXT("file", run->path), TEXT("options", options_text),
+             TEXT("file_version", run->then.version), TEXT("file_options", run->then.options));
 }
 
 // Writes the hashes and the sheet of old and new pictures. Sets *rows to the number of pictures on the sheet.
@@ -286,8 +283,7 @@ static void say_result(const struct hash_run *run, const struct result *result, 
                        int rows)
 {
     if (run->options->report.json) {
-        json_flag(json, "written", written);
-        json_text(json, "sheet", rows ? run->sheet : NULL);
+        json_put(json, FLAG("written", written), TEXT("sheet", rows ? run->sheet : NULL));
         json_close(json, '}');
         putc('\n', json->file);
     } else if (!run->options->report.quiet && json->file == stdout) {

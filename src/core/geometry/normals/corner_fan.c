@@ -268,10 +268,7 @@ uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corn
 
 CPU_VERSIONS(const struct corner_fan_simd, corner_fan_simd);
 
-const struct corner_fan_simd *corner_fan_simd_for(int lanes)
-{
-    return CPU_WIDEST(lanes, corner_fan_simd);
-}
+const struct corner_fan_simd *corner_fan_simd_for(int lanes) { return CPU_WIDEST(lanes, corner_fan_simd); }
 
 bool corner_fan_batch_take(struct corner_fan_batch *batch, uint32_t count)
 {

@@ -3,18 +3,8 @@
 //
 // The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
 // itself.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
+#include "test.h"
 #include "exact_cover.h"
 
 enum { SIZE = 128 };
@@ -170,42 +160,37 @@ static struct soup random_soup(int count, double size)
     return soup;
 }
 
-static void test_small(void **state)
+TEST(test_small)
 {
-    (void)state;
     seed = 1;
     struct soup soup = random_soup(2000, 2);
     check(&soup, false);
 }
 
-static void test_medium(void **state)
+TEST(test_medium)
 {
-    (void)state;
     seed = 2;
     struct soup soup = random_soup(300, 25);
     check(&soup, false);
 }
 
-static void test_large(void **state)
+TEST(test_large)
 {
-    (void)state;
     seed = 3;
     struct soup soup = random_soup(60, 300);
     check(&soup, false);
 }
 
-static void test_huge(void **state)
+TEST(test_huge)
 {
-    (void)state;
     seed = 4;
     struct soup soup = random_soup(40, 8000); // still within the guard band, so exact
     check(&soup, false);
 }
 
 // Corners on pixel centres and edges through them: the rule decides every pixel.
-static void test_on_centres(void **state)
+TEST(test_on_centres)
 {
-    (void)state;
     seed = 5;
     struct soup soup = random_soup(400, 12);
     for (int i = 0; i < soup.count * 9; i++)
@@ -216,9 +201,8 @@ static void test_on_centres(void **state)
 
 // Back faces of all sizes in front of, inside and behind a wall of front faces with holes. Those behind it are dropped
 // early, and only those. At equal depths the lower number is visible, with either side.
-static void test_backs(void **state)
+TEST(test_backs)
 {
-    (void)state;
     seed = 8;
     enum { CELL = 4, ACROSS = SIZE / CELL, BACKS = 3000 };
     static const double halves[2][3][2] = {{{0, 0}, {0, 1}, {1, 1}}, {{0, 0}, {1, 1}, {1, 0}}};
@@ -249,9 +233,8 @@ static void test_backs(void **state)
 }
 
 // A jittered grid of triangles covers every sample exactly once: alpha shows no holes at 1, 4 and 16 samples.
-static void test_watertight(void **state)
+TEST(test_watertight)
 {
-    (void)state;
     seed = 6;
     enum { CELLS = 37 };
     static double grid[CELLS + 1][CELLS + 1][2];
@@ -300,9 +283,8 @@ static void test_watertight(void **state)
 }
 
 // The winding (y up) distinguishes front and back; each culling mode keeps the other side.
-static void test_culling(void **state)
+TEST(test_culling)
 {
-    (void)state;
     seed = 7;
     struct soup soup = random_soup(200, 30);
     static float all[SIZE * SIZE], front[SIZE * SIZE], back[SIZE * SIZE];
@@ -331,9 +313,8 @@ static void test_culling(void **state)
 // A tetrahedron of any size up to the largest floats, fitted into a picture of odd size: every instruction set draws
 // the same coverage, and up to 1e33 the coverage of size 1. (Beyond, products of coordinates leave the range of
 // floats.)
-static void test_sizes(void **state)
+TEST(test_sizes)
 {
-    (void)state;
     enum { WIDTH = 33, HEIGHT = 31 };
     static const float corners[4][3] = {{-1, -1, -1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
     static const uint32_t indices[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
@@ -374,14 +355,4 @@ static void test_sizes(void **state)
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         covered += first[4 * i] > 0;
     assert_in_range(covered, 200, 900);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),      cmocka_unit_test(test_medium),     cmocka_unit_test(test_large),
-        cmocka_unit_test(test_huge),       cmocka_unit_test(test_on_centres), cmocka_unit_test(test_backs),
-        cmocka_unit_test(test_watertight), cmocka_unit_test(test_culling),    cmocka_unit_test(test_sizes),
-    };
-    return cmocka_run_group_tests_name("cover", tests, NULL, NULL);
 }

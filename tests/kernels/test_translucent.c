@@ -4,18 +4,8 @@
 // The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
 // itself. Colours are painted unlit. The reference follows only docs/lighting.md. The file has more than 600 lines
 // because it contains the reference in double and every path that is compared with it.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
+#include "test.h"
 #include "exact_cover.h"
 
 enum { SIZE = 96, SAMPLES_MAX = 16 };
@@ -291,9 +281,8 @@ static struct soup random_soup(int count, double opaque_share)
     return soup;
 }
 
-static void test_random(void **state)
+TEST(test_random)
 {
-    (void)state;
     static const lam_rgba backgrounds[] = {{0, 0, 0, 0}, {0.2f, 0.4f, 0.8f, 1}, {1, 0.5f, 0.25f, 0.5f}};
     static const int samples[] = {1, 4, 1, 4, 2, 4, 8, 16};
     for (int i = 0; i < 8; i++) {
@@ -306,9 +295,8 @@ static void test_random(void **state)
 
 // Triangles of one colour look the same under every shading method, even if a tile has more points to light than fit at
 // once.
-static void test_methods(void **state)
+TEST(test_methods)
 {
-    (void)state;
     static float drawn[3][SIZE * SIZE * 4];
     seed = 10;
     struct soup soup = random_soup(300, 0.02);
@@ -330,9 +318,8 @@ static void test_methods(void **state)
 }
 
 // The picture does not depend on the order of the triangles: only depth decides.
-static void test_order(void **state)
+TEST(test_order)
 {
-    (void)state;
     enum { COUNT = 80 };
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     seed = 20;
@@ -365,9 +352,8 @@ static void set(struct soup *soup, int i, const double corners[3][3], const floa
 }
 
 // Two squares that intersect along a diagonal, and an opaque one through both.
-static void test_intersecting(void **state)
+TEST(test_intersecting)
 {
-    (void)state;
     static const float colors[3][4] = {{1, 0, 0, 0.5f}, {0, 1, 0, 0.7f}, {0, 0, 1, 1}};
     struct soup soup = soup_make(6);
     for (int i = 0; i < 3; i++) {
@@ -384,9 +370,8 @@ static void test_intersecting(void **state)
 }
 
 // Three long triangles, each in front of the next one and behind the one before.
-static void test_cyclic(void **state)
+TEST(test_cyclic)
 {
-    (void)state;
     static const float colors[3][4] = {{1, 0.2f, 0, 0.6f}, {0, 1, 0.1f, 0.4f}, {0.3f, 0, 1, 0.8f}};
     struct soup soup = soup_make(3);
     for (int i = 0; i < 3; i++) {
@@ -405,9 +390,8 @@ static void test_cyclic(void **state)
 }
 
 // At the same depth, the first triangle is in front, as among opaque triangles.
-static void test_equal_depth(void **state)
+TEST(test_equal_depth)
 {
-    (void)state;
     struct soup soup = soup_make(12);
     for (int i = 0; i < 12; i++) {
         double corners[3][3] = {{4 + i, 4, 0}, {92 - i, 10, 0}, {20, 90 - 2 * i, 0}};
@@ -422,9 +406,8 @@ static void test_equal_depth(void **state)
 
 // Far more fragments than fit into a thread's memory: the tile is drawn in parts, down to few pixels, and the picture
 // is the same.
-static void test_many_layers(void **state)
+TEST(test_many_layers)
 {
-    (void)state;
     struct soup soup = soup_make(3000);
     seed = 30;
     for (int i = 0; i < soup.count; i++) {
@@ -462,9 +445,8 @@ static void test_many_layers(void **state)
 }
 
 // The maximum number of layers that can be sorted over one pixel, and one more.
-static void test_limit(void **state)
+TEST(test_limit)
 {
-    (void)state;
     enum { MOST = 65536 };
     for (int count = MOST; count <= MOST + 1; count++) {
         struct soup soup = soup_make(count);
@@ -502,9 +484,8 @@ static void test_limit(void **state)
 }
 
 // The memory for layers is counted in the call's budget.
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     seed = 40;
     struct soup soup = random_soup(20, 0);
     for (int opaque = 0; opaque < 2; opaque++) {
@@ -549,9 +530,8 @@ static int add_square(lam_scene *scene, const float corners[4][3], const float a
 
 // A slanted ground that extends behind the eye is clipped into pieces whose seams cross the picture. Each sample still
 // gets each triangle once, and a pixel on a seam is lit once.
-static void test_clipped(void **state)
+TEST(test_clipped)
 {
-    (void)state;
     static const float corners[4][3] = {{-30, 0, 30}, {30, -4, 26}, {22, 3, -30}, {-30, 0, -26}};
     static float drawn[2][SIZE * SIZE * 4];
     int covered = 0;
@@ -586,9 +566,8 @@ static void test_clipped(void **state)
 }
 
 // Alpha is the material's times the colour's, interpolated like colours in the shading method.
-static void test_shading(void **state)
+TEST(test_shading)
 {
-    (void)state;
     static const float corners[4][3] = {{16, 16, 0}, {80, 16, 0}, {80, 80, 0}, {16, 80, 0}};
     static float drawn[SIZE * SIZE * 4];
     lam_error error = {0};
@@ -624,9 +603,8 @@ static void test_shading(void **state)
 }
 
 // A back material has its own alpha, whichever side is translucent; culled sides are omitted.
-static void test_sides(void **state)
+TEST(test_sides)
 {
-    (void)state;
     static const float turned[2][4][3] = {{{16, 16, 0}, {80, 16, 0}, {80, 80, 0}, {16, 80, 0}},
                                           {{16, 16, 0}, {16, 80, 0}, {80, 80, 0}, {80, 16, 0}}};
     static float drawn[SIZE * SIZE * 4];
@@ -652,9 +630,8 @@ static void test_sides(void **state)
 
 // Colours that could be transparent but are not give the opaque picture, and an unused transparent colour changes
 // nothing.
-static void test_as_opaque(void **state)
+TEST(test_as_opaque)
 {
-    (void)state;
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     seed = 50;
     struct soup soup = random_soup(100, 1);
@@ -682,9 +659,8 @@ static void test_as_opaque(void **state)
 }
 
 // 8-bit pictures store the colour divided by alpha.
-static void test_straight(void **state)
+TEST(test_straight)
 {
-    (void)state;
     static uint8_t drawn[SIZE * SIZE * 4];
     static struct reference reference;
     seed = 60;
@@ -713,16 +689,4 @@ static void test_straight(void **state)
     assert_true(seen > 500);
     lam_scene_free(scene);
     soup_free(&soup);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),       cmocka_unit_test(test_methods),  cmocka_unit_test(test_order),
-        cmocka_unit_test(test_intersecting), cmocka_unit_test(test_cyclic),   cmocka_unit_test(test_equal_depth),
-        cmocka_unit_test(test_many_layers),  cmocka_unit_test(test_limit),    cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_clipped),      cmocka_unit_test(test_shading),  cmocka_unit_test(test_sides),
-        cmocka_unit_test(test_as_opaque),    cmocka_unit_test(test_straight),
-    };
-    return cmocka_run_group_tests_name("translucent", tests, NULL, NULL);
 }

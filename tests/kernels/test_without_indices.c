@@ -1,15 +1,7 @@
 // test_without_indices.c: a mesh without indices draws the same bytes as the same mesh with the indices 0, 1, 2 …, with
 // every instruction set and on every path of its triangles; and none of its vertices is stored.
-#include <lambent/lambent.h>
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 enum { WIDTH = 203, HEIGHT = 131 };
 
@@ -85,7 +77,7 @@ static lam_image draw(const lam_scene *scene, const struct variant *variant, lam
     return image;
 }
 
-static void test_same_bytes(void **state)
+TEST(test_same_bytes)
 {
     enum { TRIANGLES = 3001 };
     static const struct variant variants[] = {
@@ -93,7 +85,6 @@ static void test_same_bytes(void **state)
         {0.5f, LAM_CULL_NONE, false, false, 4}, {1, LAM_CULL_FRONT, false, true, 1},
         {0.5f, LAM_CULL_BACK, true, true, 1},
     };
-    (void)state;
     seed = 1;
     float *positions = random_triangles(TRIANGLES);
     uint32_t *indices = malloc(3 * TRIANGLES * sizeof *indices);
@@ -131,10 +122,9 @@ static void test_same_bytes(void **state)
 }
 
 // The device uses no memory for its corners.
-static void test_memory(void **state)
+TEST(test_memory)
 {
     enum { TRIANGLES = 1000000 };
-    (void)state;
     static const struct variant plain = {.alpha = 1, .samples = 1};
     float *positions = calloc(9 * TRIANGLES, sizeof *positions); // no area, so nothing is binned
     assert_non_null(positions);
@@ -151,10 +141,4 @@ static void test_memory(void **state)
     }
     assert_true(bytes[1] - bytes[0] < TRIANGLES / 10); // the list of tasks
     free(positions);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests_name("without-indices", tests, NULL, NULL);
 }

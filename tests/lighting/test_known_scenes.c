@@ -1,16 +1,8 @@
 // test_known_scenes.c: compares scene files with a mesh with normals and tangents, drawn as linear floats, with the
 // textbook's sums over the same triangles: rays through the pixels' centres, in double, implemented independently of
 // the renderer.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <cmocka.h>
-
+#include "test.h"
 #include "vec.h"
 
 enum { W = 96, H = 72, AROUND = 14, ALONG = 9, VERTICES = (AROUND + 1) * (ALONG + 1), TRIANGLES = 2 * AROUND * ALONG };
@@ -324,9 +316,8 @@ static void compare(const struct known *k)
 #define PLAIN      .attenuation = {1, 0, 0}, .diffuse = WHITE, .specular = WHITE
 #define FROM_POINT {POINT, "world", .at = {2, 3, 4}, PLAIN}
 
-static void test_known_scenes(void **unused)
+TEST(test_known_scenes)
 {
-    (void)unused;
     static const struct known cases[] = {
         {"point", STRAIGHT, .lights = {FROM_POINT}, .light_count = 1},
         {"point, attenuated, ranged", STRAIGHT,
@@ -365,10 +356,4 @@ static void test_known_scenes(void **unused)
     make_mesh();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         compare(&cases[i]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_scenes)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

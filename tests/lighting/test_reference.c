@@ -1,18 +1,7 @@
 // test_reference.c: compares the integral of environment light by fixed directions (lam_draw_params.reference) with
 // quadrature in double precision, implemented from docs/lighting/physical.md independently with libm.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <lambent/lambent.h>
-
+#include "test.h"
 #include "environment_scene.h"
 #include "layered_textbook.h"
 
@@ -142,9 +131,8 @@ static size_t differences(int count, double *out, size_t capacity)
 }
 
 // 4096 directions are within 0.2 % of the integral for half of the points, and within 0.5 % for nine tenths.
-static void test_integral(void **state)
+TEST(test_integral)
 {
-    (void)state;
     static double out[1000];
     size_t count = differences(4096, out, 1000);
     assert_true(count > 150);
@@ -256,9 +244,8 @@ static lam_image draw_ball(const lam_environment *environment, const lam_materia
 
 // For every combination of layers, 4096 directions are within 0.4 % of the sum over all directions, and within 0.2 % in
 // the mean.
-static void test_layers(void **state)
+TEST(test_layers)
 {
-    (void)state;
     static const int places[PLACES][2] = {{16, 16}, {9, 11}, {25, 20}, {3, 14}};
     lam_environment *environment = make_environment();
     for (int number = 0; number < COMBINATIONS; number++) {
@@ -299,22 +286,13 @@ static void test_layers(void **state)
 }
 
 // In a uniform environment, a white metal returns all light, and half as many directions do not change that.
-static void test_white_furnace(void **state)
-{
-    (void)state;
-    check_white_furnace((lam_draw_params){.reference = 1024});
-}
+TEST(test_white_furnace) { check_white_furnace((lam_draw_params){.reference = 1024}); }
 
-static void test_same_bytes(void **state)
-{
-    (void)state;
-    check_same_bytes((lam_draw_params){.reference = 19});
-}
+TEST(test_same_bytes) { check_same_bytes((lam_draw_params){.reference = 19}); }
 
 // An environment without light, one with light in a single texel, and numbers out of range.
-static void test_limits(void **state)
+TEST(test_limits)
 {
-    (void)state;
     lam_error error;
     lam_image image = {0};
     assert_true(lam_image_make(&image, 64, 32, LAM_RGBA32F, &error));
@@ -350,12 +328,4 @@ static void test_limits(void **state)
     lam_device_free(device);
     lam_scene_free(scene);
     lam_image_free(&image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_integral), cmocka_unit_test(test_layers),
-                                       cmocka_unit_test(test_white_furnace), cmocka_unit_test(test_same_bytes),
-                                       cmocka_unit_test(test_limits)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,17 +1,7 @@
 // test_animation.c: the interface of animations, and scenes that are reset to a marked state.
 // tests/cli/test_animation.py decodes the files and tests their contents.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 static void fill(lam_image *image, uint8_t r, uint8_t g, uint8_t b, uint8_t a)
 {
@@ -29,9 +19,8 @@ static lam_animation *make(const char *format, const lam_animation_params *param
     return animation;
 }
 
-static void test_formats(void **state)
+TEST(test_formats)
 {
-    (void)state;
     assert_string_equal(lam_animation_format("a/b.PNG"), "png");
     assert_string_equal(lam_animation_format("b.webp"), "webp");
     assert_null(lam_animation_format("b.jpg"));
@@ -43,9 +32,8 @@ static void test_formats(void **state)
     assert_string_equal(error.text, "animation: 'jpg' is not a format for animations, expected png or webp");
 }
 
-static void test_arguments(void **state)
+TEST(test_arguments)
 {
-    (void)state;
     lam_error error;
     const lam_animation_params wrong[] = {{.frames_per_second = 0.05},
                                           {.frames_per_second = 241},
@@ -80,9 +68,8 @@ static void test_arguments(void **state)
 }
 
 // Frames of every 8-bit format, and the end.
-static void test_frames(void **state)
+TEST(test_frames)
 {
-    (void)state;
     lam_error error;
     lam_animation *animation = make("png", &(lam_animation_params){.loops = 3});
     static const lam_pixel_format formats[] = {LAM_RGBA8, LAM_BGRA8, LAM_RGB8, LAM_GREY8};
@@ -103,9 +90,8 @@ static void test_frames(void **state)
 }
 
 // Readers of still pictures see the first frame of the file, even if later frames have more channels.
-static void test_first_frame(void **state)
+TEST(test_first_frame)
 {
-    (void)state;
     lam_error error;
     lam_image image, back;
     lam_bytes bytes;
@@ -133,9 +119,8 @@ static void test_first_frame(void **state)
     lam_animation_free(animation);
 }
 
-static void test_cancelled(void **state)
+TEST(test_cancelled)
 {
-    (void)state;
     lam_error error;
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
@@ -165,9 +150,8 @@ static void fill_noise(lam_image *image, uint32_t *seed)
 }
 
 // Encoded frames count: a PNG of n frames is refused if they, or they and the file, exceed the limit.
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     enum { LIMIT = 50000, FRAME = 30 * 20 * 4 };
     const lam_control control = {.memory_limit_bytes = LIMIT};
     lam_error error;
@@ -199,9 +183,8 @@ static void test_memory(void **state)
 }
 
 // For a WebP, the encoder's canvases count, and the memory for encoding a frame.
-static void test_memory_webp(void **state)
+TEST(test_memory_webp)
 {
-    (void)state;
     enum { CANVASES = 3 * 4 * 30 * 20, NEXT = 12 * 30 * 20 };
     lam_error error;
     lam_image image;
@@ -230,9 +213,8 @@ static void draw(const lam_scene *scene, lam_device *device, lam_image *image)
 }
 
 // A reset restores the picture after any change.
-static void test_reset(void **state)
+TEST(test_reset)
 {
-    (void)state;
     lam_error error;
     lam_scene *scene = lam_scene_make(&error);
     assert_false(lam_scene_reset(scene, &error)); // nothing is marked
@@ -287,9 +269,8 @@ static void test_reset(void **state)
     lam_scene_free(scene);
 }
 
-static void test_warnings_once(void **state)
+TEST(test_warnings_once)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     lam_scene_add_warning(scene, "one");
     lam_scene_add_warning(scene, "two");
@@ -299,24 +280,12 @@ static void test_warnings_once(void **state)
     lam_scene_free(scene);
 }
 
-static void test_rotation(void **state)
+TEST(test_rotation)
 {
-    (void)state;
     // A quarter turn about the diagonal of y and z maps x to its cross product with it.
     lam_mat4 m = lam_mat4_rotation((lam_vec3){0, 3, 3}, 1.57079632679489661923);
     const double expected[3] = {0, sqrt(0.5), -sqrt(0.5)};
     for (int i = 0; i < 3; i++)
         assert_true(fabs(m.m[i][0] - expected[i]) < 1e-15);
     assert_true(m.m[3][3] == 1 && m.m[0][3] == 0 && m.m[3][0] == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),     cmocka_unit_test(test_arguments), cmocka_unit_test(test_frames),
-        cmocka_unit_test(test_first_frame), cmocka_unit_test(test_cancelled), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_memory_webp), cmocka_unit_test(test_reset),     cmocka_unit_test(test_warnings_once),
-        cmocka_unit_test(test_rotation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 // test_device.c: the common interface of devices: arguments, control, sharing, memory, and the caller's floating-point
 // state.
+#include "test.h"
 #include "scenes.h"
 
 #include "float_state.h"
@@ -7,16 +8,6 @@
 
 #include <lambent/settings.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 #include <pthread.h>
 
 static struct demo make_demo(const char *name)
@@ -45,9 +36,8 @@ static lam_image make_image(int width, int height)
 }
 
 // Without a given number of samples, the picture's size determines it, for any shape.
-static void test_default_samples(void **state)
+TEST(test_default_samples)
 {
-    (void)state;
     static const struct {
         int width, height, samples;
     } cases[] = {{512, 512, 8}, {513, 512, 4},     {512, 513, 4},  {2048, 128, 8}, {2048, 129, 4},
@@ -72,9 +62,8 @@ static void test_default_samples(void **state)
     lam_scene_free(demo.scene);
 }
 
-static void test_arguments(void **state)
+TEST(test_arguments)
 {
-    (void)state;
     struct demo demo = make_demo("sphere-phong");
     lam_device *device = make_device(1);
     lam_image image = make_image(32, 32), none = {0};
@@ -118,9 +107,8 @@ static void test_arguments(void **state)
     lam_scene_free(demo.scene);
 }
 
-static void test_cancel_and_limits(void **state)
+TEST(test_cancel_and_limits)
 {
-    (void)state;
     struct demo demo = make_demo("teapot");
     lam_device *device = make_device(2);
     lam_image image = make_image(256, 256);
@@ -165,9 +153,8 @@ static void see_progress(void *user, double share, const char *step)
     seen->calls++;
 }
 
-static void test_progress(void **state)
+TEST(test_progress)
 {
-    (void)state;
     struct demo demo = make_demo("teapot");
     lam_device *device =
         make_device(1); // reports come from the calling thread: with others it may draw few tiles itself
@@ -184,9 +171,8 @@ static void test_progress(void **state)
 }
 
 // After the first frame, drawing the same kind of frame allocates nothing.
-static void test_memory_settles(void **state)
+TEST(test_memory_settles)
 {
-    (void)state;
     struct demo demo = make_demo("ground"); // including clipped pieces
     lam_device *device = make_device(1);
     lam_image image = make_image(300, 200);
@@ -205,9 +191,8 @@ static void test_memory_settles(void **state)
 }
 
 // A host that rounds upwards and flushes denormals gets the same bytes, and its state is restored.
-static void test_float_state(void **state)
+TEST(test_float_state)
 {
-    (void)state;
 #if defined(__SSE2__)
     struct demo demo = make_demo("lights");
     lam_device *device = make_device(2);
@@ -256,9 +241,8 @@ static void *share_scene(void *argument)
     return NULL;
 }
 
-static void test_shared_scene(void **state)
+TEST(test_shared_scene)
 {
-    (void)state;
     struct demo demo = make_demo("knot-blinn-phong");
     enum { THREADS = 4 };
     struct sharing sharing[THREADS];
@@ -278,9 +262,8 @@ static void test_shared_scene(void **state)
     lam_scene_free(demo.scene);
 }
 
-static void test_null_device(void **state)
+TEST(test_null_device)
 {
-    (void)state;
     struct demo demo = make_demo("sphere-flat");
     lam_device *device = lam_device_null(NULL);
     lam_image image = make_image(16, 16);
@@ -297,9 +280,8 @@ static void test_null_device(void **state)
 }
 
 // The fitted camera: the projected vertices take 92 % of the tighter side and are centred.
-static void test_fit(void **state)
+TEST(test_fit)
 {
-    (void)state;
     static const char *const names[] = {"teapot", "cone", "stretched"};
     for (int n = 0; n < 3; n++)
         for (int wide = 0; wide < 2; wide++) {
@@ -365,9 +347,8 @@ static lam_scene *load_sheet(bool when_drawn, lam_normals normals, bool clear)
 }
 
 // Normals computed while drawing give the same bytes as normals computed before, for any drawing.
-static void test_normals_when_drawn(void **state)
+TEST(test_normals_when_drawn)
 {
-    (void)state;
     for (int all = 0; all < 2 * 2 * 3 * 2 * 3; all++) {
         const int i = all / 2;
         const lam_normals normals = all % 2 ? LAM_NORMALS_FACET : LAM_NORMALS_FILE;
@@ -418,9 +399,8 @@ static void test_normals_when_drawn(void **state)
 }
 
 // A number outside the range of its row in the table of settings causes an error that names the member.
-static void test_ranges_of_settings(void **state)
+TEST(test_ranges_of_settings)
 {
-    (void)state;
     struct demo demo = make_demo("sphere-phong");
     lam_device *device = make_device(1);
     lam_image image = make_image(8, 8);
@@ -459,17 +439,4 @@ static void test_ranges_of_settings(void **state)
     lam_image_free(&image);
     lam_device_free(device);
     lam_scene_free(demo.scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_default_samples),    cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_cancel_and_limits),  cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_memory_settles),     cmocka_unit_test(test_float_state),
-        cmocka_unit_test(test_shared_scene),       cmocka_unit_test(test_null_device),
-        cmocka_unit_test(test_ranges_of_settings), cmocka_unit_test(test_fit),
-        cmocka_unit_test(test_normals_when_drawn),
-    };
-    return cmocka_run_group_tests_name("device", tests, NULL, NULL);
 }

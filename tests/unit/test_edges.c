@@ -1,8 +1,7 @@
 // test_edges.c: wireframes and feature edges: selection, width and hidden lines, the same on every device.
+#include "test.h"
 #include "device_fixture.h"
 #include "loading.h"
-
-#include <math.h>
 
 #ifndef M_PI
 #define M_PI 3.14159265358979323846
@@ -105,9 +104,8 @@ static lam_mesh cube(void)
     return (lam_mesh){.positions = cube_positions, .vertex_count = 8, .indices = cube_indices, .triangle_count = 12};
 }
 
-static void cubes(void **state)
+TEST(cubes)
 {
-    (void)state;
     lam_mesh mesh = cube();
     lam_scene *scene = scene_of(&mesh);
     for (int flat = 0; flat < 2; flat++) {
@@ -173,9 +171,8 @@ static void cubes(void **state)
 
 // --- the area of a line is its width times its length, at any position
 
-static void widths(void **state)
+TEST(widths)
 {
-    (void)state;
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     for (int turn = 0; turn < 12; turn++) {
         double angle = turn * 0.13, shift = turn * 0.0007, s = sin(angle), c = cos(angle);
@@ -219,9 +216,8 @@ static void widths(void **state)
 
 // --- the outline of a sphere is one closed curve
 
-static void silhouettes(void **state)
+TEST(silhouettes)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 97, .stacks = 53}, NULL);
@@ -259,9 +255,8 @@ static double next_random(uint32_t *state)
     return (double)(*state >> 8) / (1 << 24);
 }
 
-static void surfaces(void **state)
+TEST(surfaces)
 {
-    (void)state;
     // A plate: a square over two rectangles, whose common corner is in the middle of the square's edge; and a step on
     // that edge, which makes it a crease.
     static const float plate[] = {-1,     0, 0, 1,  0,  0, 1,      1,  0, -1, 1,  0,
@@ -336,9 +331,8 @@ static double hidden_share(lam_object front, lam_material material, double *rays
     return 1 - width;
 }
 
-static void hiding(void **state)
+TEST(hiding)
 {
-    (void)state;
     double rays;
     lam_material material = lam_material_default();
     lam_object object = lam_object_default();
@@ -363,9 +357,8 @@ static void hiding(void **state)
 }
 
 // An edge that leads past the eye ends at the near plane, and surfaces in front of that plane hide nothing.
-static void near_plane(void **state)
+TEST(near_plane)
 {
-    (void)state;
     static const float p[] = {0, -0.5f, -8, 0, -0.5f, 8, -3, -0.5f, -8};
     lam_mesh mesh = {.positions = p, .vertex_count = 3, .triangle_count = 1};
     lam_scene *scene = scene_of(&mesh);
@@ -391,9 +384,8 @@ static void near_plane(void **state)
 
 // --- every instruction set, any number of threads, every format
 
-static void same_bytes(void **state)
+TEST(same_bytes)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "teapot", &(lam_shape_params){.slices = 40}, NULL);
@@ -422,9 +414,8 @@ static void same_bytes(void **state)
     lam_scene_free(scene);
 }
 
-static void colors(void **state)
+TEST(colors)
 {
-    (void)state;
     lam_mesh mesh = cube();
     lam_scene *scene = scene_of(&mesh);
     lam_camera camera = camera_at(0, 0, 6);
@@ -480,9 +471,8 @@ static void colors(void **state)
     lam_scene_free(scene);
 }
 
-static void mistakes(void **state)
+TEST(mistakes)
 {
-    (void)state;
     lam_mesh mesh = cube();
     lam_scene *scene = scene_of(&mesh);
     lam_camera camera = camera_at(0, 0, 6);
@@ -518,9 +508,8 @@ static void mistakes(void **state)
 // --- duplicate faces
 
 // A file that contains each face twice, once for either side, gives the lines of single faces.
-static void twins(void **state)
+TEST(twins)
 {
-    (void)state;
     uint32_t twice[72];
     for (int i = 0; i < 12; i++)
         for (int k = 0; k < 3; k++) {
@@ -560,9 +549,8 @@ static uint64_t edges_of(const char *text, const char *name, bool polygons)
     return count;
 }
 
-static void polygons(void **state)
+TEST(polygons)
 {
-    (void)state;
     // A quad, a triangle next to it, and an L of six corners, which is not convex.
     static const char obj[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 0 -1 0\nv 2 -1 0\nv 2 -2 0\nv 1 -2 0\n"
                               "v 1 -1.5 0\nv 0 -1.5 0\nf 1 2 3 4\nf 2 5 3\nf 6 7 8 9 10 11\n";
@@ -576,13 +564,4 @@ static void polygons(void **state)
     assert_int_equal(edges_of(ply, "a.ply", false), 5 + 2);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cubes),      cmocka_unit_test(widths), cmocka_unit_test(silhouettes),
-        cmocka_unit_test(surfaces),   cmocka_unit_test(hiding), cmocka_unit_test(near_plane),
-        cmocka_unit_test(same_bytes), cmocka_unit_test(colors), cmocka_unit_test(mistakes),
-        cmocka_unit_test(polygons),   cmocka_unit_test(twins),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

@@ -1,17 +1,7 @@
 // test_encoders.c: JPEG and WebP pictures equal the encoded pictures, over the background, within the error of the
 // quality.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 enum { WIDTH = 61, HEIGHT = 37, PIXELS = WIDTH * HEIGHT };
 
@@ -78,9 +68,8 @@ static int jpeg_sampling(const lam_bytes *bytes)
     return -1;
 }
 
-static void test_jpeg_quality(void **state)
+TEST(test_jpeg_quality)
 {
-    (void)state;
     lam_image image = make_picture(WIDTH, HEIGHT, true);
     static const int qualities[] = {1, 30, 60, 89, 90, 100};
     size_t last_size = 0;
@@ -110,9 +99,8 @@ static void test_jpeg_quality(void **state)
 }
 
 // A JPEG shows the same as a PPM, whose numbers test_image.c compares with the formulas.
-static void test_jpeg_background(void **state)
+TEST(test_jpeg_background)
 {
-    (void)state;
     lam_image image = make_picture(WIDTH, HEIGHT, false);
     for (int raw = 0; raw < 2; raw++) {
         lam_save_params params = {.quality = 100, .background = {0.2f, 0.5f, 1}, .raw = raw};
@@ -129,9 +117,8 @@ static void test_jpeg_background(void **state)
     lam_image_free(&image);
 }
 
-static void test_webp(void **state)
+TEST(test_webp)
 {
-    (void)state;
     if (!have_webp())
         skip();
     lam_image image = make_picture(WIDTH, HEIGHT, false);
@@ -172,9 +159,8 @@ static void refused(const lam_image *image, const char *format, const lam_save_p
         fail_msg("'%s' does not say '%s'", error.text, word);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     lam_image image = make_picture(WIDTH, HEIGHT, true), wide = make_picture(16384, 1, true);
     lam_cancel cancel = {0};
     lam_control stop = {.cancel = &cancel}, late = {.time_limit_s = 1e-9};
@@ -201,15 +187,4 @@ static void test_refusals(void **state)
     refused(&wide, "jpg", NULL, LAM_LIMIT, "JPEG: Maximum supported image dimension is 65500");
     lam_image_free(&wide);
     lam_image_free(&image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_jpeg_quality),
-        cmocka_unit_test(test_jpeg_background),
-        cmocka_unit_test(test_webp),
-        cmocka_unit_test(test_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,19 +2,9 @@
 // have no seams.
 // The file has more than 600 lines because it contains the reference lookup in double and every picture and seam
 // compared with it.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#include "test.h"
 
-#include <cmocka.h>
 #include <spng.h>
 
 #include "vec.h"
@@ -139,9 +129,8 @@ static double apart(lam_rgb a, vec b)
 
 static lam_rgb look_at(const lam_environment *e, vec d) { return lam_environment_sample(e, (lam_vec3){d.x, d.y, d.z}); }
 
-static void test_lookup_equals_reference(void **state)
+TEST(test_lookup_equals_reference)
 {
-    (void)state;
     for (int size = 1; size <= 64; size = size * 2 + (size < 4)) {
         struct cube cube = make_cube(size, false);
         lam_environment *e = environment_of(&cube);
@@ -164,9 +153,8 @@ static double step_between(const lam_environment *e, vec a, vec b)
 }
 
 // Noise has steps of up to 1 between texels, so a seam would be visible.
-static void test_no_seams(void **state)
+TEST(test_no_seams)
 {
-    (void)state;
     const double tiny = 1e-6;
     struct cube cube = make_cube(5, false);
     lam_environment *e = environment_of(&cube);
@@ -340,46 +328,24 @@ static void check_ball(const struct ball *ball)
     free_cube(&cube);
 }
 
-static void test_ball(void **state)
+TEST(test_ball) { check_ball(&(struct ball){0}); }
+TEST(test_ball_turned) { check_ball(&(struct ball){.rotation = 0.7}); }
+TEST(test_ball_orthographic) { check_ball(&(struct ball){.orthographic = true, .rotation = -2}); }
+TEST(test_ball_z_up) { check_ball(&(struct ball){.up = LAM_UP_Z, .rotation = 1}); }
+TEST(test_ball_x_up)
 {
-    (void)state;
-    check_ball(&(struct ball){0});
-}
-static void test_ball_turned(void **state)
-{
-    (void)state;
-    check_ball(&(struct ball){.rotation = 0.7});
-}
-static void test_ball_orthographic(void **state)
-{
-    (void)state;
-    check_ball(&(struct ball){.orthographic = true, .rotation = -2});
-}
-static void test_ball_z_up(void **state)
-{
-    (void)state;
-    check_ball(&(struct ball){.up = LAM_UP_Z, .rotation = 1});
-}
-static void test_ball_x_up(void **state)
-{
-    (void)state;
     check_ball(&(struct ball){.up = LAM_UP_X, .light = true});
     check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_X, .rotation = 1});
     check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_Y, .rotation = 1});
     check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_Z, .rotation = 1});
 }
-static void test_ball_lit(void **state)
-{
-    (void)state;
-    check_ball(&(struct ball){.light = true});
-}
+TEST(test_ball_lit) { check_ball(&(struct ball){.light = true}); }
 
 // --- layouts
 
 // Cuts a cross: each face moves to its documented place.
-static void test_crosses(void **state)
+TEST(test_crosses)
 {
-    (void)state;
     enum { N = 6 };
     struct cube cube = make_cube(N, false);
     lam_environment *straight = environment_of(&cube);
@@ -417,9 +383,8 @@ static void test_crosses(void **state)
 }
 
 // A 2:1 picture whose pixels are their directions: −Z in the middle, +X to the right, +Y at the top.
-static void test_equirectangular(void **state)
+TEST(test_equirectangular)
 {
-    (void)state;
     enum { WIDTH = 512, HEIGHT = 256 };
     lam_image image = {0};
     assert_true(lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA32F, NULL));
@@ -464,9 +429,8 @@ static void write_16(const char *path, const uint16_t pixels[3])
 
 static double decoded(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-static void test_files_of_16_bits(void **state)
+TEST(test_files_of_16_bits)
 {
-    (void)state;
     static const vec axes[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     char names[6][64];
     const char *paths[6];
@@ -501,9 +465,8 @@ static void test_files_of_16_bits(void **state)
         unlink(names[face]);
 }
 
-static void test_real_files(void **state)
+TEST(test_real_files)
 {
-    (void)state;
     const char *models = getenv("LAMBENT_MODELS");
     char names[6][1024], hdr[1024];
     static const char *const sides[6] = {"posx", "negx", "posy", "negy", "posz", "negz"};
@@ -535,9 +498,8 @@ static void test_real_files(void **state)
     lam_environment_free(cube);
 }
 
-static void test_built_in(void **state)
+TEST(test_built_in)
 {
-    (void)state;
     int count = 0;
     for (; lam_environment_built_in_name(count); count++) {
         lam_environment *e = lam_environment_built_in(lam_environment_built_in_name(count), NULL);
@@ -556,9 +518,8 @@ static void test_built_in(void **state)
 }
 
 // A hash of every third texel of every third row: faster computations must not change the light.
-static void test_built_in_texels(void **state)
+TEST(test_built_in_texels)
 {
-    (void)state;
     static const uint64_t expected[2] = {0x6aa02f8d7b5c2bd7, 0x8253e980332de23e};
     for (int index = 0; index < 2; index++) {
         lam_environment *e = lam_environment_built_in(lam_environment_built_in_name(index), NULL);
@@ -594,9 +555,8 @@ static void refused(lam_environment *environment, const lam_error *error, lam_co
         fail_msg("'%s' does not say '%s'", error->text, word);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     lam_error error = {0};
     struct cube cube = make_cube(4, true);
     const lam_image *faces[6];
@@ -630,26 +590,4 @@ static void test_refusals(void **state)
     assert_true(apart(lam_environment_sample(NULL, (lam_vec3){1, 0, 0}), of(0, 0, 0)) == 0);
     lam_image_free(&odd);
     free_cube(&cube);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lookup_equals_reference),
-        cmocka_unit_test(test_no_seams),
-        cmocka_unit_test(test_ball),
-        cmocka_unit_test(test_ball_turned),
-        cmocka_unit_test(test_ball_orthographic),
-        cmocka_unit_test(test_ball_z_up),
-        cmocka_unit_test(test_ball_x_up),
-        cmocka_unit_test(test_ball_lit),
-        cmocka_unit_test(test_crosses),
-        cmocka_unit_test(test_equirectangular),
-        cmocka_unit_test(test_files_of_16_bits),
-        cmocka_unit_test(test_real_files),
-        cmocka_unit_test(test_built_in),
-        cmocka_unit_test(test_built_in_texels),
-        cmocka_unit_test(test_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,17 +1,7 @@
 // test_explain.c: an explained pixel equals the picture's pixel, bit for bit, and follows from its numbers.
+#include "test.h"
 #include "scenes.h"
 #include "share.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 static uint32_t random_state = 1;
 
@@ -312,9 +302,8 @@ static void check_pixels(lam_device *drawing, lam_device *explaining, const stru
 static const lam_shading shadings[] = {LAM_SHADING_PHONG, LAM_SHADING_GOURAUD, LAM_SHADING_FLAT};
 static const int sample_counts[] = {1, 4, 16};
 
-static void test_scenes(void **state)
+TEST(test_scenes)
 {
-    (void)state;
     lam_device *widest = make_device(LAM_ISA_AUTO), *plain = make_device(LAM_ISA_SCALAR);
     for (int i = 0; i < demo_count; i++) {
         struct demo demo;
@@ -342,9 +331,8 @@ static void test_scenes(void **state)
     lam_device_free(plain);
 }
 
-static void test_models(void **state)
+TEST(test_models)
 {
-    (void)state;
     static const char *const models[] = {"obj/koala/koala.obj", "obj/spot/spot_triangulated.obj",
                                          "obj/kaykit_hexagon/building_castle_blue.obj",
                                          "ply/derived/spot_colour_le.ply"};
@@ -377,9 +365,8 @@ static void test_models(void **state)
 }
 
 // gl1, matched highlights, an infinite viewer: each changes a number, and the explanation contains it.
-static void test_ways(void **state)
+TEST(test_ways)
 {
-    (void)state;
     lam_device *device = make_device(LAM_ISA_AUTO);
     for (int i = 0; i < demo_count; i++) {
         if (strcmp(demos[i].name, "lights") != 0)
@@ -400,9 +387,8 @@ static void test_ways(void **state)
 }
 
 // Maps, and their effect on a material: the numbers equal the pictures of --show, and S = pi D V n.l.
-static void test_values(void **state)
+TEST(test_values)
 {
-    (void)state;
     lam_device *device = make_device(LAM_ISA_AUTO);
     struct demo demo;
     assert_true(demo_build_named("textured", &demo, NULL));
@@ -460,9 +446,8 @@ static void test_values(void **state)
 }
 
 // A picture filled by one surface: each pixel of a tile is one fragment, and no sum is stored while it is drawn.
-static void test_filled(void **state)
+TEST(test_filled)
 {
-    (void)state;
     lam_device *device = make_device(LAM_ISA_AUTO);
     struct demo demo = {.width = 130, .height = 130, .camera = lam_camera_default()};
     demo.scene = lam_scene_make(NULL);
@@ -482,9 +467,8 @@ static void test_filled(void **state)
 }
 
 // A known point: the sphere's middle under the headlight, seen straight from the front.
-static void test_known(void **state)
+TEST(test_known)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     lam_material material = lam_material_default();
     material.name = "chalk";
@@ -535,9 +519,8 @@ static void test_known(void **state)
 }
 
 // A picture drawn after an explanation equals the picture before it.
-static void test_device_unchanged(void **state)
+TEST(test_device_unchanged)
 {
-    (void)state;
     struct demo demo;
     assert_true(demo_build(&demos[0], &demo, NULL));
     lam_device *device = make_device(LAM_ISA_AUTO);
@@ -555,14 +538,4 @@ static void test_device_unchanged(void **state)
     lam_image_free(&after);
     lam_device_free(device);
     lam_scene_free(demo.scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scenes),           cmocka_unit_test(test_models), cmocka_unit_test(test_ways),
-        cmocka_unit_test(test_values),           cmocka_unit_test(test_filled), cmocka_unit_test(test_known),
-        cmocka_unit_test(test_device_unchanged),
-    };
-    return cmocka_run_group_tests_name("explain", tests, NULL, NULL);
 }

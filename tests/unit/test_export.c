@@ -1,13 +1,6 @@
 // test_export.c: lam_scene_export: wrong arguments, files, losses, and a mesh with all attributes of a vertex.
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
 
-#include <lambent/lambent.h>
-
-#include <string.h>
+#include "test.h"
 
 static lam_scene *quad(bool by_triangle)
 {
@@ -37,9 +30,8 @@ static lam_scene *quad(bool by_triangle)
     return scene;
 }
 
-static void test_arguments(void **state)
+TEST(test_arguments)
 {
-    (void)state;
     lam_error error;
     lam_scene *scene = quad(false), *empty = lam_scene_make(&error);
     assert_null(lam_scene_export(NULL, "glb", NULL, &error));
@@ -66,9 +58,8 @@ static void test_arguments(void **state)
 }
 
 // Exports and reads again: the same triangles, in a file named after the model.
-static void test_round_trips(void **state)
+TEST(test_round_trips)
 {
-    (void)state;
     lam_error error;
     for (int by_triangle = 0; by_triangle < 2; by_triangle++) {
         lam_scene *scene = quad(by_triangle);
@@ -100,9 +91,8 @@ static void test_round_trips(void **state)
 
 // A camera that is written can be read again: planes that are missing are fitted to the scene, and a camera that is too
 // far away is left out, with a sentence.
-static void test_cameras(void **state)
+TEST(test_cameras)
 {
-    (void)state;
     static const struct {
         double near_plane, far_plane, ortho_half_height;
         int cameras, losses;
@@ -130,11 +120,4 @@ static void test_cameras(void **state)
         lam_export_free(result);
         lam_scene_free(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cameras), cmocka_unit_test(test_arguments),
-                                       cmocka_unit_test(test_round_trips)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

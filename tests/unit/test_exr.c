@@ -1,16 +1,7 @@
 // test_exr.c: writing, reading and recognising EXR pictures.
+#include "test.h"
+
 #include <lambent/image.h>
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 static lam_image noise(int width, int height, uint32_t seed)
 {
@@ -55,9 +46,8 @@ static void load(lam_image *image, const void *bytes, size_t size, lam_error *er
         fail_msg("%s", ok ? "was read" : error->text);
 }
 
-static void test_round(void **state)
+TEST(test_round)
 {
-    (void)state;
     static const int sizes[][2] = {{1, 1}, {37, 50}, {3, 16}, {130, 17}};
     for (int i = 0; i < 4; i++) {
         lam_image image = noise(sizes[i][0], sizes[i][1], 7), back;
@@ -94,9 +84,8 @@ static lam_layer layer(const char *name, const lam_image *image, const char *cha
     return (lam_layer){.name = name, .image = image, .channels = channels};
 }
 
-static void test_layers(void **state)
+TEST(test_layers)
 {
-    (void)state;
     lam_image picture = noise(20, 40, 1), light = noise(20, 40, 2), back;
     const lam_layer layers[] = {layer("diffuse", &light, NULL), layer(NULL, &picture, NULL),
                                 layer("depth", &light, "Z"), layer("n.l", &light, "Y")};
@@ -121,9 +110,8 @@ static void test_layers(void **state)
     lam_image_free(&light);
 }
 
-static void test_wrong(void **state)
+TEST(test_wrong)
 {
-    (void)state;
     lam_image image = noise(4, 4, 1), other = noise(4, 5, 1), bytes_image;
     assert_true(lam_image_make(&bytes_image, 4, 4, LAM_RGBA8, NULL));
     lam_bytes bytes;
@@ -146,11 +134,4 @@ static void test_wrong(void **state)
     lam_image_free(&image);
     lam_image_free(&other);
     lam_image_free(&bytes_image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_round), cmocka_unit_test(test_layers),
-                                       cmocka_unit_test(test_wrong)};
-    return cmocka_run_group_tests_name("exr", tests, NULL, NULL);
 }

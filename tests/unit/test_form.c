@@ -1,11 +1,7 @@
 // test_form.c: the form of a model depends on its surface, not on the order, the number or the copies of its triangles.
+#include "test.h"
 #include "loading.h"
 #include "scene_internal.h"
-
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <stdlib.h>
 
 enum { TRIANGLES_MAX = 1 << 17, SIDE = 61 };
 
@@ -148,9 +144,8 @@ static lam_scene *scene_with(const struct soup *soup, enum change change)
     return scene;
 }
 
-static void forms_depend_on_surfaces(void **state)
+TEST(forms_depend_on_surfaces)
 {
-    (void)state;
     struct {
         const char *name;
         struct soup soup;
@@ -190,9 +185,8 @@ static void forms_depend_on_surfaces(void **state)
 }
 
 // Threads, hidden objects and new transforms: the kept result is replaced when it no longer applies.
-static void kept_results_follow_the_scene(void **state)
+TEST(kept_results_follow_the_scene)
 {
-    (void)state;
     struct soup ball = grid(181, bumpy_ball), flat = plate(); // more triangles than one task
     lam_scene *scene = scene_with(&ball, NOTHING);
     lam_object object = lam_object_default();
@@ -211,13 +205,4 @@ static void kept_results_follow_the_scene(void **state)
     lam_scene_free(scene);
     free(ball.corners);
     free(flat.corners);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forms_depend_on_surfaces),
-        cmocka_unit_test(kept_results_follow_the_scene),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

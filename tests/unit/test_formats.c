@@ -1,16 +1,7 @@
 // test_formats.c: pictures of every format and stride: drawn, encoded, compared, captioned; and the caller's own
 // memory.
+#include "test.h"
 #include "share.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include <lambent/lambent.h>
 
 enum { WIDTH = 150, HEIGHT = 90, PAD = 12, GUARD = 0xA5 };
 
@@ -173,17 +164,15 @@ static void draw_all(lam_device *device, size_t first, size_t share)
     lam_device_free(device);
 }
 
-static void draws_every_format(void **state)
+TEST(draws_every_format)
 {
-    (void)state;
     for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
         if (lam_isa_usable((lam_isa)isa))
             draw_all(lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = (lam_isa)isa}, NULL), (size_t)isa, 3);
 }
 
-static void opengl_draws_every_format(void **state)
+TEST(opengl_draws_every_format)
 {
-    (void)state;
     lam_device *device = lam_device_gl(NULL, NULL);
     if (!device)
         skip();
@@ -215,9 +204,8 @@ static void fill(struct window *w, lam_image *tight)
         }
 }
 
-static void every_format_is_taken(void **state)
+TEST(every_format_is_taken)
 {
-    (void)state;
     lam_font *font = lam_font_open(NULL, NULL);
     for (int k = 0; k < 12; k++) {
         struct window w = open_window(formats[k / 2], k % 2);
@@ -259,9 +247,8 @@ static void every_format_is_taken(void **state)
     lam_font_free(font);
 }
 
-static void refuses_pictures_that_cannot_be(void **state)
+TEST(refuses_pictures_that_cannot_be)
 {
-    (void)state;
     static float memory[64 * 4];
     const lam_image good = {.width = 8, .height = 8, .pixels = memory};
     static const struct {
@@ -311,9 +298,8 @@ static void refuses_pictures_that_cannot_be(void **state)
 
 // --- lam_render
 
-static void renders_into_the_callers_memory(void **state)
+TEST(renders_into_the_callers_memory)
 {
-    (void)state;
     struct window w = open_window(LAM_BGRA8, false);
     lam_render_report report;
     lam_error error = {0};
@@ -345,16 +331,4 @@ static void renders_into_the_callers_memory(void **state)
     assert_false(lam_render(NULL, NULL, &image, &report, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     lam_device_free(device);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_every_format),
-        cmocka_unit_test(opengl_draws_every_format),
-        cmocka_unit_test(every_format_is_taken),
-        cmocka_unit_test(refuses_pictures_that_cannot_be),
-        cmocka_unit_test(renders_into_the_callers_memory),
-    };
-    return cmocka_run_group_tests_name("formats", tests, NULL, NULL);
 }

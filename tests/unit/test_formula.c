@@ -1,18 +1,7 @@
 // test_formula.c: surfaces given as text: functions compared with libm, derivatives compared with differences, meshes,
 // errors; and model files of saved meshes.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
+#include "test.h"
 #include "elementary.h"
 #include "formula.h"
 
@@ -31,9 +20,8 @@ static void check_near(const char *what, double x, double found, double expected
         fail_msg("%s(%.17g) is %.17g, expected %.17g", what, x, found, expected);
 }
 
-static void functions_match_libm(void **unused)
+TEST(functions_match_libm)
 {
-    (void)unused;
     for (int i = 0; i < 200000; i++) {
         double x = random_between(-40, 40), y = random_between(-700, 700), p = exp(random_between(-600, 600));
         double unit = random_between(-1, 1), b = random_between(-60, 60), a = exp(random_between(-10, 10));
@@ -73,9 +61,8 @@ static double value_of(const char *expression, double u, double v)
     return point.p.x;
 }
 
-static void precedence_is_the_usual_one(void **unused)
+TEST(precedence_is_the_usual_one)
 {
-    (void)unused;
     static const struct {
         const char *text;
         double value;
@@ -92,9 +79,8 @@ static void precedence_is_the_usual_one(void **unused)
     check_near("pi", 0, value_of("\xcf\x80", 0, 0), 3.14159265358979324, 1e-16);
 }
 
-static void derivatives_match_differences(void **unused)
+TEST(derivatives_match_differences)
 {
-    (void)unused;
     static const char *const rows[] = {
         "u^2*v^3",      "sin(u)*cos(v)",   "tan(u*v/4)",  "exp(u-v)",      "log(u+v^2)",        "u^v",
         "2^u",          "u^2.5",           "sqrt(u*u+v)", "asin(u/3)*v",   "acos(v/3)",         "atan(u*v)",
@@ -149,9 +135,8 @@ static void check_error(const char *text, const char *u, lam_code code, const ch
         fail_msg("%s: found '%s' (%d), expected '%s'", text, error.text, (int)error.code, says);
 }
 
-static void errors_name_the_column(void **unused)
+TEST(errors_name_the_column)
 {
-    (void)unused;
     lam_code bad = LAM_BAD_ARGUMENT;
     check_error("", NULL, bad, "x is missing");
     check_error("x=u;y=v", NULL, bad, "z is missing");
@@ -211,9 +196,8 @@ static int open_edges(const lam_mesh *mesh, int *euler)
     return open;
 }
 
-static void seams_are_welded(void **unused)
+TEST(seams_are_welded)
 {
-    (void)unused;
     static const struct {
         const char *name, *text, *u, *v;
         int open, euler; // open: edges at borders, with 32 × 16 segments
@@ -249,9 +233,8 @@ static void seams_are_welded(void **unused)
     }
 }
 
-static void normals_are_those_of_the_sphere(void **unused)
+TEST(normals_are_those_of_the_sphere)
 {
-    (void)unused;
     for (int flip = 0; flip < 2; flip++) {
         // u around and v downwards: the product of the derivatives points inward.
         lam_formula formula = {.text = "x=sin(v)*cos(u); y=sin(v)*sin(u); z=cos(v)", .v = "0..pi", .flip = flip};
@@ -278,9 +261,8 @@ static void normals_are_those_of_the_sphere(void **unused)
 }
 
 // Each side of a roof has one normal, also along the ridge, and so does each half of a double cone.
-static void creases_keep_their_normals(void **unused)
+TEST(creases_keep_their_normals)
 {
-    (void)unused;
     lam_formula roof = {.text = "x=u; y=v; z=-abs(u)", .u = "-1..1", .v = "-1..1"};
     lam_scene *scene = scene_of(&roof, NULL);
     const lam_mesh *m = lam_scene_mesh(scene, 0);
@@ -305,9 +287,8 @@ static void creases_keep_their_normals(void **unused)
     lam_scene_free(scene);
 }
 
-static void model_files_hold_the_mesh(void **unused)
+TEST(model_files_hold_the_mesh)
 {
-    (void)unused;
     static const char *const endings[] = {"obj", "stl", "ply"};
     lam_formula formula = {.text = "x=u; y=2v; z=3+u*v", .u = "0..1", .v = "0..1", .u_segments = 4, .v_segments = 3};
     lam_scene *scene = scene_of(&formula, NULL);
@@ -345,9 +326,8 @@ static void model_files_hold_the_mesh(void **unused)
 }
 
 // The gradient equals the differences, for each function of the language.
-static void gradients_match_differences(void **unused)
+TEST(gradients_match_differences)
 {
-    (void)unused;
     static const char *const rows[] = {"x^2+y^2+z^2-1",
                                        "a=2; (sqrt(x^2+y^2)-a)^2+z^2-1",
                                        "x*y*z",
@@ -383,9 +363,8 @@ static void gradients_match_differences(void **unused)
 
 // A sphere's surface is within the radius, its normals are its positions, and the box fits it, for any size and
 // position.
-static void implicit_surfaces_are_found(void **unused)
+TEST(implicit_surfaces_are_found)
 {
-    (void)unused;
     static const struct {
         const char *text, *x;
         bool flip;
@@ -472,21 +451,4 @@ static void implicit_surfaces_are_found(void **unused)
     assert_int_equal(lam_scene_add_formula(scene, &dense, &(lam_control){.time_limit_s = 0.05}, &error), -1);
     assert_int_equal(error.code, LAM_LIMIT);
     lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(functions_match_libm),
-        cmocka_unit_test(precedence_is_the_usual_one),
-        cmocka_unit_test(derivatives_match_differences),
-        cmocka_unit_test(gradients_match_differences),
-        cmocka_unit_test(implicit_surfaces_are_found),
-        cmocka_unit_test(errors_name_the_column),
-        cmocka_unit_test(seams_are_welded),
-        cmocka_unit_test(normals_are_those_of_the_sphere),
-        cmocka_unit_test(creases_keep_their_normals),
-        cmocka_unit_test(model_files_hold_the_mesh),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

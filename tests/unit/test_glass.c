@@ -1,16 +1,8 @@
 // test_glass.c: compares rough and thick glass with an evaluation in double: the exit point of light, absorption, blur;
 // and coloured glass in front of nothing.
+#include "test.h"
+
 #include <lambent/explain.h>
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 256 };
 
@@ -178,9 +170,8 @@ static void compare(const lam_image *image, int x, int y, const double expected[
 }
 
 // A pane that is tilted to the side and back, in front of the wall. A linear gradient of light is unchanged by blur.
-static void test_panes(void **state)
+TEST(test_panes)
 {
-    (void)state;
     static const double numbers[][3] = {{1.5, 0, 0},     {1.5, 0, 0.7}, {2.4, 0, 0.7},
                                         {1.1, 0.3, 0.4}, {1.5, 0.4, 0}, {1.33, 0.6, 0.9}};
     const double turn = 0.6, cs = cos(turn), sn = sin(turn), lean = 0.3, cl = cos(lean), sl = sin(lean);
@@ -216,9 +207,8 @@ static void test_panes(void **state)
 }
 
 // Balls with their real thickness, and rough ones. At the rim, the facets of the mesh are visible.
-static void test_balls(void **state)
+TEST(test_balls)
 {
-    (void)state;
     largest = 0;
     for (int rough = 0; rough < 2; rough++) {
         lam_material m = glass_of(1.5, 0.35 * rough, 1.2);
@@ -261,9 +251,8 @@ static double spline_step(double distance)
 
 // A step behind rough glass. Its width, 256 · 1024^(0.4 − 1) = 4 pixels, is the width of the texels of level 2, one of
 // whose edges is at the step.
-static void test_step(void **state)
+TEST(test_step)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(&error);
     lam_material m = glass_of(1.5, 0.4, 0);
     lam_mat4 place = lam_mat4_identity();
@@ -285,9 +274,8 @@ static void test_step(void **state)
 
 // Coloured glass in front of nothing: over white, the transparent picture equals the picture drawn over white, for any
 // glass; and a picture with a background needs no white.
-static void test_over_white(void **state)
+TEST(test_over_white)
 {
-    (void)state;
     for (int i = 0; i < 3; i++) {
         lam_scene *scene = lam_scene_make(&error);
         lam_material m = glass_of(i == 0 ? 1 : 1.5, i == 2 ? 0.5 : 0, 0.6);
@@ -309,9 +297,8 @@ static void test_over_white(void **state)
 }
 
 // The explanation of a pixel of thick, rough glass adds up to the pixel.
-static void test_explained(void **state)
+TEST(test_explained)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(&error);
     lam_material m = glass_of(1.5, 0.3, 0.8);
     lam_mat4 place = lam_mat4_identity();
@@ -341,12 +328,4 @@ static void test_explained(void **state)
     lam_device_free(device);
     lam_image_free(&image);
     lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_panes), cmocka_unit_test(test_balls),
-                                       cmocka_unit_test(test_step), cmocka_unit_test(test_over_white),
-                                       cmocka_unit_test(test_explained)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 // test_gltf.c: glTF: containers, buffers, all types of accessors, triangles, nodes, materials, lights, cameras, and
 // errors. The file has more than 600 lines because it contains a table-like test for each feature and error message of
 // one format.
+#include "test.h"
 #include "gltf_document.h"
-
-#include <math.h>
 
 // Four corners of the unit square in the plane z = 0 (48 bytes), and its two triangles as shorts (12 bytes).
 static void put_square(struct document *document)
@@ -42,9 +41,8 @@ static void check_square(const lam_scene *scene)
     assert_false(lam_scene_object(scene, 0)->one_sided);
 }
 
-static void test_containers(void **state)
+TEST(test_containers)
 {
-    (void)state;
     struct document document;
     struct made file;
     put_square(&document);
@@ -68,9 +66,8 @@ static void test_containers(void **state)
 }
 
 // Zero copy: a float array and 32-bit indices are the file's own bytes.
-static void test_in_place(void **state)
+TEST(test_in_place)
 {
-    (void)state;
     struct document document;
     struct made file;
     put_square(&document);
@@ -122,9 +119,8 @@ static lam_scene *load_attribute(const char *name, const char *accessor, const c
     return load_document(&document, json);
 }
 
-static void test_types(void **state)
+TEST(test_types)
 {
-    (void)state;
     static const int8_t i8[4][4] = {{0, 0, 127, 0}, {-128, 0, 0, 0}, {127, -127, 64, 0}, {1, 2, 3, 0}};
     static const int16_t i16[4][4] = {{0, 0, 32767, 0}, {-32768, 0, 0, 0}, {32767, -32767, 16384, 0}, {1, 2, 3, 0}};
     lam_scene *scene =
@@ -172,9 +168,8 @@ static void test_types(void **state)
     }
 }
 
-static void test_index_types(void **state)
+TEST(test_index_types)
 {
-    (void)state;
     static const int components[] = {5121, 5123, 5125};
     for (int i = 0; i < 3; i++) {
         struct document document;
@@ -204,9 +199,8 @@ static void test_index_types(void **state)
 }
 
 // Interleaved, at an offset, and sparse with and without a bufferView.
-static void test_layouts(void **state)
+TEST(test_layouts)
 {
-    (void)state;
     struct document document = {0};
     static const float rows[4][5] = {{9, 0, 0, 0, 9}, {9, 1, 0, 0, 9}, {9, 1, 1, 0, 9}, {9, 0, 1, 0, 9}};
     static const uint16_t indices[6] = {0, 1, 2, 0, 2, 3};
@@ -247,9 +241,8 @@ static void test_layouts(void **state)
     }
 }
 
-static void test_colors(void **state)
+TEST(test_colors)
 {
-    (void)state;
     static const uint8_t bytes[16] = {255, 0, 51, 128, 1, 2, 3, 255, 4, 5, 6, 7, 8, 9, 10, 11};
     static const uint16_t shorts[12] = {65535, 0, 13107, 1, 2, 3, 4, 5, 6, 7, 8, 9};
     static const float floats[16] = {1, 0, 0.25f, 0.5f, 2, -1, NAN, 3, 0, 0, 0, 0, 0, 0, 0, 1};
@@ -326,9 +319,8 @@ static void assert_triangles(const lam_scene *scene, uint32_t count, const uint3
         assert_int_equal(mesh->indices ? mesh->indices[i] : i, corners[i]);
 }
 
-static void test_modes(void **state)
+TEST(test_modes)
 {
-    (void)state;
     lam_scene *scene = load_mode(5, 5, (uint16_t[]){0, 1, 2, 3, 4}, true);
     assert_triangles(scene, 3, (uint32_t[]){0, 1, 2, 1, 3, 2, 2, 3, 4});
     lam_scene_free(scene);
@@ -354,9 +346,8 @@ static void test_modes(void **state)
 }
 
 // Primitives with different attributes are separate meshes, with common data shared.
-static void test_several_primitives(void **state)
+TEST(test_several_primitives)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     lam_scene *scene = load_document(
@@ -387,9 +378,8 @@ static void test_several_primitives(void **state)
 }
 
 // Two meshes with the same positions, far from zero: each gets its origin, and neither moves the other.
-static void test_shared_origin(void **state)
+TEST(test_shared_origin)
 {
-    (void)state;
     struct document document = {0};
     for (int i = 0; i < 4; i++)
         put_floats(&document, 3, (float[]){1000 + (float)(i == 1 || i == 2), (float)(i > 1), 0});
@@ -408,9 +398,8 @@ static void test_shared_origin(void **state)
 }
 
 // A file without normals gets flat ones (section 3.7.2.1), unless the caller requests others.
-static void test_normals(void **state)
+TEST(test_normals)
 {
-    (void)state;
     struct document document = {0};
     static const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0.2f};
     put_floats(&document, 12, corners);
@@ -431,9 +420,8 @@ static void test_normals(void **state)
 
 // --- nodes
 
-static void test_nodes(void **state)
+TEST(test_nodes)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     lam_scene *scene = load_document(
@@ -469,9 +457,8 @@ static void test_nodes(void **state)
     assert_string_equal(error.text, "a.gltf: there is no scene 'third'; expected one of 0 ('first'), 1");
 }
 
-static void test_instances(void **state)
+TEST(test_instances)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     put_floats(&document, 6, (float[]){1, 0, 0, 2, 0, 0});
@@ -503,9 +490,8 @@ static void test_instances(void **state)
 }
 
 // A scale of 0 hides a node; a flat node is omitted with a warning.
-static void test_zero_scale(void **state)
+TEST(test_zero_scale)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     lam_scene *scene = load_document(
@@ -533,9 +519,8 @@ static lam_scene *load_more(const char *more, const char *primitive, const lam_l
     return load_with(document.text, strlen(document.text), "a.gltf", params);
 }
 
-static void test_materials(void **state)
+TEST(test_materials)
 {
-    (void)state;
     lam_scene *scene = load_more(
         SCENE ", \"materials\": [{\"name\": \"plastic\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [0.5, 0.25, "
               "1, 0.5], "
@@ -580,9 +565,8 @@ static void test_materials(void **state)
 }
 
 // The numbers of the layers' extensions, clamped to their ranges; an unlit material has none.
-static void test_layers(void **state)
+TEST(test_layers)
 {
-    (void)state;
     static const char layers[] =
         "\"KHR_materials_ior\": {\"ior\": 0}, \"KHR_materials_specular\": {\"specularFactor\": 0.25, "
         "\"specularColorFactor\": [2, 0.5, -1]}, \"KHR_materials_clearcoat\": {\"clearcoatFactor\": 7, "
@@ -622,9 +606,8 @@ static void test_layers(void **state)
     lam_scene_free(scene);
 }
 
-static void test_variants(void **state)
+TEST(test_variants)
 {
-    (void)state;
     static const struct {
         const char *variant;
         int material;
@@ -641,9 +624,8 @@ static void test_variants(void **state)
     }
 }
 
-static void test_lights(void **state)
+TEST(test_lights)
 {
-    (void)state;
     lam_scene *scene = load_more("\"nodes\": [{\"mesh\": 0}, {\"translation\": [1, 2, 3], \"name\": \"bulb\", "
                                  "\"extensions\": {\"KHR_lights_punctual\": "
                                  "{\"light\": 0}}, \"children\": [2]}, {\"rotation\": [0, 0.7071067811865476, 0, "
@@ -680,9 +662,8 @@ static void test_lights(void **state)
     lam_scene_free(scene);
 }
 
-static void test_cameras(void **state)
+TEST(test_cameras)
 {
-    (void)state;
     lam_scene *scene = load_more(
         "\"nodes\": [{\"mesh\": 0}, {\"translation\": [0, 0, 9], \"camera\": 0, \"name\": \"eye\"}, {\"rotation\": [0, "
         "0.7071067811865476, 0, 0.7071067811865476], \"scale\": [3, 3, 3], \"camera\": 1}, {\"camera\": 2, "
@@ -735,9 +716,8 @@ static bool open_from_shelf(void *user, const char *name, struct lam_bytes *byte
     return true;
 }
 
-static void test_files(void **state)
+TEST(test_files)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     static const struct {
@@ -799,9 +779,8 @@ static void refuse_square(const char *piece, const char *by, lam_code code, cons
     refuse(document.text, strlen(document.text), "a.gltf", code, whole);
 }
 
-static void test_errors(void **state)
+TEST(test_errors)
 {
-    (void)state;
     static const struct {
         const char *piece, *by, *sentence;
         lam_code code;
@@ -896,9 +875,8 @@ static void test_errors(void **state)
 }
 
 // What is wrong but not needed is left out, with one warning.
-static void test_tolerated(void **state)
+TEST(test_tolerated)
 {
-    (void)state;
 #define LIGHT(light)                                                                                                   \
     "\"mesh\": 0, \"extensions\": {\"KHR_lights_punctual\": {\"light\": 0}}}], \"extensions\": "                       \
     "{\"KHR_lights_punctual\": {\"lights\": [" light "]}}, \"x\": [{"
@@ -1002,9 +980,8 @@ static void test_tolerated(void **state)
     }
 }
 
-static void test_binary_errors(void **state)
+TEST(test_binary_errors)
 {
-    (void)state;
     struct document document;
     struct made file, other;
     put_square(&document);
@@ -1037,9 +1014,8 @@ static void test_binary_errors(void **state)
     check_allocations(document.text, strlen(document.text), "a.gltf");
 }
 
-static void test_lenient(void **state)
+TEST(test_lenient)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     make_text(&document,
@@ -1078,9 +1054,8 @@ static void test_lenient(void **state)
 }
 
 // A long file read in parallel pieces gives the same mesh with any number of threads, and the first error.
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     enum { VERTICES = 20000 };
     size_t size = 28 + 600 + VERTICES * 20;
     uint8_t *file = calloc(1, size);
@@ -1114,23 +1089,4 @@ static void test_threads(void **state)
     memcpy(rows + 20 * 9000 + 4, (float[]){NAN}, 4);
     assert_same_for_threads(file, header[2], "a.glb");
     free(file);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_containers),    cmocka_unit_test(test_in_place),
-        cmocka_unit_test(test_types),         cmocka_unit_test(test_index_types),
-        cmocka_unit_test(test_layouts),       cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_modes),         cmocka_unit_test(test_several_primitives),
-        cmocka_unit_test(test_shared_origin), cmocka_unit_test(test_normals),
-        cmocka_unit_test(test_nodes),         cmocka_unit_test(test_instances),
-        cmocka_unit_test(test_zero_scale),    cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_layers),        cmocka_unit_test(test_variants),
-        cmocka_unit_test(test_lights),        cmocka_unit_test(test_cameras),
-        cmocka_unit_test(test_files),         cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_tolerated),     cmocka_unit_test(test_binary_errors),
-        cmocka_unit_test(test_lenient),       cmocka_unit_test(test_threads),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

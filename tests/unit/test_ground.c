@@ -1,18 +1,8 @@
 // test_ground.c: the ground plane under a scene: its height, its shadow, contact, and cases without it.
+#include "test.h"
 #include "device_fixture.h"
 
 #include <lambent/explain.h>
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 128 };
 
@@ -116,9 +106,8 @@ static void check_shadow(const lam_camera *camera, lam_rgb color)
     lam_scene_free(scene);
 }
 
-static void test_shadow(void **state)
+TEST(test_shadow)
 {
-    (void)state;
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){6, 4, 5};
     camera.target = (lam_vec3){1, 0, 0};
@@ -131,9 +120,8 @@ static void test_shadow(void **state)
 }
 
 // Ambient occlusion darkens the ground near a wall, more at smaller distances, and nothing far away.
-static void test_contact(void **state)
+TEST(test_contact)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(&error);
     add(scene, "cube", (lam_vec3){1, 1, 1}, (lam_vec3){0, 0, 0});
     lam_scene_set_ambient(scene, (lam_rgb){1, 1, 1});
@@ -186,9 +174,8 @@ static double height_of(const lam_scene *scene, const lam_camera *camera, lam_dr
 }
 
 // The lowest vertex determines the height, also of a rotated model, along the up axis.
-static void test_height(void **state)
+TEST(test_height)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(&error);
     add(scene, "cube", (lam_vec3){1, 2, 3}, (lam_vec3){5, 7, 9});
     lam_draw_params params = {.ground = LAM_GROUND_CHECKER};
@@ -216,9 +203,8 @@ static bool same(const lam_image *a, const lam_image *b) { return memcmp(a->pixe
 
 // From below there is no ground, nor in pictures of quantities if it only catches shadows; the scene's own shadows
 // remain. The rig is given, because the default rig has other lights if a ground is requested.
-static void test_absent(void **state)
+TEST(test_absent)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(&error);
     add(scene, "torus-knot", (lam_vec3){1, 1, 1}, (lam_vec3){0, 0, 0});
     for (int ortho = 0; ortho < 2; ortho++) {
@@ -248,9 +234,8 @@ static void test_absent(void **state)
 }
 
 // A picture over a background shows the catcher's alpha over it, and terms have the same alpha.
-static void test_premultiplied(void **state)
+TEST(test_premultiplied)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(&error);
     add(scene, "sphere", (lam_vec3){1, 1, 1}, (lam_vec3){0, 0, 0});
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
@@ -289,9 +274,8 @@ static void refused(lam_draw_params params, const char *says)
     lam_scene_free(scene);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     refused((lam_draw_params){.ground = LAM_GROUND_COUNT}, "lam_ground");
     refused((lam_draw_params){.ground = LAM_GROUND_COLOR, .ground_color = {0, -1, 0}}, "ground_color");
     refused((lam_draw_params){.ground = LAM_GROUND_SHADOW, .shading = LAM_SHADING_FLAT}, "Phong");
@@ -306,9 +290,8 @@ static void test_refused(void **state)
 }
 
 // Sizes whose ground is not representable: the model is drawn without it. A light of an unknown type has no field.
-static void test_extreme_sizes(void **state)
+TEST(test_extreme_sizes)
 {
-    (void)state;
     static const double sizes[][2] = {{1e-90, 0},    {1e-90, 1}, {1e-40, 1e30}, {1e90, 0},
                                       {1e90, 1e100}, {1, 1e160}, {1, 1e300}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
@@ -331,12 +314,4 @@ static void test_extreme_sizes(void **state)
     assert_int_equal(light.type, 1000);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shadow),        cmocka_unit_test(test_contact), cmocka_unit_test(test_height),
-        cmocka_unit_test(test_extreme_sizes), cmocka_unit_test(test_absent),  cmocka_unit_test(test_premultiplied),
-        cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests_name("ground", tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

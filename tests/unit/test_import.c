@@ -1,14 +1,8 @@
 // test_import.c: recognising formats, related files, and the models of the corpus.
-#include <lambent/lambent.h>
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
+
 #include <sys/stat.h>
-#include <unistd.h>
-#include <cmocka.h>
 
 #include "temporary_folder.h"
 
@@ -59,9 +53,8 @@ static void expect_error(const char *bytes, size_t size, const char *name, lam_c
     assert_null(lam_scene_load_memory(bytes, size, name, NULL, NULL, NULL)); // the caller requests no error
 }
 
-static void test_formats(void **unused)
+TEST(test_formats)
 {
-    (void)unused;
     static const char *const known[][2] = {
         {"obj", "obj"}, {"stl", "stl"}, {"ply", "ply"}, {"gltf", "gltf glb"}, {"scene", "json"}};
     int count = 0, found = 0;
@@ -88,9 +81,8 @@ static void test_formats(void **unused)
 }
 
 // The content determines the format; the extension only resolves ambiguity.
-static void test_choice(void **unused)
+TEST(test_choice)
 {
-    (void)unused;
     static const struct {
         const char *text, *name, *format;
     } rows[] = {
@@ -129,9 +121,8 @@ static void test_choice(void **unused)
     lam_scene_free(scene);
 }
 
-static void test_foreign(void **unused)
+TEST(test_foreign)
 {
-    (void)unused;
     static const struct {
         const char *bytes;
         size_t size;
@@ -168,9 +159,8 @@ static void test_foreign(void **unused)
             expect_error(rows[i].bytes, rows[i].size, rows[i].name, rows[i].code, rows[i].sentence);
 }
 
-static void test_arguments(void **unused)
+TEST(test_arguments)
 {
-    (void)unused;
     static const struct {
         lam_load_params params;
         lam_code code;
@@ -203,9 +193,8 @@ static void write_text(const char *path, const char *text)
 }
 
 // Files on disk: material files are opened only in the model's folder.
-static void test_files(void **unused)
+TEST(test_files)
 {
-    (void)unused;
     char outer[] = "/tmp/lambent-import-XXXXXX", path[64], inner[64];
     assert_non_null(mkdtemp(outer));
     lam_error error;
@@ -268,9 +257,8 @@ static lam_scene *load_inner(const char *text)
 }
 
 // Links are followed if they stay in the model's folder or below; a pipe is never opened.
-static void test_links(void **unused)
+TEST(test_links, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     write_text(in_folder("outside.mtl"), "newmtl outside\nKd 1 0 0\n");
     write_text(in_folder("inner/sub/a.mtl"), "newmtl inside\nKd 1 0 0\n");
     assert_int_equal(symlink("sub/a.mtl", in_folder("inner/link.mtl")), 0);
@@ -315,9 +303,8 @@ static void test_links(void **unused)
 
 // Warnings about a material file contain its path; they show at most 32 characters of a name in a file, without control
 // characters.
-static void test_shown_names(void **unused)
+TEST(test_shown_names, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     write_text(in_folder("inner/b.mtl"), "newmtl b\nKd 0 1\nKd x\nfoo\n");
     lam_scene *scene = load_inner("mtllib b.mtl\n");
     char wanted[200];
@@ -348,9 +335,8 @@ static void test_shown_names(void **unused)
 }
 
 // A zero byte in a material file causes a warning, like every mistake in it.
-static void test_zero_in_materials(void **unused)
+TEST(test_zero_in_materials, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     static const char bytes[] = "newmtl z\nKd 1 0 0\n# a\0b\nNs 7\n";
     FILE *file = fopen(in_folder("inner/z.mtl"), "wb");
     assert_non_null(file);
@@ -385,9 +371,8 @@ static bool count_and_open(void *user, const char *name, lam_bytes *bytes, lam_e
     return true;
 }
 
-static void test_libraries(void **unused)
+TEST(test_libraries)
 {
-    (void)unused;
     enum { TIMES = 2000 };
     static const char *const spellings[] = {"a.mtl",  "./a.mtl",      ".//./a.mtl",    "../x/a.mtl",
                                             "/a.mtl", "C:\\x\\a.mtl", "x.mtl a.mtl x", "a.mtl a.mtl"};
@@ -425,9 +410,8 @@ static void test_libraries(void **unused)
 }
 
 // Every OBJ model of the corpus, with the number of triangles in its table, with one thread and with three.
-static void test_corpus(void **unused)
+TEST(test_corpus)
 {
-    (void)unused;
     const char *models = getenv("LAMBENT_MODELS");
     models = models ? models : "../shared/models";
     char path[1024], line[1024];
@@ -462,21 +446,4 @@ static void test_corpus(void **unused)
     }
     fclose(table);
     assert_true(loaded > 40);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_choice),
-        cmocka_unit_test(test_foreign),
-        cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_corpus),
-        cmocka_unit_test(test_libraries),
-        cmocka_unit_test_setup_teardown(test_links, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_shown_names, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_zero_in_materials, make_folder, remove_folder),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 // test_json.c: JSON is parsed like Jansson does, but a failed allocation is reported as a limit, not as an error of the
 // file, for every allocation, failing once or permanently.
+#include "test.h"
 #include "json_parse.h"
 #include "loading.h"
-
-#include <unistd.h>
 
 // --- an allocator for Jansson that fails
 
@@ -51,9 +50,8 @@ static lam_scene *load_whole(lam_error *error)
     return lam_scene_load_memory(whole, sizeof whole - 1, "s.json", &(lam_load_params){.threads = 1}, NULL, error);
 }
 
-static void test_scene(void **state)
+TEST(test_scene, .setup_func = fail_allocations, .teardown_func = restore)
 {
-    (void)state;
     for (int mode = 0; mode < 2; mode++) {
         int refused = 0;
         for (long i = 0;; i++) {
@@ -76,9 +74,8 @@ static void test_scene(void **state)
 }
 
 // Writing likewise.
-static void test_save(void **state)
+TEST(test_save, .setup_func = fail_allocations, .teardown_func = restore)
 {
-    (void)state;
     char path[] = "/tmp/lambent-json-XXXXXX";
     int file = mkstemp(path);
     assert_true(file >= 0);
@@ -122,9 +119,8 @@ static void expect_agreement(const char *text, size_t size)
     json_decref(wanted);
 }
 
-static void test_agreement(void **state)
+TEST(test_agreement)
 {
-    (void)state;
     static const char *const texts[] = {
         "[]",
         "{}",
@@ -198,9 +194,8 @@ static void test_agreement(void **state)
     }
 }
 
-static void test_sentences(void **state)
+TEST(test_sentences)
 {
-    (void)state;
     static const struct {
         const char *text, *sentence;
     } rows[] = {
@@ -236,9 +231,8 @@ static void test_sentences(void **state)
     json_decref(list);
 }
 
-static void test_depth_and_limits(void **state)
+TEST(test_depth_and_limits)
 {
-    (void)state;
     char deep[2 * LAM_JSON_DEPTH_LIMIT + 2];
     for (int extra = 0; extra < 2; extra++) {
         size_t depth = LAM_JSON_DEPTH_LIMIT + (size_t)extra;
@@ -266,16 +260,4 @@ static void test_depth_and_limits(void **state)
     assert_null(json_parse(text, 2 * NUMBERS + 1, "t.json", &call, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
     free(text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_scene, fail_allocations, restore),
-        cmocka_unit_test_setup_teardown(test_save, fail_allocations, restore),
-        cmocka_unit_test(test_agreement),
-        cmocka_unit_test(test_sentences),
-        cmocka_unit_test(test_depth_and_limits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

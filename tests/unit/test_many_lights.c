@@ -1,17 +1,7 @@
 // test_many_lights.c: lights omitted in a part of the picture: lights without contribution change no bit, lights with a
 // small contribution change the picture by at most the cutoff, and the selection does not depend on the machine.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
+#include "test.h"
 #include "../lighting/random.h"
 
 enum { WIDTH = 150, HEIGHT = 100, CHANNELS = WIDTH * HEIGHT * 4 };
@@ -95,9 +85,8 @@ static lam_light any_light(struct random *r)
 
 // The picture of four lights, few enough to be evaluated everywhere, has the same bits among so many black lights that
 // lists are made: no contributing light was omitted, and the order of the sum did not change.
-static void test_exact(void **state)
+TEST(test_exact)
 {
-    (void)state;
     struct random r = {3};
     uint64_t asked = 0, all = 0;
     for (int round = 0; round < 60; round++) {
@@ -161,9 +150,8 @@ static int largest_byte_difference(const lam_image *a, const lam_image *b)
 }
 
 // By default, no byte differs by more than 1, and far fewer lights are evaluated.
-static void test_default(void **state)
+TEST(test_default)
 {
-    (void)state;
     for (int way = 0; way < 8; way++) {
         lam_scene *scene = make_many(way & 1, way & 2);
         lam_draw_params params = {.rig = LAM_RIG_NONE, .color = way & 4 ? LAM_COLOR_RAW : LAM_COLOR_SRGB};
@@ -184,9 +172,8 @@ static void test_default(void **state)
 
 // Linear pictures: the difference stays below the cutoff, with any cutoff, exposure and method; a larger cutoff saves
 // more. Terms use the same lights, and still add up.
-static void test_bound(void **state)
+TEST(test_bound)
 {
-    (void)state;
     static const float cutoffs[] = {-1, 0.001f, 0.05f, 0.5f};
     for (int way = 0; way < 6; way++) {
         lam_scene *scene = make_many(way & 1, false);
@@ -234,9 +221,8 @@ static void test_bound(void **state)
 }
 
 // The bytes are the same with every instruction set and number of threads, also with many layers over one another.
-static void test_same_everywhere(void **state)
+TEST(test_same_everywhere)
 {
-    (void)state;
     for (int way = 0; way < 6; way++) {
         lam_scene *scene = make_many(way & 1, way & 2);
         lam_draw_params params = {.rig = LAM_RIG_NONE, .light_cutoff = 0.02f, .samples = way & 2 ? 16 : 4};
@@ -256,9 +242,8 @@ static void test_same_everywhere(void **state)
 }
 
 // An explained pixel equals the picture's; its lights state which are omitted, and the others add up.
-static void test_explained(void **state)
+TEST(test_explained)
 {
-    (void)state;
     lam_error error = {0};
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){0.4, 0.9, 3.4};
@@ -298,9 +283,8 @@ static void test_explained(void **state)
     lam_device_free(device);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     lam_scene *scene = make_scene(false);
     lam_device *device = lam_device_null(NULL);
     lam_camera camera = lam_camera_default();
@@ -317,13 +301,4 @@ static void test_refused(void **state)
     lam_image_free(&image);
     lam_device_free(device);
     lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_exact),           cmocka_unit_test(test_default),   cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_same_everywhere), cmocka_unit_test(test_explained), cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,15 +1,7 @@
 // test_occlusion.c: compares ambient occlusion with known results: planes have none, and a floor next to a wall has the
 // integral over all directions; it also tests when a frame has any.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 enum { SIZE = 256 };
 
@@ -51,9 +43,8 @@ static float *shares(const lam_scene *scene, const lam_camera *camera, lam_draw_
 }
 
 // A plane at any angle, in perspective or not, has exactly all of the light, except for rounding.
-static void test_planes(void **state)
+TEST(test_planes)
 {
-    (void)state;
     for (int turn = 0; turn < 8; turn++)
         for (int orthographic = 0; orthographic < 2; orthographic++) {
             lam_scene *scene = lam_scene_make(NULL);
@@ -125,9 +116,8 @@ static void check_wall(lam_occlusion method)
     lam_scene_free(scene);
 }
 
-static void test_wall(void **state)
+TEST(test_wall)
 {
-    (void)state;
     check_wall(LAM_OCCLUSION_SCREEN);
     check_wall(LAM_OCCLUSION_RAYS);
 }
@@ -209,9 +199,8 @@ static bool explained(lam_device *device, const lam_scene *scene, const lam_came
 static uint32_t random_bits(uint32_t *state) { return *state = *state * 1664525 + 1013904223; }
 
 // Random triangles: the device's rays compared with the integral, at pixels over the picture.
-static void test_rays_integral(void **state)
+TEST(test_rays_integral)
 {
-    (void)state;
     enum { COUNT = 60, POINTS = 48 };
     uint32_t seed = 7;
     float p[COUNT * 9];
@@ -296,9 +285,8 @@ static float mean_share(const float *a, double *deviation)
 
 // Known shares: a plane has all of the light, the inside of a closed box none, and a hemispherical bowl ½ everywhere,
 // because all parts of a sphere are equally bright to one another.
-static void test_rays_known(void **state)
+TEST(test_rays_known)
 {
-    (void)state;
     double deviation;
     lam_scene *scene = lam_scene_make(NULL);
     add_rectangle(scene, (lam_vec3){-1, -1, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 2, 0});
@@ -358,9 +346,8 @@ static void test_rays_known(void **state)
 }
 
 // A plate over a floor: a translucent plate blocks the share of its opacity, and a masked one everything or nothing.
-static void test_rays_opacity(void **state)
+TEST(test_rays_opacity)
 {
-    (void)state;
     lam_error error;
     double taken[4];
     const struct {
@@ -392,9 +379,8 @@ static void test_rays_opacity(void **state)
 
 // A plate above a floor, seen at an angle from the front: the visible floor under it is dark. Compares the screen's
 // shares with the ray-traced shares, over the whole picture.
-static void test_screen_beside_rays(void **state)
+TEST(test_screen_beside_rays)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     add_rectangle(scene, (lam_vec3){-2, 0, 2}, (lam_vec3){4, 0, 0}, (lam_vec3){0, 0, -4});
     add_rectangle(scene, (lam_vec3){-1, 0.2, 1}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0, -2});
@@ -424,9 +410,8 @@ static void test_screen_beside_rays(void **state)
 }
 
 // Cavity shading leaves planes unchanged, darkens the inner edges of a step and lightens the outer ones.
-static void test_cavity(void **state)
+TEST(test_cavity)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     // Two levels and the wall between them, seen from the front and above.
     add_rectangle(scene, (lam_vec3){-1, 0, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0, 1});
@@ -469,9 +454,8 @@ static bool same_picture(const lam_scene *scene, lam_draw_params a, lam_draw_par
 }
 
 // The studio has occlusion, and lights given by hand have none unless requested; occlusion needs Phong shading.
-static void test_when(void **state)
+TEST(test_when)
 {
-    (void)state;
     lam_error error;
     lam_scene *scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
@@ -519,15 +503,4 @@ static void test_when(void **state)
     lam_image_free(&image);
     lam_device_free(device);
     lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_planes),        cmocka_unit_test(test_wall),
-        cmocka_unit_test(test_rays_integral), cmocka_unit_test(test_rays_known),
-        cmocka_unit_test(test_rays_opacity),  cmocka_unit_test(test_screen_beside_rays),
-        cmocka_unit_test(test_when),          cmocka_unit_test(test_cavity),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

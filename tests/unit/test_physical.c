@@ -1,13 +1,6 @@
 // test_physical.c: metallic–roughness materials next to classic ones, and conversions between them.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
+#include "test.h"
 
 #include <lambent/device.h>
 #include <lambent/words.h>
@@ -28,9 +21,8 @@ static lam_material physical(float r, float g, float b, float metallic, float ro
 
 static bool near(float a, double b) { return fabs((double)a - b) <= 1e-5 * fmax(1, fabs(b)); }
 
-static void test_as_classic(void **state)
+TEST(test_as_classic)
 {
-    (void)state;
     lam_material from = physical(0.8f, 0.4f, 0.1f, 0.25f, 0.5f), m = lam_material_as_classic(&from);
     double rho = 0.25, alpha = 2 / (rho * rho) - 2, energy = (alpha + 8) / 8; // conventions, "Mapping"
     assert_false(m.physical);
@@ -48,9 +40,8 @@ static void test_as_classic(void **state)
 }
 
 // Converting a physical material and back preserves it.
-static void test_and_back(void **state)
+TEST(test_and_back)
 {
-    (void)state;
     for (int i = 0; i < 1000; i++) {
         float metallic = (float)(i % 10) / 9, roughness = 0.2f + 0.075f * (float)(i / 10 % 10);
         float base = 0.1f + 0.085f * (float)(i / 100);
@@ -105,9 +96,8 @@ static void draw(const lam_scene *scene, lam_reflection reflection, float out[HE
 
 static float picture[5][HEIGHT][WIDTH][4];
 
-static void test_two_kinds_in_one_scene(void **state)
+TEST(test_two_kinds_in_one_scene)
 {
-    (void)state;
     lam_material metal = physical(1, 0.7f, 0.3f, 1, 0.3f),
                  plastic = lam_material_named(LAM_MATERIAL_RED_PLASTIC, LAM_COLOR_SRGB);
     lam_scene *scene = two_spheres(&metal, &plastic);
@@ -134,9 +124,8 @@ static void test_two_kinds_in_one_scene(void **state)
 
 // A device keeps the studio of its first scene without lights. Pictures of later scenes, which need its light for other
 // roughnesses, are the same as those of a new device.
-static void test_kept_studio(void **state)
+TEST(test_kept_studio)
 {
-    (void)state;
     lam_material metal = physical(1, 0.7f, 0.3f, 1, 0.3f), dull = physical(0.2f, 0.7f, 0.3f, 0, 0.9f);
     const lam_material *right[] = {&metal, &dull, &metal};
     lam_scene *scenes[3];
@@ -158,9 +147,8 @@ static void test_kept_studio(void **state)
     lam_device_free(device);
 }
 
-static void test_unlit(void **state)
+TEST(test_unlit)
 {
-    (void)state;
     lam_material flat = lam_material_default(), lit = lam_material_default();
     flat.unlit = true;
     flat.diffuse = (lam_rgba){0.25f, 0.5f, 0.75f, 1};
@@ -175,9 +163,8 @@ static void test_unlit(void **state)
 }
 
 // If the front and back of an object are of different kinds, the reflection model of the front draws both.
-static void test_back_of_the_other_kind(void **state)
+TEST(test_back_of_the_other_kind)
 {
-    (void)state;
     lam_error error;
     lam_material metal = physical(1, 0.7f, 0.3f, 0.5f, 0.4f),
                  plastic = lam_material_named(LAM_MATERIAL_RED_PLASTIC, LAM_COLOR_SRGB);
@@ -201,9 +188,8 @@ static void test_back_of_the_other_kind(void **state)
 
 // A square that faces the eye, with normals that point away from it, and light in their direction: neither a metal nor
 // a layer is black.
-static void test_leaning_normals(void **state)
+TEST(test_leaning_normals)
 {
-    (void)state;
     static const float positions[] = {-2, -1, 0, 2, -1, 0, 2, 1, 0, -2, 1, 0};
     static const float normals[] = {-1, 0, -0.2f, -1, 0, -0.2f, -1, 0, -0.8f, -1, 0, -0.8f};
     static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
@@ -245,9 +231,8 @@ static void test_leaning_normals(void **state)
     }
 }
 
-static void test_words(void **state)
+TEST(test_words)
 {
-    (void)state;
     lam_error error;
     lam_material m = lam_material_default();
     assert_true(lam_material_parse("#ffffff,roughness=0.25", LAM_COLOR_SRGB, &m, &error));
@@ -256,19 +241,4 @@ static void test_words(void **state)
     assert_true(lam_material_parse("#ffffff,shininess=8", LAM_COLOR_SRGB, &m, &error));
     assert_false(m.physical);
     assert_false(lam_material_parse("metallic=2", LAM_COLOR_SRGB, &m, &error));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_as_classic),
-        cmocka_unit_test(test_and_back),
-        cmocka_unit_test(test_two_kinds_in_one_scene),
-        cmocka_unit_test(test_kept_studio),
-        cmocka_unit_test(test_unlit),
-        cmocka_unit_test(test_back_of_the_other_kind),
-        cmocka_unit_test(test_leaning_normals),
-        cmocka_unit_test(test_words),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,6 @@
 // test_pick.c: lam_pick finds the same surface at a pixel's centre as lam_explain and the picture.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
-
+#include "test.h"
 #include "device_fixture.h"
 
 enum { WIDTH = 60, HEIGHT = 44, STEP = 5 }; // pixels between two compared ones
@@ -88,9 +80,8 @@ static int compare(const lam_scene *scene, const lam_camera *camera)
     return surfaces;
 }
 
-static void as_explained(void **state)
+TEST(as_explained)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     int glass = material_of(scene, LAM_ALPHA_BLEND, 0.25f), hole = material_of(scene, LAM_ALPHA_MASK, 0.25f),
         clear = material_of(scene, LAM_ALPHA_BLEND, 0);
@@ -121,9 +112,8 @@ static void as_explained(void **state)
     lam_scene_free(scene);
 }
 
-static void lines_and_points(void **state)
+TEST(lines_and_points)
 {
-    (void)state;
     const float positions[] = {-1, -1, 0, 1, 1, 0, -1, 1, 0, 1, -1, 0, 0, 0.7f, 0};
     lam_scene *scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
@@ -152,9 +142,8 @@ static void refused(lam_scene *scene, lam_camera camera, lam_pick_pixel pixel, c
     assert_non_null(strstr(error.text, text));
 }
 
-static void bad_arguments(void **state)
+TEST(bad_arguments)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     add(scene, "cube", 0, -1);
     lam_camera camera = lam_camera_fit(scene, WIDTH, HEIGHT, NULL), nowhere = camera;
@@ -175,12 +164,4 @@ static void bad_arguments(void **state)
     lam_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_explained),
-        cmocka_unit_test(lines_and_points),
-        cmocka_unit_test(bad_arguments),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

@@ -1,6 +1,7 @@
 // test_png.c: PNG files decode to the picture from which they were made, and have the same bytes on every machine. The
 // file has more than 600 lines because the encoder's steps, each with a second implementation here, share their test
 // pictures.
+#include "test.h"
 #include "fnv.h"
 #include "checksum.h"
 #include "deflate.h"
@@ -8,18 +9,9 @@
 
 #include <lambent/image.h>
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <dlfcn.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
-#include <unistd.h>
 
-#include <cmocka.h>
 #include <spng.h>
 
 static uint64_t random_state;
@@ -139,9 +131,8 @@ static void round_trip(int width, int height, enum content content)
     lam_image_free(&image);
 }
 
-static void decodes_to_the_source(void **state)
+TEST(decodes_to_the_source)
 {
-    (void)state;
     static const int sizes[][2] = {{1, 1},   {2, 1},    {1, 2},     {3, 3},   {4, 7},    {5, 64},   {15, 16},
                                    {16, 15}, {17, 17},  {31, 9},    {33, 2},  {63, 65},  {86, 86},  {87, 3},
                                    {88, 5},  {129, 97}, {255, 257}, {300, 3}, {515, 70}, {1024, 64}};
@@ -150,9 +141,8 @@ static void decodes_to_the_source(void **state)
             round_trip(sizes[i][0], sizes[i][1], content);
 }
 
-static void decodes_at_the_limits_of_size(void **state)
+TEST(decodes_at_the_limits_of_size)
 {
-    (void)state;
     for (int content = 0; content < CONTENTS; content++) {
         round_trip(65535, 1, content);
         round_trip(1, 65535, content);
@@ -162,9 +152,8 @@ static void decodes_at_the_limits_of_size(void **state)
 }
 
 // Every length of a run from 1 to 700 bytes and more, in both pixel sizes, at several offsets.
-static void holds_runs_of_every_length(void **state)
+TEST(holds_runs_of_every_length)
 {
-    (void)state;
     for (int opaque = 0; opaque < 2; opaque++) {
         lam_image image;
         lam_error error;
@@ -185,9 +174,8 @@ static void holds_runs_of_every_length(void **state)
     }
 }
 
-static void threads_change_nothing(void **state)
+TEST(threads_change_nothing)
 {
-    (void)state;
     static const int sizes[][2] = {{1024, 700}, {333, 1001}, {65535, 5}, {7, 50000}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int content = NOISE; content < CONTENTS; content++) {
@@ -207,9 +195,8 @@ static void threads_change_nothing(void **state)
 
 // One hash for each picture, the same for every compiler, build type and instruction set. They change only if the
 // encoder is meant to write other bytes; in this case, also check the sizes.
-static void bytes_are_the_recorded_ones(void **state)
+TEST(bytes_are_the_recorded_ones)
 {
-    (void)state;
     static const struct {
         enum content content;
         size_t size;
@@ -257,9 +244,8 @@ static bool have_best(void)
 }
 
 // The best compression: strips of several rows and of one; the same pixels in fewer bytes, for any number of threads.
-static void best_files_decode(void **state)
+TEST(best_files_decode)
 {
-    (void)state;
     if (!have_best())
         skip();
     static const int sizes[][2] = {{1, 1},   {3, 3},    {5, 64},    {16, 15},  {87, 3},
@@ -289,9 +275,8 @@ static void best_files_decode(void **state)
 }
 
 // The time limit is reached during the picture, and the call ends long before it would be done.
-static void best_keeps_its_time(void **state)
+TEST(best_keeps_its_time)
 {
-    (void)state;
     if (!have_best())
         skip();
     lam_image image;
@@ -317,9 +302,8 @@ static void *no_memory(size_t size)
 }
 
 // Running out of memory in libdeflate is also an error.
-static void best_without_memory(void **state)
+TEST(best_without_memory)
 {
-    (void)state;
     if (!have_best())
         skip();
     void *library = dlopen("libdeflate.so.0", RTLD_NOW | RTLD_LOCAL);
@@ -343,9 +327,8 @@ static void best_without_memory(void **state)
 }
 
 // A cancelled call, with either compression, gives an error and no bytes.
-static void stops_when_cancelled(void **state)
+TEST(stops_when_cancelled)
 {
-    (void)state;
     lam_image image;
     make_picture(&image, 400, 300, GRADIENT);
     const int last = have_best() ? LAM_COMPRESS_BEST : LAM_COMPRESS_FAST;
@@ -374,9 +357,8 @@ static const uint8_t *find_chunk(const lam_bytes *bytes, const char *type)
     return NULL;
 }
 
-static void chunks_say_what_is_in_it(void **state)
+TEST(chunks_say_what_is_in_it)
 {
-    (void)state;
     lam_image image;
     lam_bytes bytes;
     make_picture(&image, 40, 30, GRADIENT);
@@ -406,9 +388,8 @@ static int color_type(const lam_image *image, int threads, lam_compress compress
 
 enum { TYPE_GREY = 0, TYPE_RGB = 2, TYPE_GREY_ALPHA = 4, TYPE_RGBA = 6 };
 
-static void the_fewest_channels_are_written(void **state)
+TEST(the_fewest_channels_are_written)
 {
-    (void)state;
     static const int expected[CONTENTS] = {
         [CLEAR] = TYPE_GREY_ALPHA,    [OPAQUE_NOISE] = TYPE_RGB, [NOISE] = TYPE_RGBA, [GRADIENT] = TYPE_RGBA,
         [OPAQUE_GRADIENT] = TYPE_RGB, [RUNS] = TYPE_RGBA,        [FLAT] = TYPE_RGB,   [LAST_PIXEL] = TYPE_RGBA,
@@ -437,9 +418,8 @@ static void the_fewest_channels_are_written(void **state)
 }
 
 // A picture of one pixel; and a single pixel, first or last, that the others' channels cannot represent.
-static void one_pixel_decides(void **state)
+TEST(one_pixel_decides)
 {
-    (void)state;
     static const struct {
         uint32_t pixel;
         int alone, in_grey, in_grey_alpha, in_rgb;
@@ -470,9 +450,8 @@ static void one_pixel_decides(void **state)
     }
 }
 
-static void checksums_are_the_published_ones(void **state)
+TEST(checksums_are_the_published_ones)
 {
-    (void)state;
     struct crc_tables tables;
     crc_tables_make(&tables);
     assert_int_equal(crc_of(&tables, (const uint8_t *)"123456789", 9),
@@ -485,9 +464,8 @@ static void checksums_are_the_published_ones(void **state)
 }
 
 // Compares a row with the definition of Adler-32, byte by byte, for all pixel sizes and every tail.
-static void adler_of_rows(void **state)
+TEST(adler_of_rows)
 {
-    (void)state;
     uint32_t *row = calloc(65536 + 16, 4);
     assert_non_null(row);
     random_state = 5;
@@ -524,9 +502,8 @@ static int plain_paeth(int a, int b, int c)
 }
 
 // Compares the filters with the specification, for every combination of left, above and above left in steps.
-static void filters_as_specified(void **state)
+TEST(filters_as_specified)
 {
-    (void)state;
     enum { WIDTH = 53 };
     uint8_t rows[2][WIDTH * 4];
     uint32_t out[(WIDTH + 3) / 4 * 4], fewer[(WIDTH + 3) / 4 * 4];
@@ -624,17 +601,15 @@ static void compare_ends_of_zeros(int bytes_per_pixel)
     arena_free(&arena);
 }
 
-static void ends_of_zeros_change_nothing(void **state)
+TEST(ends_of_zeros_change_nothing)
 {
-    (void)state;
     for (int bytes_per_pixel = 1; bytes_per_pixel <= 4; bytes_per_pixel++)
         compare_ends_of_zeros(bytes_per_pixel);
 }
 
 // Codes of limited length: complete (Kraft's sum is 1), within the limit, and more frequent ones are never longer.
-static void codes_are_complete(void **state)
+TEST(codes_are_complete)
 {
-    (void)state;
     random_state = 3;
     for (int round = 0; round < 400; round++) {
         uint32_t counts[286] = {0};
@@ -672,9 +647,8 @@ static void codes_are_complete(void **state)
 }
 
 // Each allocation fails once: the result is an error, and nothing leaks (which a leak checker verifies).
-static void survives_without_memory(void **state)
+TEST(survives_without_memory)
 {
-    (void)state;
     const int last = have_best() ? LAM_COMPRESS_BEST : LAM_COMPRESS_FAST;
     for (int compress = LAM_COMPRESS_FAST; compress <= last; compress++) {
         lam_image image;
@@ -698,29 +672,4 @@ static void survives_without_memory(void **state)
         assert_true(failures >= 4);
         lam_image_free(&image);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(checksums_are_the_published_ones),
-        cmocka_unit_test(adler_of_rows),
-        cmocka_unit_test(filters_as_specified),
-        cmocka_unit_test(ends_of_zeros_change_nothing),
-        cmocka_unit_test(codes_are_complete),
-        cmocka_unit_test(decodes_to_the_source),
-        cmocka_unit_test(decodes_at_the_limits_of_size),
-        cmocka_unit_test(holds_runs_of_every_length),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(bytes_are_the_recorded_ones),
-        cmocka_unit_test(the_fewest_channels_are_written),
-        cmocka_unit_test(one_pixel_decides),
-        cmocka_unit_test(best_files_decode),
-        cmocka_unit_test(best_keeps_its_time),
-        cmocka_unit_test(best_without_memory),
-        cmocka_unit_test(stops_when_cancelled),
-        cmocka_unit_test(chunks_say_what_is_in_it),
-        cmocka_unit_test(survives_without_memory),
-    };
-    return cmocka_run_group_tests_name("png", tests, NULL, NULL);
 }

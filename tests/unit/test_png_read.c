@@ -1,16 +1,10 @@
 // test_png_read.c: pictures read in one step (png_read.c) have libspng's pixels, and files that libspng refuses are
 // refused.
+#include "test.h"
 #include "dynamic_library.h"
 #include "pixels.h"
 #include "png_encoding.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 #include <spng.h>
 #include <zlib.h>
 
@@ -138,9 +132,8 @@ static const struct {
 } kinds[] = {{0, 1}, {2, 3}, {6, 4}};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static void test_files(void **state)
+TEST(test_files)
 {
-    (void)state;
     static uint8_t expected[WIDTH * HEIGHT * 4];
     for (int kind = 0; kind < KINDS; kind++)
         for (enum fault fault = NOTHING; fault < FAULTS; fault++) {
@@ -160,9 +153,8 @@ static void test_files(void **state)
 }
 
 // Without alpha, three bytes per pixel if the caller accepts them: the same numbers.
-static void test_opaque(void **state)
+TEST(test_opaque)
 {
-    (void)state;
     static uint8_t expected[WIDTH * HEIGHT * 4];
     for (int kind = 0; kind < KINDS; kind++)
         for (enum fault fault = NOTHING; fault <= LAST_SOUND; fault++) {
@@ -182,9 +174,8 @@ static void test_opaque(void **state)
 }
 
 // Files with a fault, or with data after their pixels, are not read in one step.
-static void test_at_once(void **state)
+TEST(test_at_once)
 {
-    (void)state;
     void *library = library_open("libdeflate.so.0", false, NULL);
     if (!library) {
         print_message("libdeflate is not installed\n");
@@ -210,11 +201,4 @@ static void test_at_once(void **state)
             lam_image_free(&image);
             free(file.bytes);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_files), cmocka_unit_test(test_opaque),
-                                       cmocka_unit_test(test_at_once)};
-    return cmocka_run_group_tests_name("png-read", tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 // test_repair.c: vertices that are not finite and normals without a direction, in every format (scene_repair.c).
+#include "test.h"
 #include "gltf_document.h"
-
-#include <math.h>
 
 // The unit square in the plane z = 0. Its other vertices, 4 and 5, are not finite or not used.
 #define PLY(VERTICES, FACES, MORE)                                                                                     \
@@ -38,9 +37,8 @@ static const struct row {
      1, 1, 1, 0},
 };
 
-static void test_positions(void **state)
+TEST(test_positions)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         for (int threads = 1; threads <= 3; threads += 2) {
             const struct row *row = &rows[i];
@@ -75,9 +73,8 @@ static void test_positions(void **state)
 }
 
 // Colours, smoothing groups, materials and texture coordinates stay with their triangles.
-static void test_attributes(void **state)
+TEST(test_attributes)
 {
-    (void)state;
     lam_scene *scene = load_text(PLY("5", "3", "") "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                                    "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\ninf 0 0\n3 0 1 2 1 2 3\n"
                                                    "3 0 1 4 4 5 6\n3 0 2 3 7 8 9\n",
@@ -100,9 +97,8 @@ static void test_attributes(void **state)
 }
 
 // All normals of the square's corners are (0, 0, 1), except the file's own where `own` is set.
-static void test_normals(void **state)
+TEST(test_normals)
 {
-    (void)state;
     static const struct {
         const char *name, *text;
         int bad, all; // in the warning
@@ -143,9 +139,8 @@ static void test_normals(void **state)
 }
 
 // Points without a normal become a mesh without normals, which is unlit.
-static void test_points(void **state)
+TEST(test_points)
 {
-    (void)state;
     lam_scene *scene = load_text(CLOUD "0 0 0 0 0 1\n1 0 0 nan 0 1\n0 1 0 1 0 0\n", "a.ply");
     assert_int_equal(lam_scene_object_count(scene), 2);
     assert_int_equal(lam_scene_mesh(scene, 0)->point_count, 2);
@@ -161,9 +156,8 @@ static void test_points(void **state)
 }
 
 // glTF: meshes that share their vertices; normals as floats and as normalised bytes; flat normals replace missing ones.
-static void test_gltf(void **state)
+TEST(test_gltf)
 {
-    (void)state;
     for (int bytes = 0; bytes < 2; bytes++)
         for (int bad = 0; bad < 2; bad++) {
             static const float corners[15] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 9, 9, 0};
@@ -204,13 +198,4 @@ static void test_gltf(void **state)
             assert_null(lam_scene_warning(scene, bad + 1));
             lam_scene_free(scene);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_positions), cmocka_unit_test(test_attributes), cmocka_unit_test(test_normals),
-        cmocka_unit_test(test_points),    cmocka_unit_test(test_gltf),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

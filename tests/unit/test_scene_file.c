@@ -1,8 +1,6 @@
 // test_scene_file.c: scene files: every key, every error, truncated files, failed allocations, and writing.
+#include "test.h"
 #include "loading.h"
-
-#include <math.h>
-#include <unistd.h>
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
@@ -45,9 +43,8 @@ static lam_scene *good(const char *text)
 
 #define BALL "\"objects\": [{\"shape\": \"sphere\", \"slices\": 4, \"stacks\": 2}]"
 
-static void test_defaults(void **unused)
+TEST(test_defaults)
 {
-    (void)unused;
     lam_scene *scene = good("{\"lambent\": 1, " BALL "}");
     lam_picture_settings settings;
     assert_true(lam_scene_picture_settings(scene, &settings));
@@ -65,9 +62,8 @@ static void test_defaults(void **unused)
     lam_scene_free(plain);
 }
 
-static void test_picture(void **unused)
+TEST(test_picture)
 {
-    (void)unused;
     lam_scene *scene =
         good("{\"lambent\": 1, \"image\": {\"size\": [30, 20], \"samples\": 8, \"background\": "
              "\"#80808080\", \"color_mode\": \"raw\", "
@@ -111,9 +107,8 @@ static void test_picture(void **unused)
     lam_scene_free(scene);
 }
 
-static void test_objects(void **unused)
+TEST(test_objects)
 {
-    (void)unused;
     lam_scene *scene =
         good("{\"lambent\": 1, \"materials\": {\"m\": {\"diffuse\": [0.1, 0.2, 0.3, 0.5], \"specular\": "
              "\"white\", "
@@ -158,9 +153,8 @@ static void test_objects(void **unused)
     lam_scene_free(scene);
 }
 
-static void test_lights(void **unused)
+TEST(test_lights)
 {
-    (void)unused;
     lam_scene *scene = good(
         "{\"lambent\": 1, " BALL ", \"lights\": [{\"type\": \"ambient\", \"color\": [1, 1, 1], \"intensity\": 0.5}, "
         "{\"type\": \"hemisphere\", \"sky\": [1, 0, 0], \"ground\": [0, 1, 0], \"up\": [1, 0, 0], \"frame\": "
@@ -197,9 +191,8 @@ static void test_lights(void **unused)
     lam_scene_free(scene);
 }
 
-static void test_errors(void **unused)
+TEST(test_errors)
 {
-    (void)unused;
     static const struct {
         const char *text, *sentence;
     } rows[] = {
@@ -348,9 +341,8 @@ static const char whole[] =
     "{\"shape\": \"cube\", \"slices\": 3, \"stacks\": 1, \"normals\": \"smooth\"}], "
     "\"lights\": [{\"name\": \"l\", \"type\": \"point\", \"frame\": \"object\", \"object\": \"x\"}]}";
 
-static void test_prefixes(void **unused)
+TEST(test_prefixes)
 {
-    (void)unused;
     char text[sizeof whole];
     for (size_t length = 0; length < sizeof whole - 1; length++) {
         memcpy(text, whole, length);
@@ -362,9 +354,8 @@ static void test_prefixes(void **unused)
     lam_scene_free(good(whole));
 }
 
-static void test_memory(void **unused)
+TEST(test_memory)
 {
-    (void)unused;
     for (long i = 0;; i++) {
         lam_error error = {0};
         arena_fail_after(i);
@@ -384,9 +375,8 @@ static void test_memory(void **unused)
 }
 
 // Everything that a scene can contain is restored bit for bit.
-static void test_writing(void **unused)
+TEST(test_writing)
 {
-    (void)unused;
     char folder[] = "/tmp/lambent-scene-XXXXXX", path[64], model[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/s.json", folder);
@@ -564,14 +554,4 @@ static void test_writing(void **unused)
     unlink(path);
     unlink(model);
     rmdir(folder);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults), cmocka_unit_test(test_picture), cmocka_unit_test(test_objects),
-        cmocka_unit_test(test_lights),   cmocka_unit_test(test_errors),  cmocka_unit_test(test_prefixes),
-        cmocka_unit_test(test_memory),   cmocka_unit_test(test_writing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

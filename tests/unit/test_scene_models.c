@@ -1,9 +1,9 @@
 // test_scene_models.c: the files that scene files name: data shared by objects, and the allowed folders.
+#include "test.h"
 #include "loading.h"
 #include "temporary_folder.h"
 
 #include <sys/stat.h>
-#include <unistd.h>
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
@@ -60,9 +60,8 @@ static const char *material_of(const lam_scene *scene, int object, int part, lam
 #define A "{\"file\": \"a.obj\"}"
 
 // The same model is read once, and objects that do not change it share one mesh.
-static void test_shared(void **unused)
+TEST(test_shared)
 {
-    (void)unused;
     static const struct {
         const char *objects;
         int meshes, materials, models;
@@ -109,9 +108,8 @@ static void test_shared(void **unused)
 }
 
 // An object's changes do not affect the others.
-static void test_changes(void **unused)
+TEST(test_changes)
 {
-    (void)unused;
     struct counts counts;
     lam_scene *scene =
         load_objects(CHANGED(3) ", " PARTS ", " A ", {\"file\": \"a.obj\", \"tangents\": \"field\"}", &counts);
@@ -134,9 +132,8 @@ static void test_changes(void **unused)
 }
 
 // The whole scene decides: a transparent model next to another object stays transparent.
-static void test_clear(void **unused)
+TEST(test_clear)
 {
-    (void)unused;
 #define CLEAR "{\"file\": \"a.obj\", \"materials\": {\"red\": {\"opacity\": 0}, \"blue\": {\"opacity\": 0}}}"
 #define GHOST "{\"shape\": \"cube\", \"material\": {\"diffuse\": [1, 1, 1, 0]}}"
     static const struct {
@@ -172,9 +169,8 @@ static void test_clear(void **unused)
 }
 
 // Objects that share a mesh are written separately, and are restored.
-static void test_written(void **unused)
+TEST(test_written)
 {
-    (void)unused;
     char shared[] = "/tmp/lambent-shared-XXXXXX", path[2][64], model[64];
     assert_non_null(mkdtemp(shared));
     snprintf(model, sizeof model, "%s/m.obj", shared);
@@ -215,9 +211,8 @@ static void test_written(void **unused)
 }
 
 // A thousand objects of one model need little more memory than one, even with changes of their own.
-static void test_memory(void **unused)
+TEST(test_memory)
 {
-    (void)unused;
     enum { OBJECTS = 1000 };
     for (int kind = 0; kind < 2; kind++) {
         char *text = malloc(OBJECTS * 100 + 100), *at = text + sprintf(text, "{\"lambent\": 1, \"objects\": [");
@@ -272,9 +267,8 @@ static int make_folder(void **state)
 
 // The files that a load looks for: the model, files that it names, and files of a scene file's models; also missing
 // ones.
-static void test_files(void **unused)
+TEST(test_files, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     write_bytes("in/m.obj", "mtllib sub/m.mtl\nmtllib none.mtl\n" TRIANGLE "usemtl a\nf 1 2 3\n");
     write_bytes("in/sub/m.mtl", "newmtl a\nmap_Kd ./sub/../m.ppm\nmap_Kd sky.ppm\n");
     write_bytes("in/s.json", "{\"lambent\": 1, \"objects\": [{\"file\": \"m.obj\"}, {\"file\": \"m.obj\"}], "
@@ -308,9 +302,8 @@ static void test_files(void **unused)
 }
 
 // A scene file's own folder is the root for its models and pictures; models_anywhere lifts this.
-static void test_root(void **unused)
+TEST(test_root, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     char absolute_in[100], absolute_out[100];
     snprintf(absolute_in, sizeof absolute_in, "%s", in_folder("in/sub/m.obj"));
     snprintf(absolute_out, sizeof absolute_out, "%s", in_folder("m.obj"));
@@ -367,9 +360,8 @@ static void test_root(void **unused)
 }
 
 // The caller's function gets names within the folder, for models, their files, and pictures; others are refused.
-static void test_function(void **unused)
+TEST(test_function)
 {
-    (void)unused;
     struct counts counts = {0};
     lam_load_params params = {.threads = 1, .open = open_beside, .user = &counts, .models_anywhere = true};
     static const char good[] =
@@ -400,15 +392,4 @@ static void test_function(void **unused)
     // Without a function and without a folder, nothing can be opened.
     assert_null(lam_scene_load_memory(good, sizeof good - 1, "s.json", NULL, NULL, &error));
     assert_non_null(strstr(error.text, "cannot be opened: the model has no folder"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shared),   cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_clear),    cmocka_unit_test(test_written),
-        cmocka_unit_test(test_memory),   cmocka_unit_test_setup_teardown(test_root, make_folder, remove_folder),
-        cmocka_unit_test(test_function), cmocka_unit_test_setup_teardown(test_files, make_folder, remove_folder),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,19 +1,8 @@
 // test_shadows.c: the share of light that passes blocking surfaces, in pictures and explanations.
+#include "test.h"
 #include "device_fixture.h"
 
 #include <lambent/explain.h>
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 64 };
 
@@ -79,9 +68,8 @@ static lam_explained_light explained(const lam_scene *scene, lam_draw_params par
 // --- layers
 
 // Translucent plates over one another multiply; masked ones pass everything or nothing; an opaque one passes nothing.
-static void test_layers(void **unused)
+TEST(test_layers)
 {
-    (void)unused;
     lam_scene *scene = floor_scene();
     const float alphas[] = {0.25f, 0.5f, 0.125f};
     for (int i = 0; i < 3; i++)
@@ -116,9 +104,8 @@ static void test_layers(void **unused)
 }
 
 // The sides of a plate may pass different shares: the side that the light hits decides.
-static void test_sides(void **unused)
+TEST(test_sides)
 {
-    (void)unused;
     for (int mirrored = 0; mirrored < 2; mirrored++)
         for (int below = 0; below < 2; below++) {
             lam_scene *scene = floor_scene();
@@ -142,9 +129,8 @@ static void test_sides(void **unused)
 
 // --- which objects cast shadows, and where
 
-static void test_lights(void **unused)
+TEST(test_lights)
 {
-    (void)unused;
     lam_scene *scene = floor_scene();
     add_plate(scene, 2, 3, 0, 1);
     lam_light l = *sun();
@@ -195,9 +181,8 @@ static void test_lights(void **unused)
 
 // A point, a spot and a directional light cast the same shadow; culled objects also cast it; an object behind the light
 // does not.
-static void test_kinds(void **unused)
+TEST(test_kinds)
 {
-    (void)unused;
     for (int kind = LAM_LIGHT_POINT; kind <= LAM_LIGHT_SPOT; kind++) {
         lam_scene *scene = floor_scene();
         int plate = add_plate(scene, 1, 2, 1, 1);
@@ -231,9 +216,8 @@ static void test_kinds(void **unused)
 
 // --- soft shadows
 
-static void test_soft(void **unused)
+TEST(test_soft)
 {
-    (void)unused;
     lam_scene *scene = floor_scene();
     add_plate(scene, 2000, 4, 1000, 1); // its edge is above x = 0
     lam_light l = *sun();
@@ -284,9 +268,8 @@ static int count_dark(const lam_image *shadowed, const lam_image *bare, float le
 
 // A single convex body has no shadow except its own dark side: with the correction, no point is shadowed where n·l > 0;
 // without it, the terminator of a coarse ball is shadowed, but not with flat shading.
-static void test_convex(void **unused)
+TEST(test_convex)
 {
-    (void)unused;
     for (int size = -20; size <= 20; size += 20)
         for (int slices = 8; slices <= 64; slices *= 2) {
             lam_scene *scene = lam_scene_make(&error);
@@ -333,9 +316,8 @@ static void test_convex(void **unused)
 
 // Models from files: single pixels that are dark among lit neighbours. Most of them are tips of real shadows; rays that
 // hit their own surface would cause many times as many.
-static void test_models(void **unused)
+TEST(test_models)
 {
-    (void)unused;
     static const char *const names[] = {"obj/cat/cat-low-resolution.obj",
                                         "obj/koala/koala.obj",
                                         "obj/boat/boat.obj",
@@ -394,9 +376,8 @@ static void test_models(void **unused)
 }
 
 // A box on the floor: the shadow begins at its foot, and the floor next to it is lit up to the edge.
-static void test_contact(void **unused)
+TEST(test_contact)
 {
-    (void)unused;
     lam_scene *scene = floor_scene();
     lam_object o = lam_object_default();
     o.mesh = lam_scene_add_shape(scene, "cube", NULL, &error);
@@ -416,9 +397,8 @@ static void test_contact(void **unused)
 }
 
 // Two plates at the same place, such as the sides of a sheet: neither shadows the other.
-static void test_twins(void **unused)
+TEST(test_twins)
 {
-    (void)unused;
     lam_scene *scene = floor_scene();
     add_plate(scene, 8, 0, 0, 1);
     lam_light l = *sun();
@@ -460,9 +440,8 @@ static void add_pentagons(lam_scene *scene, double turn, double spread, lam_vec3
 
 // None of them shadows another for any position of the light: above, beside, or below, where spread normals still face
 // it.
-static void test_coplanar(void **unused)
+TEST(test_coplanar)
 {
-    (void)unused;
     for (int turn = 1; turn < 17; turn++) {
         lam_scene *scene = lam_scene_make(&error);
         lam_vec3 n;
@@ -493,9 +472,8 @@ static void test_coplanar(void **unused)
 
 // A sheet right above another shadows it, unless it is closer than the rounding of numbers. It is culled, so that one
 // sees through it.
-static void test_near_sheet(void **unused)
+TEST(test_near_sheet)
 {
-    (void)unused;
     for (int apart = 0; apart < 2; apart++) {
         lam_scene *scene = floor_scene();
         int sheet = add_plate(scene, 1, apart ? 1e-12 : 1e-20, 0.5, 1);
@@ -508,9 +486,8 @@ static void test_near_sheet(void **unused)
 }
 
 // Limits: a memory limit that the hierarchy exceeds, and parameters out of range.
-static void test_refused(void **unused)
+TEST(test_refused)
 {
-    (void)unused;
     lam_scene *scene = lam_scene_make(&error);
     lam_shape_params shape = {.slices = 400, .stacks = 400};
     lam_object o = lam_object_default();
@@ -544,13 +521,4 @@ static void test_refused(void **unused)
     lam_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers),  cmocka_unit_test(test_sides),    cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_kinds),   cmocka_unit_test(test_soft),     cmocka_unit_test(test_convex),
-        cmocka_unit_test(test_contact), cmocka_unit_test(test_twins),    cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_models),  cmocka_unit_test(test_coplanar), cmocka_unit_test(test_near_sheet),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

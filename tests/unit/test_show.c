@@ -1,17 +1,7 @@
 // test_show.c: pictures of terms add up to the picture; pictures of quantities contain the documented numbers and
 // encodings.
+#include "test.h"
 #include "scenes.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "device_fixture.h"
 
@@ -102,9 +92,8 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
     lam_image_free(&picture);
 }
 
-static void test_demos(void **state)
+TEST(test_demos)
 {
-    (void)state;
     for (int i = 0; i < demo_count; i++) {
         struct demo demo;
         lam_error error = {0};
@@ -165,9 +154,8 @@ static lam_scene *full_scene(bool colors)
     return scene;
 }
 
-static void test_every_method(void **state)
+TEST(test_every_method)
 {
-    (void)state;
     for (int colors = 0; colors < 2; colors++)
         for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++)
             for (int model = LAM_REFLECTION_NONE; model < LAM_REFLECTION_COUNT; model++)
@@ -190,9 +178,8 @@ static void test_every_method(void **state)
 }
 
 // The other lights, and terms that belong to no light, do not affect it.
-static void test_one_light(void **state)
+TEST(test_one_light)
 {
-    (void)state;
     lam_scene *scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
     lam_draw_params params = {.samples = 1, .output = LAM_OUTPUT_LIGHT, .output_light = 4};
@@ -255,9 +242,8 @@ struct expected {
 // 8 bits of the background {1, 0.5, 0, 0.4}: sRGB and not premultiplied, as in the picture.
 #define BACK {255, 188, 0, 102}
 
-static void test_numbers(void **state)
+TEST(test_numbers)
 {
-    (void)state;
     static const struct expected all[] = {
         {LAM_OUTPUT_NORMALS, {0, 0, 1, 1}, {0, 0, 1, 1}, {0}, {128, 128, 255, 255}, {128, 128, 255, 255}, BACK},
         {LAM_OUTPUT_DEPTH, {4, 4, 4, 1}, {4, 4, 4, 1}, {0}, {255, 255, 255, 255}, {255, 255, 255, 255}, BACK},
@@ -326,9 +312,8 @@ static void test_numbers(void **state)
 
 // 8 bits of depth cover the scene's vertices, visible or not, from any eye position; the camera's planes limit the
 // range. If floats cannot distinguish the ends of the range, every depth is near.
-static void test_depth_range(void **state)
+TEST(test_depth_range)
 {
-    (void)state;
     static const struct {
         double near_plane, far_plane, scale_z, expected_near, expected_far;
     } cases[] = {{0, 0, 1, 7, 9}, {0, 0, 0.25, 7.75, 8.25}, {7.5, 100, 1, 7.5, 9}, {1, 7.9, 1, 7, 7.9}};
@@ -362,9 +347,8 @@ static void test_depth_range(void **state)
     }
 }
 
-static void test_ids(void **state)
+TEST(test_ids)
 {
-    (void)state;
     lam_camera camera;
     lam_scene *scene = two_sheets(&camera);
     camera.eye.z = -4; // from behind: the lower half shows object 1
@@ -397,9 +381,8 @@ static void test_ids(void **state)
 }
 
 // The pixels whose linear numbers exceed 1, and the excess.
-static void test_clipped(void **state)
+TEST(test_clipped)
 {
-    (void)state;
     lam_camera camera;
     lam_scene *scene = two_sheets(&camera);
     lam_draw_params params = {.samples = 4, .exposure = 0.6};
@@ -430,9 +413,8 @@ static void test_clipped(void **state)
 
 // Coverage is the picture's alpha; tangents are unit vectors perpendicular to the normals; depth is the distance from
 // the eye.
-static void test_relations(void **state)
+TEST(test_relations)
 {
-    (void)state;
     lam_scene *scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
     lam_draw_params params = {.samples = 8};
@@ -469,9 +451,8 @@ static void test_relations(void **state)
     lam_scene_free(scene);
 }
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     for (int i = 0; i < LAM_OUTPUT_COUNT; i++) {
         assert_non_null(lam_output_name((lam_output)i));
         for (int k = 0; k < i; k++)
@@ -482,12 +463,4 @@ static void test_names(void **state)
     assert_false(lam_output_is_light(LAM_OUTPUT_NORMALS) || lam_output_is_light(LAM_OUTPUT_CLIPPED));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_demos),   cmocka_unit_test(test_every_method), cmocka_unit_test(test_one_light),
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_depth_range),  cmocka_unit_test(test_ids),
-        cmocka_unit_test(test_clipped), cmocka_unit_test(test_names),        cmocka_unit_test(test_relations),
-    };
-    return cmocka_run_group_tests_name("show", tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

@@ -1,14 +1,7 @@
 // test_specular_aa.c: specular antialiasing: compares small pictures of bumpy surfaces with one sample per pixel with
 // the means of large ones.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
+#include "test.h"
 
 #include <lambent/device.h>
 #include <lambent/material.h>
@@ -98,9 +91,8 @@ static double difference(const lam_image *small, const lam_image *large)
 }
 
 // It moves pixels closer to the means over their area, which the exact equations give in a large picture.
-static void test_nearer(void **state)
+TEST(test_nearer)
 {
-    (void)state;
     for (int mapped = 0; mapped < 2; mapped++) {
         lam_texture *texture = bumps();
         lam_scene *scene = scene_of(mapped, texture);
@@ -122,9 +114,8 @@ static void test_nearer(void **state)
 }
 
 // Flat surfaces keep their bits, and shading at vertices is an error.
-static void test_flat(void **state)
+TEST(test_flat)
 {
-    (void)state;
     lam_error error;
     lam_scene *scene = lam_scene_make(&error);
     assert_int_equal(lam_scene_add_shape(scene, "cube", NULL, &error), 0);
@@ -148,10 +139,4 @@ static void test_flat(void **state)
     lam_image_free(&exact);
     lam_image_free(&flat);
     lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_nearer), cmocka_unit_test(test_flat)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

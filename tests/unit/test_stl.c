@@ -1,7 +1,6 @@
 // test_stl.c: STL: recognising binary and ASCII files, colours, parts, and errors.
+#include "test.h"
 #include "loading.h"
-
-#include <math.h>
 
 static const char one_facet[] = "solid thing\n"
                                 "  facet normal 0 0 1\n"
@@ -47,9 +46,8 @@ static void assert_color(const lam_mesh *mesh, uint32_t triangle, int r, int g, 
     assert_int_equal(color[3], 255);
 }
 
-static void test_ascii(void **state)
+TEST(test_ascii)
 {
-    (void)state;
     lam_scene *scene = load_text(one_facet, "a.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_string_equal(lam_scene_format(scene), "stl");
@@ -65,9 +63,8 @@ static void test_ascii(void **state)
 
 // Keywords in any case, lines broken anywhere, every line end, a byte order mark, normals that are not numbers, a facet
 // outside a solid, an empty solid, invalid UTF-8 in a name.
-static void test_ascii_oddities(void **state)
+TEST(test_ascii_oddities)
 {
-    (void)state;
     static const char text[] =
         "\xef\xbb\xbf\t SOLID two words\there \r\nFACET normal nan -nan(ind) nan OUTER\vloop vertex 1 2 3 "
         "Vertex 4 5 6\r"
@@ -92,9 +89,8 @@ static void test_ascii_oddities(void **state)
 }
 
 // A file that ends between two facets may be truncated.
-static void test_ascii_without_end(void **state)
+TEST(test_ascii_without_end)
 {
-    (void)state;
 #define ONE "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
     static const struct {
         const char *text, *warning; // NULL: none
@@ -133,9 +129,8 @@ static void test_ascii_without_end(void **state)
 }
 
 // A text with a zero byte is not a binary file.
-static void test_ascii_with_zero(void **state)
+TEST(test_ascii_with_zero)
 {
-    (void)state;
     static const char text[] = "solid a\n" ONE ONE "endsolid a\n";
     char changed[sizeof text];
     int lines = 1;
@@ -160,9 +155,8 @@ static void test_ascii_with_zero(void **state)
     free(large);
 }
 
-static void test_ascii_in_one_line(void **state)
+TEST(test_ascii_in_one_line)
 {
-    (void)state;
     lam_scene *scene = load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
                                  "endloop endfacet endsolid",
                                  "line.stl");
@@ -173,9 +167,8 @@ static void test_ascii_in_one_line(void **state)
 }
 
 // A part with details of a millimetre, 500 km from zero.
-static void test_ascii_far_from_zero(void **state)
+TEST(test_ascii_far_from_zero)
 {
-    (void)state;
     lam_scene *scene =
         load_text("solid far\nfacet normal 0 0 1\nouter loop\nvertex 500000.0001 0 0.5\n"
                   "vertex 500000.0012 0.001 0.5\nvertex 500000.0023 0 0.5\nendloop\nendfacet\nendsolid\n",
@@ -188,9 +181,8 @@ static void test_ascii_far_from_zero(void **state)
     lam_scene_free(scene);
 }
 
-static void test_ascii_errors(void **state)
+TEST(test_ascii_errors)
 {
-    (void)state;
     refuse_text("Dear reader,\nthis is a letter and no model at all, though its name says so, and it is long "
                 "enough for "
                 "a header.\n",
@@ -217,9 +209,8 @@ static void test_ascii_errors(void **state)
                 "a.stl:2: facet 1: found 'triangle', expected \"facet\", \"endsolid\" or \"solid\"");
 }
 
-static void test_binary(void **state)
+TEST(test_binary)
 {
-    (void)state;
     // A header that begins with "solid", and a name that contains "facet", do not make it ASCII.
     struct made file = {0};
     put_header(&file, "solid facet endsolid", 2);
@@ -246,9 +237,8 @@ static void test_binary(void **state)
     lam_scene_free(scene);
 }
 
-static void test_binary_errors(void **state)
+TEST(test_binary_errors)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "solid cut", 3);
     put_facet(&file, 0, 0);
@@ -266,9 +256,8 @@ static void test_binary_errors(void **state)
 
 // Facets with a corner that is not finite are left out, for any number of threads, with shared vertices (stl_shared.c) or
 // without. The NaN of facet 7 has the bits of an unused entry of stl_shared.c.
-static void test_not_finite(void **state)
+TEST(test_not_finite)
 {
-    (void)state;
     for (uint32_t facets = 30000; facets <= 70000; facets += 40000) {
         size_t size = 84 + 50 * (size_t)facets;
         uint8_t *bytes = calloc(1, size);
@@ -297,9 +286,8 @@ static void test_not_finite(void **state)
     }
 }
 
-static void test_colors_viscam(void **state)
+TEST(test_colors_viscam)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "viscam", 3);
     put_facet(&file, 0, 0x8000 | 31 << 10);     // red
@@ -318,9 +306,8 @@ static void test_colors_viscam(void **state)
     lam_scene_free(scene);
 }
 
-static void test_colors_magics(void **state)
+TEST(test_colors_magics)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "made by somebody COLOR=\x10\x20\x30\xff,MATERIAL=", 2);
     put_facet(&file, 0, 31);     // red: its own
@@ -342,9 +329,8 @@ static void test_colors_magics(void **state)
 }
 
 // Attribute words that are not colours: counters, and random words, some with bit 15 set.
-static void test_colors_junk(void **state)
+TEST(test_colors_junk)
 {
-    (void)state;
     static const uint16_t words[][3] = {{0, 0, 0}, {1, 2, 3}, {0x8123, 0x0456, 0x1789}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         struct made file = {0};
@@ -357,9 +343,8 @@ static void test_colors_junk(void **state)
     }
 }
 
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     enum { FACETS = 20011 };
     size_t size = 84 + 50 * FACETS;
     uint8_t *bytes = calloc(1, size);
@@ -379,9 +364,8 @@ static void test_threads(void **state)
     free(bytes);
 }
 
-static void test_cut_anywhere(void **state)
+TEST(test_cut_anywhere)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "solid binary COLOR=abcd", 2);
     put_facet(&file, 0, 1);
@@ -390,9 +374,8 @@ static void test_cut_anywhere(void **state)
     check_prefixes(one_facet, sizeof one_facet - 1, "a.stl");
 }
 
-static void test_out_of_memory(void **state)
+TEST(test_out_of_memory)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "COLOR=abcd", 2);
     put_facet(&file, 0, 1);
@@ -401,9 +384,8 @@ static void test_out_of_memory(void **state)
     check_allocations(one_facet, sizeof one_facet - 1, "a.stl");
 }
 
-static void test_models(void **state)
+TEST(test_models)
 {
-    (void)state;
     static const struct model models[] = {
         {"stl/derived/fish.stl", 21568},
         {"stl/derived/koala.stl", 99994},
@@ -425,28 +407,4 @@ static void test_models(void **state)
         {"stl/ur3/wrist2.stl", 3671},
     };
     check_models(models, sizeof models / sizeof *models);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ascii),
-        cmocka_unit_test(test_ascii_oddities),
-        cmocka_unit_test(test_ascii_without_end),
-        cmocka_unit_test(test_ascii_with_zero),
-        cmocka_unit_test(test_ascii_in_one_line),
-        cmocka_unit_test(test_ascii_far_from_zero),
-        cmocka_unit_test(test_ascii_errors),
-        cmocka_unit_test(test_binary),
-        cmocka_unit_test(test_binary_errors),
-        cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_colors_viscam),
-        cmocka_unit_test(test_colors_magics),
-        cmocka_unit_test(test_colors_junk),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_cut_anywhere),
-        cmocka_unit_test(test_out_of_memory),
-        cmocka_unit_test(test_models),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

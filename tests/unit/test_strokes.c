@@ -1,8 +1,7 @@
 // test_strokes.c: lines and points: their width in pixels, clipping, light, colours, the camera's fit, and their files.
+#include "test.h"
 #include "device_fixture.h"
 #include "loading.h"
-
-#include <math.h>
 
 enum { SIDE = 64 };
 
@@ -36,9 +35,8 @@ static double area(const lam_image *image)
 }
 
 // Every width in pixels, at any distance and in any direction.
-static void widths(void **state)
+TEST(widths)
 {
-    (void)state;
     static const double distances[] = {2, 20};
     for (int i = 0; i < 2; i++)
         for (int diagonal = 0; diagonal < 2; diagonal++) {
@@ -70,9 +68,8 @@ static void widths(void **state)
 }
 
 // A line from behind the eye ends at the near plane, with the interpolated colour of the whole line.
-static void clipping(void **state)
+TEST(clipping)
 {
-    (void)state;
     static const float p[6] = {0, -0.5f, 6, 0, -0.5f, -6};
     static const float colors[8] = {0, 0, 0, 1, 1, 1, 1, 1};
     lam_mesh mesh = {.positions = p,
@@ -113,9 +110,8 @@ static void clipping(void **state)
 
 // Lines without normals are unlit, with their emission; lines with normals are lit, from any side and with flat
 // shading.
-static void light(void **state)
+TEST(light)
 {
-    (void)state;
     static const float p[6] = {-1, 0, 0, 1, 0, 0}, up[6] = {0, 1, 0, 0, 1, 0};
     lam_mesh mesh = {.positions = p, .vertex_count = 2, .line_count = 1};
     lam_material m = lam_material_default();
@@ -145,9 +141,8 @@ static void light(void **state)
 }
 
 // A line on a face is completely visible from every side.
-static void line_on_face(void **state)
+TEST(line_on_face)
 {
-    (void)state;
     static const float corners[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     static const uint32_t faces[6] = {0, 1, 2, 0, 2, 3}, diagonal[2] = {0, 2};
     lam_mesh face = {.positions = corners, .vertex_count = 4, .indices = faces, .triangle_count = 2};
@@ -176,9 +171,8 @@ static void line_on_face(void **state)
 
 static const lam_mesh *mesh_at(const lam_scene *scene, int i) { return lam_scene_mesh(scene, i); }
 
-static void obj_files(void **state)
+TEST(obj_files)
 {
-    (void)state;
     lam_scene *scene =
         load_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.25\nf 1 2 3\ng a\nl 1 2 3 1\nl -1 -3\np 2 3 \\\n 1\n"
                   "v 9 9 9\ng b\nl 1/1 -1\n",
@@ -213,9 +207,8 @@ static void obj_files(void **state)
 
 #define PLY_HEAD "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
 
-static void ply_files(void **state)
+TEST(ply_files)
 {
-    (void)state;
     lam_scene *scene = load_text(PLY_HEAD "end_header\n0 0 0\n1 0 0\n0 2 0\n", "a.ply");
     assert_int_equal(lam_scene_point_count(scene), 3);
     assert_null(mesh_at(scene, 0)->indices);
@@ -252,9 +245,8 @@ static const char *const gltf_mode =
     "\"data:application/octet-stream;base64,BAEC\"}]}";
 
 // The four modes, with and without indices.
-static void gltf_files(void **state)
+TEST(gltf_files)
 {
-    (void)state;
     static const struct {
         int mode;
         bool indexed;
@@ -291,9 +283,8 @@ static void gltf_files(void **state)
 }
 
 // The camera fits lines, a single line and a single point.
-static void fit(void **state)
+TEST(fit)
 {
-    (void)state;
     static const char *const files[] = {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nf 1 2 3\nl 1 4\n",
                                         "v 0 0 0\nv 1 2 3\nl 1 2\n", "v 4 5 6\np 1\n"};
     for (int i = 0; i < 3; i++) {
@@ -310,9 +301,8 @@ static void fit(void **state)
     }
 }
 
-static void refusals(void **state)
+TEST(refusals)
 {
-    (void)state;
     static const float p[9] = {0};
     static const uint32_t beyond[2] = {0, 3};
     const struct {
@@ -349,9 +339,8 @@ static void refusals(void **state)
 }
 
 // The explanation of a pixel names the line, and positions in the model.
-static void explained(void **state)
+TEST(explained)
 {
-    (void)state;
     static const float p[9] = {-1, 0, 0, 1, 0, 0, 1, 1, 0}, n[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
     static const uint32_t ends[4] = {2, 1, 0, 1};
     lam_mesh mesh = {
@@ -373,9 +362,8 @@ static void explained(void **state)
 
 // A line without a chosen colour is a grey that is visible on a white and on a transparent background, and on a dark
 // one as before.
-static void unchosen_color(void **state)
+TEST(unchosen_color)
 {
-    (void)state;
     static const float p[6] = {-1, 0, 0, 1, 0, 0}, white[8] = {1, 1, 1, 1, 1, 1, 1, 1};
     static const lam_rgba backgrounds[] = {{1, 1, 1, 1}, {0, 0, 0, 0}, {0.02f, 0.02f, 0.02f, 1}};
     const float given = lam_material_default().diffuse.r;
@@ -398,15 +386,4 @@ static void unchosen_color(void **state)
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(widths),         cmocka_unit_test(clipping),
-        cmocka_unit_test(light),          cmocka_unit_test(line_on_face),
-        cmocka_unit_test(obj_files),      cmocka_unit_test(ply_files),
-        cmocka_unit_test(gltf_files),     cmocka_unit_test(fit),
-        cmocka_unit_test(refusals),       cmocka_unit_test(explained),
-        cmocka_unit_test(unchosen_color),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

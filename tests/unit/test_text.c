@@ -1,13 +1,7 @@
 // test_text.c: text in pictures: its position, its widths, UTF-8, and missing characters.
+#include "test.h"
+
 #include <lambent/caption.h>
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 static lam_font *font;
 
@@ -52,9 +46,8 @@ static void ink(const lam_image *image, int box[4])
             }
 }
 
-static void stands_on_its_baseline(void **state)
+TEST(stands_on_its_baseline)
 {
-    (void)state;
     if (!font)
         skip();
     lam_image image = blank(200, 60, LAM_RGBA8);
@@ -76,9 +69,8 @@ static void stands_on_its_baseline(void **state)
     lam_image_free(&image);
 }
 
-static void measures(void **state)
+TEST(measures)
 {
-    (void)state;
     if (!font)
         skip();
     double one = lam_text_width(font, 20, "m"), two = lam_text_width(font, 20, "mm");
@@ -94,9 +86,8 @@ static void measures(void **state)
     assert_true(lam_text_width(font, 20, "\xed\xa0\x80") == replacement); // a surrogate
 }
 
-static void blends_and_clips(void **state)
+TEST(blends_and_clips)
 {
-    (void)state;
     if (!font)
         skip();
     lam_image bytes = blank(20, 20, LAM_RGBA8), floats = blank(20, 20, LAM_RGBA32F);
@@ -112,9 +103,8 @@ static void blends_and_clips(void **state)
     lam_image_free(&floats);
 }
 
-static void says_what_is_missing(void **state)
+TEST(says_what_is_missing)
 {
-    (void)state;
     lam_error error;
     if (font) {
         assert_null(lam_font_open("/nowhere/font.ttf", &error));
@@ -137,9 +127,8 @@ static void says_what_is_missing(void **state)
     assert_null(lam_font_path(-1));
 }
 
-static void follows_the_environment(void **state)
+TEST(follows_the_environment)
 {
-    (void)state;
     if (!font)
         skip();
     lam_error error;
@@ -149,12 +138,4 @@ static void follows_the_environment(void **state)
     unsetenv("LAMBENT_FONT");
 }
 
-int main(void)
-{
-    const struct CMUnitTest list[] = {
-        cmocka_unit_test(stands_on_its_baseline),  cmocka_unit_test(measures),
-        cmocka_unit_test(blends_and_clips),        cmocka_unit_test(says_what_is_missing),
-        cmocka_unit_test(follows_the_environment),
-    };
-    return cmocka_run_group_tests(list, open_font, close_font);
-}
+FIXTURE(open_font, close_font)

@@ -1,0 +1,54 @@
+// test.h: a test program. TEST(name) { … } defines a test and adds it to the program's list; the tests run in the order
+// of the file. FIXTURE names functions that run before the first test and after the last test.
+#ifndef TEST_H
+#define TEST_H
+
+#include <lambent/lambent.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+static struct CMUnitTest test_list[64];
+static size_t test_count;
+static CMFixtureFunction test_set_up, test_tear_down;
+
+static inline void test_add(struct CMUnitTest test)
+{
+    if (test_count == sizeof test_list / sizeof *test_list)
+        abort(); // enlarge the list
+    test_list[test_count++] = test;
+}
+
+// Further arguments are members of CMUnitTest, such as .setup_func = make_folder.
+#define TEST(NAME, ...)                                                                                                \
+    static void NAME(void);                                                                                            \
+    static void run_##NAME(void **cmocka_state)                                                                        \
+    {                                                                                                                  \
+        (void)cmocka_state;                                                                                            \
+        NAME();                                                                                                        \
+    }                                                                                                                  \
+    __attribute__((constructor)) static void add_##NAME(void)                                                          \
+    {                                                                                                                  \
+        test_add((struct CMUnitTest){.name = #NAME, .test_func = run_##NAME, __VA_ARGS__});                            \
+    }                                                                                                                  \
+    static void NAME(void)
+
+#define FIXTURE(SET_UP, TEAR_DOWN)                                                                                     \
+    __attribute__((constructor)) static void add_fixture(void)                                                         \
+    {                                                                                                                  \
+        test_set_up = SET_UP;                                                                                          \
+        test_tear_down = TEAR_DOWN;                                                                                    \
+    }
+
+int main(void) { return _cmocka_run_group_tests("tests", test_list, test_count, test_set_up, test_tear_down); }
+
+#endif

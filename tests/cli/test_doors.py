@@ -3,9 +3,11 @@
 # adds Python. doors.py generates the rows from the program's tables.
 import base64
 import concurrent.futures
+import difflib
 import fnmatch
 import hashlib
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -14,7 +16,7 @@ import unittest
 import urllib.parse
 
 import doors
-from harness import PROGRAM, ROOT, Case
+from harness import PROGRAM, ROOT, Case, read_png
 from view_server import ViewCase
 
 # Disagreements that stay, with the reason. "DOOR: SUBJECT: ROW"; * stands for any text.
@@ -82,6 +84,7 @@ INVISIBLE = {
     "setting: point_size": "needs points: test_strokes.c",
 }
 
+RECORDED = ROOT / "tests" / "cli" / "doors.txt"
 SENTENCE = re.compile(r"(?:lambent: |line \d+: |option '--[\w-]+': |[\w./-]+\.json(?::\d+)?: |[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)*: )")
 
 
@@ -107,7 +110,7 @@ ROWS = doors.rows(doors.schema_of(PROGRAM))
 class DoorCase(Case):
     """Compares doors with jobs, which contain the options of the command line. The jobs are drawn once for all tests."""
 
-    words, used = None, set()
+    words, said, used = None, None, set()
 
     def setUp(self):
         super().setUp()
@@ -120,7 +123,10 @@ class DoorCase(Case):
             return json.dumps({"id": name, "model": doors.MODEL[0], "format": "png", "options": {"segments": "24x12", **row.context(), **row.options()}})
         done = self.run_program("batch", "--jobs", "-", "-q", stdin="\n".join(job(*item) for item in rows.items()).encode(), timeout=300)
         answers = {answer["id"]: answer for answer in map(json.loads, done.stdout.splitlines()) if "id" in answer}
-        return {name: refused(answers[name]["error"]) if answers[name]["exit"] else picture(base64.b64decode(answers[name]["data"])) for name in rows}
+        drawn = {name: base64.b64decode(answer["data"]) for name, answer in answers.items() if not answer["exit"]}
+        DoorCase.said = {name: re.sub(r"^line \d+: ", "", answer["error"] or "") for name, answer in answers.items()}
+        DoorCase.said.update({name: "%dx%d %s" % (*read_png(data)[:2], hashlib.sha1(read_png(data)[2]).hexdigest()[:16]) for name, data in drawn.items()})
+        return {name: picture(drawn[name]) if name in drawn else refused(answers[name]["error"]) for name in rows}
 
     def each(self, work, rows):
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
@@ -179,6 +185,14 @@ class Doors(DoorCase):
             path.write_text(json.dumps(row.settings()))
             return self.command(*doors.MODEL, *doors.words_of({name: value for name, value in row.context().items() if name not in row.options()}), "--config", path)
         self.compare("settings", self.each(draw, {name: row for name, row in ROWS.items() if row.settings() is not None}))
+
+    def test_recorded(self):
+        """The pixels and the messages are those of tests/cli/doors.txt. LAMBENT_UPDATE=1 records them again."""
+        found = [f"{name} = {DoorCase.said[name]}\n" for name in sorted(DoorCase.said)]
+        if os.environ.get("LAMBENT_UPDATE"):
+            RECORDED.write_text("".join(found))
+        before = RECORDED.read_text().splitlines(True)
+        self.assertEqual(found, before, "".join(difflib.unified_diff(before, found, "recorded", "found", n=0)))
 
     def test_visible(self):
         """Each key changes the picture of a row, so that a door that ignores the key is noticed."""

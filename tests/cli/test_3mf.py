@@ -595,7 +595,3 @@ class Samples(ThreeMF):
             self.assertEqual(done.stderr.count(b"\n"), done.returncode != 0, (path, done.stderr))
             drawn += done.returncode == 0
         self.assertGreater(drawn, 0)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -255,7 +255,3 @@ class Tables(Case):
                 words = ["--look", look, "--size=16", "--samples=1", "-o", "-", "--no-config"]
                 with self.subTest(name=name, look=look):
                     self.assertEqual(self.good("m.json", *words).stdout, self.good(*doors.MODEL, "--material", name, *words).stdout)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 # test_edges.py: --wireframe, --edges and related options.
 import json
 import math
-import unittest
 
 from harness import Case, pixel
 
@@ -137,7 +136,3 @@ class Edges(Case):
             self.skipTest("no OpenGL here")
         words = ("teapot", "--segments", "16", "-s", "96", "-b", "white", "--wireframe", "--edges", "all", "--hidden-lines", "dash", "--surfaces", "off")
         self.assertEqual(self.png(*words, "--device", "gl"), self.png(*words, "--device", "cpu"))
-
-
-if __name__ == "__main__":
-    unittest.main()

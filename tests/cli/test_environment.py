@@ -1,7 +1,6 @@
 # test_environment.py: --environment in each of its forms, its rotation and its errors; and --opacity.
 import json
 import struct
-import unittest
 
 from harness import Case, pixel, read_png
 
@@ -123,7 +122,3 @@ class Opacity(Case):
         plain, half = (pixel(self.png(*words, "--cull", "back", "--color-mode", "raw", "-b", "white", "--opacity", opacity), 10, 10) for opacity in (1, 0.5))
         for c in range(3):
             self.assertLessEqual(abs(half[c] - (plain[c] + 255) / 2), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

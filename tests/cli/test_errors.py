@@ -4,7 +4,6 @@ import json
 import os
 import struct
 import subprocess
-import unittest
 import zlib
 
 from harness import Case, PROGRAM, chunk, pixel, read_png
@@ -344,7 +343,3 @@ class Outputs(Case):
 
     def test_too_large_a_picture(self):
         self.bad(4, "cube.obj", "-s", "65535", "--memory-limit", "1G", says="65535x65535")
-
-
-if __name__ == "__main__":
-    unittest.main()

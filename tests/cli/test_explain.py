@@ -4,7 +4,6 @@ import json
 import math
 import random
 import re
-import unittest
 import xml.etree.ElementTree as xml
 
 from harness import SHARED_MODELS, Case, covered, pixel, read_png
@@ -408,7 +407,3 @@ class Figure(Case):
         self.bad(3, "explain", "cube", "8,8", "-s", 16, "-o", "f.png", "--title", "נ", says=("U+05E0", ".svg"), leaves=left)
         self.bad(1, "explain", "cube", "8,8", "-s", 16, "-o", "f.svg", "--dry-run", says="--dry-run", leaves=left)
         self.bad(5, "explain", "cube", "8,8", "-s", 16, "-o", "cube.obj/f.svg", says="cube.obj", leaves=left)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,7 +4,6 @@
 import os
 import struct
 import sys
-import unittest
 
 if __name__ == "__main__":
     os.environ["LAMBENT"] = os.path.abspath(sys.argv[-1])

@@ -4,7 +4,6 @@ import os
 import math
 import re
 import struct
-import unittest
 
 from harness import Case, pixel
 
@@ -377,7 +376,3 @@ class Markers(Case):
         many = [word for i in range(5) for word in ("--light", f"point:position={90 + i}/0/0")]
         self.assertIn("the markers of lights 1, 2, 3 and 2 more lie outside", warned(*camera, *many))
         self.assertEqual(warned("--zoom", "0.1"), "")
-
-
-if __name__ == "__main__":
-    unittest.main()

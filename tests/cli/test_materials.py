@@ -3,7 +3,6 @@ import json
 import math
 import os
 import shutil
-import unittest
 
 from harness import ROOT, pixel, read_png
 from test_lights import DIFFUSE_ONLY, Pictures, difference
@@ -269,7 +268,3 @@ class Methods(Pictures):
         along, across, none = (self.picture(*words, model=f"{n}.obj") for n in ("along", "across", "none"))
         self.assertGreater(difference(along, across), 9)
         self.assertEqual(along, none)  # the direction field of a plane that faces +z is along x
-
-
-if __name__ == "__main__":
-    unittest.main()

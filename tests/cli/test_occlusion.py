@@ -1,6 +1,5 @@
 # test_occlusion.py: --ao rays and related options.
 import json
-import unittest
 
 from harness import Case, pixel
 
@@ -54,7 +53,3 @@ class Occlusion(Case):
         self.bad(1, self.scene(), "--shading", "flat", says="Phong shading")
         self.bad(2, self.scene("bad.json", ao_samples=2000), says="ao_samples")
         self.bad(3, self.scene(), "--device", "gl", says=("OpenGL",))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 # test_options.py: tests the effect of every option.
 import json
-import unittest
 
 from harness import Case, covered, pixel, read_png, write_png
 
@@ -479,7 +478,3 @@ class CommandLine(Case):
                 self.assertEqual(report["model"]["format"], "shape")
                 self.assertGreater(report["counts"]["pixels_covered"], 200)
                 self.assertIn(f"{name}.png", self.new_files())
-
-
-if __name__ == "__main__":
-    unittest.main()

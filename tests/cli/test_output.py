@@ -554,7 +554,3 @@ class Killed(Case):
             done = subprocess.run(["bash", "-c", limit], cwd=self.folder, capture_output=True, timeout=30)
             self.assertIn(done.returncode, (0, 5), (words, done.stderr))  # 0 because the file is small
             self.assertFalse([n for n in self.new_files() if "part" in n or n.startswith(".")])
-
-
-if __name__ == "__main__":
-    unittest.main()

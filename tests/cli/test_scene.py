@@ -5,7 +5,6 @@ import shutil
 import signal
 import struct
 import subprocess
-import unittest
 
 from harness import OWN_MODELS, PROGRAM, SHARED_MODELS, Case, long, pixel, read_png, write_png, wait_until_caught
 
@@ -442,7 +441,3 @@ class Environment(Case):
                                                          "objects": [{"shape": "cube"}]}))
         self.given.add("s.json")
         self.bad(2, "s.json", says="no.png")
-
-
-if __name__ == "__main__":
-    unittest.main()

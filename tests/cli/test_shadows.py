@@ -1,7 +1,6 @@
 # test_shadows.py: --shadows and related options.
 import json
 import struct
-import unittest
 
 from harness import Case, pixel
 
@@ -159,7 +158,3 @@ class Shadows(Case):
         self.bad(1, "teapot", "--light", "ambient:radius=1", says="no 'radius'")
         self.bad(2, self.scene("bad.json", shadows=1), says="shadows")
         self.bad(2, self.scene("bad.json", lights=[{"type": "point", "radius": -1}]), says="radius")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -49,6 +49,26 @@ static inline void test_add(struct CMUnitTest test)
         test_tear_down = TEAR_DOWN;                                                                                    \
     }
 
+// Fails with the text of the variable `error` if a call or a pointer is false.
+#define SUCCEEDS(CALL)                                                                                                 \
+    do {                                                                                                               \
+        if (!(CALL))                                                                                                   \
+            fail_msg("%s", error.text);                                                                                \
+    } while (0)
+
+// Declares a variable that is freed at the end of its block.
+#define AUTO(TYPE, NAME, FREE)                                                                                         \
+    static inline void free_##NAME(TYPE *at) { FREE; }
+AUTO(lam_scene *, scene, lam_scene_free(*at))
+AUTO(lam_device *, device, lam_device_free(*at))
+AUTO(lam_image, image, lam_image_free(at))
+AUTO(lam_bytes, bytes, lam_bytes_free(at))
+#undef AUTO
+#define AUTO_SCENE  __attribute__((cleanup(free_scene))) lam_scene *
+#define AUTO_DEVICE __attribute__((cleanup(free_device))) lam_device *
+#define AUTO_IMAGE  __attribute__((cleanup(free_image))) lam_image
+#define AUTO_BYTES  __attribute__((cleanup(free_bytes))) lam_bytes
+
 int main(void) { return _cmocka_run_group_tests("tests", test_list, test_count, test_set_up, test_tear_down); }
 
 #endif

@@ -165,7 +165,7 @@ MORE = {
                "near negative": {"near": -1, "far": 9}, "near negative in parallel": {"near": -1, "far": 9, "ortho_half_height": 2}, "fovy 180": {"fovy": 180},
                "ortho": {"ortho": 2}, "unknown": {"fov": 30}, "angle": {"fovy": "40deg"}},
     "environment": {"rotation": {"rotation": 40}, "none": {"builtin": None}, "rotation alone": {"builtin": None, "rotation": 40}},
-    "image": {"unknown": {"sice": [16, 16]}, "samples 3": {"samples": 3}},
+    "image": {"unknown": {"sice": [16, 16]}, "samples 3": {"samples": 3}, "both modes": {"color": "raw", "color_mode": "raw"}, "size 2.5": {"size": [2.5, 2]}},
     "setting": {"stage and shading": {"stage": "fragment", "shading": "gouraud"}, "stage and phong": {"stage": "vertex", "shading": "phong"}, "unknown": {"shadow": True},
                 "ground and colour": {"ground": "color", "ground_color": "#446688"}, "angle": {"edge_angle": "40deg", "edges": ["crease"]}},
 }
@@ -297,6 +297,8 @@ def rows(schema):
             for b in middles:
                 if a < b and not {a, b} & {"faces", "equirectangular"}:
                     add(subject, f"{a} and {b}", {**base, a: middles[a], b: middles[b]})
+        for key in sorted(set().union(*(properties(schema, other) for other in LIGHTS)) - set(known)) if subject in LIGHTS else ():
+            add(subject, f"{key} foreign", {**base, key: 1})
         for name, keys in MORE.get(subject, {}).items():
             add(subject, "more: " + name, keys if isinstance(keys, str) else {key: value for key, value in {**base, **keys}.items() if value is not None})
     return found

@@ -132,7 +132,6 @@ class Explain(Case):
 
         scene = {"lambent": 1, "objects": [{"shape": "torus", "transform": [["rotate", 30, 1, 2, 3], ["scale", -1, 1.5, 2]]}]}
         (self.folder / "stretched.json").write_text(json.dumps(scene))
-        self.given |= {"stretched.json"}
         for words in (["teapot"], ["stretched.json"], ["teapot", "--projection", "orthographic"], ["stretched.json", "--shading", "gouraud"],
                       ["stretched.json", "--shading", "flat"], ["cube.stl"]):
             words = [words[0], "20,24", *words[1:]]
@@ -202,7 +201,6 @@ class Explain(Case):
             letters[model] = {t for t in texts if t in ("n", "l", "v", "r", "h", "t")}
             self.assertEqual(any("cos(t, l)" in t for t in texts if t), model == "kajiya-kay")
         self.assertEqual(letters, {"kajiya-kay": set("nlvt"), "phong": set("nlvrh")})
-        self.given |= {"f.svg"}
 
     def test_isa_does_not_matter(self):
         words = ("explain", "teapot", "30,30", "-s", 64, "--json")

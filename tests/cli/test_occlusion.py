@@ -11,7 +11,6 @@ SCENE = {"lambent": 1, "image": {"size": [48, 48], "samples": 1}, "ambient": [1,
 class Occlusion(Case):
     def scene(self, name="rays.json", **more):
         (self.folder / name).write_text(json.dumps({**SCENE, **more}))
-        self.given.add(name)
         return name
 
     def test_scene_and_options(self):

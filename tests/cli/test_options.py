@@ -54,7 +54,6 @@ class Picture(Case):
         self.assertEqual(self.png("cube.obj", "-s", 32, "--color", "raw"), raw)
         self.assertEqual(self.png("cube.obj", "-s", 32, "--color=raw", "--color", "srgb"), plain)
         self.good("materials", "--color", "raw", "-s", 32, "--no-captions", "-o", "m.png")
-        self.given.add("m.png")
         self.bad(1, "materials", "--color", "red", says="does not apply")
         self.assertEqual(self.png("cube.obj", "-s", 32, "--color", "raw", "--color", "#336699"),
                          self.png("cube.obj", "-s", 32, "--color-mode", "raw", "--color", "0.2/0.4/0.6"))

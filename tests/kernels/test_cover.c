@@ -65,7 +65,7 @@ static lam_scene *scene_of(const struct soup *soup, lam_cull cull)
 static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZE * SIZE])
 {
     lam_error error = {0};
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
+    AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
     lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100},
                          .target = {SIZE / 2, SIZE / 2, 0},
                          .up = {0, 1, 0},
@@ -73,14 +73,12 @@ static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZ
                          .near_plane = 1,
                          .far_plane = 199};
     lam_draw_params params = {.samples = samples, .reflection = LAM_REFLECTION_NONE};
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     if (!device || !lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
         !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
         fail_msg("%s", error.text);
     for (int i = 0; i < SIZE * SIZE; i++)
         out[i] = ((float *)image.pixels)[4 * i];
-    lam_image_free(&image);
-    lam_device_free(device);
 }
 
 // The expected pixel: a triangle's number, 0 for none, and whether the second triangle is too close to decide in
@@ -135,13 +133,12 @@ static void check(struct soup *soup, bool exact)
     refer(soup, &reference);
     if (exact)
         memset(reference.close, 0, sizeof reference.close);
-    lam_scene *scene = scene_of(soup, LAM_CULL_NONE);
+    AUTO_SCENE scene = scene_of(soup, LAM_CULL_NONE);
     for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
         if (lam_isa_usable((lam_isa)isa)) {
             draw(scene, (lam_isa)isa, 1, drawn);
             compare(&reference, (lam_isa)isa, drawn);
         }
-    lam_scene_free(scene);
     free(soup->corners);
 }
 
@@ -256,11 +253,11 @@ TEST(test_watertight)
                 *c++ = 0;
             }
         }
-    lam_scene *scene = scene_of(&soup, LAM_CULL_NONE);
+    AUTO_SCENE scene = scene_of(&soup, LAM_CULL_NONE);
     static const int samples[] = {1, 4, 16};
     for (int s = 0; s < 3; s++) {
         lam_error error = {0};
-        lam_device *device = lam_device_cpu(NULL, &error);
+        AUTO_DEVICE device = lam_device_cpu(NULL, &error);
         lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100},
                              .target = {SIZE / 2, SIZE / 2, 0},
                              .up = {0, 1, 0},
@@ -268,17 +265,14 @@ TEST(test_watertight)
                              .near_plane = 1,
                              .far_plane = 199};
         lam_draw_params params = {.samples = samples[s], .reflection = LAM_REFLECTION_NONE};
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
         assert_true(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
         // Inside the jittered border, everything is covered.
         for (int y = 8; y < SIZE - 8; y++)
             for (int x = 8; x < SIZE - 8; x++)
                 assert_true(((float *)image.pixels)[4 * (y * SIZE + x) + 3] == 1.0f);
-        lam_image_free(&image);
-        lam_device_free(device);
     }
-    lam_scene_free(scene);
     free(soup.corners);
 }
 
@@ -291,9 +285,8 @@ TEST(test_culling)
     const lam_cull culls[] = {LAM_CULL_NONE, LAM_CULL_BACK, LAM_CULL_FRONT};
     float *out[] = {all, front, back};
     for (int i = 0; i < 3; i++) {
-        lam_scene *scene = scene_of(&soup, culls[i]);
+        AUTO_SCENE scene = scene_of(&soup, culls[i]);
         draw(scene, LAM_ISA_AUTO, 1, out[i]);
-        lam_scene_free(scene);
     }
     for (int i = 0; i < SIZE * SIZE; i++) {
         for (int s = 1; s < 3; s++) {
@@ -326,7 +319,7 @@ TEST(test_sizes)
             for (int i = 0; i < 12; i++)
                 positions[i / 3][i % 3] = corners[i / 3][i % 3] * (float)pow(10, power);
             lam_mesh mesh = {.positions = positions[0], .indices = indices, .vertex_count = 4, .triangle_count = 4};
-            lam_scene *scene = lam_scene_make(NULL);
+            AUTO_SCENE scene = lam_scene_make(NULL);
             lam_object object = lam_object_default();
             object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
             if (object.mesh < 0 || lam_scene_add_object(scene, &object, &error) < 0)
@@ -336,7 +329,7 @@ TEST(test_sizes)
             for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
                 if (!lam_isa_usable((lam_isa)isa))
                     continue;
-                lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = (lam_isa)isa}, &error);
+                AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = (lam_isa)isa}, &error);
                 lam_image image = {.width = WIDTH, .height = HEIGHT, .format = LAM_RGBA8, .pixels = pixels};
                 if (!device || !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
                     fail_msg("%s", error.text);
@@ -347,9 +340,7 @@ TEST(test_sizes)
                 assert_memory_equal(pixels, scalar, sizeof scalar);
                 if (power <= 33)
                     assert_memory_equal(pixels, first, sizeof first);
-                lam_device_free(device);
             }
-            lam_scene_free(scene);
         }
     int covered = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++)

@@ -300,7 +300,7 @@ TEST(test_methods)
     static float drawn[3][SIZE * SIZE * 4];
     seed = 10;
     struct soup soup = random_soup(300, 0.02);
-    lam_scene *scene = scene_of(&soup, NULL);
+    AUTO_SCENE scene = scene_of(&soup, NULL);
     uint64_t lit = 0;
     for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
         struct way way = {.threads = 2,
@@ -313,7 +313,6 @@ TEST(test_methods)
             assert_true(fabsf(drawn[shading][i] - drawn[0][i]) < 1e-5f);
     }
     assert_true(lit > 4 * SIZE * SIZE); // layers indeed
-    lam_scene_free(scene);
     soup_free(&soup);
 }
 
@@ -419,7 +418,7 @@ TEST(test_many_layers)
     }
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     static struct reference reference;
-    lam_scene *scene = scene_of(&soup, NULL);
+    AUTO_SCENE scene = scene_of(&soup, NULL);
     struct way way = {.isa = LAM_ISA_SCALAR,
                       .threads = 1,
                       .format = LAM_RGBA32F,
@@ -440,7 +439,6 @@ TEST(test_many_layers)
         for (int c = 0; c < 4; c++)
             assert_true(fabs((double)first[4 * i + c] - reference.pixel[i][c]) < (reference.close[i] ? 1e-3 : 1e-5));
     assert_true(first[4 * (SIZE * 45 + 40) + 3] > 0.99f);
-    lam_scene_free(scene);
     soup_free(&soup);
 }
 
@@ -455,11 +453,11 @@ TEST(test_limit)
             float color[4] = {1, 1, 1, 1e-4f};
             set(&soup, i, corners, color, false);
         }
-        lam_scene *scene = scene_of(&soup, NULL);
+        AUTO_SCENE scene = scene_of(&soup, NULL);
         lam_error error = {0};
-        lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, &error);
+        AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, &error);
         lam_camera seen = camera();
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
         lam_draw_params params = {.samples = 1, .reflection = LAM_REFLECTION_NONE};
         bool drawn = lam_draw(device, scene, &seen, &params, &image, NULL, &error);
@@ -472,13 +470,9 @@ TEST(test_limit)
             assert_int_equal(error.code, LAM_LIMIT);
             assert_non_null(strstr(error.text, "65536"));
             // The device still works for other frames.
-            lam_scene *empty = lam_scene_make(&error);
+            AUTO_SCENE empty = lam_scene_make(&error);
             assert_true(lam_draw(device, empty, &seen, &params, &image, NULL, &error));
-            lam_scene_free(empty);
         }
-        lam_image_free(&image);
-        lam_device_free(device);
-        lam_scene_free(scene);
         soup_free(&soup);
     }
 }
@@ -491,20 +485,17 @@ TEST(test_memory)
     for (int opaque = 0; opaque < 2; opaque++) {
         for (int i = 0; i < soup.count; i++)
             soup.colors[i][3] = opaque ? 1 : 0.5f;
-        lam_scene *scene = scene_of(&soup, NULL);
+        AUTO_SCENE scene = scene_of(&soup, NULL);
         lam_error error = {0};
-        lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
+        AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
         lam_camera seen = camera();
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
         lam_draw_params params = {.samples = 1, .reflection = LAM_REFLECTION_NONE};
         lam_control control = {.memory_limit_bytes = 4 << 20};
         bool drawn = lam_draw(device, scene, &seen, &params, &image, &control, &error);
         assert_int_equal(drawn, opaque);
         assert_true(drawn || error.code == LAM_LIMIT);
-        lam_image_free(&image);
-        lam_device_free(device);
-        lam_scene_free(scene);
     }
     soup_free(&soup);
 }
@@ -545,7 +536,7 @@ TEST(test_clipped)
         seen.far_plane = random_between(12, 40);
         for (int i = 0; i < 2; i++) {
             lam_error error = {0};
-            lam_scene *scene = lam_scene_make(&error);
+            AUTO_SCENE scene = lam_scene_make(&error);
             lam_material material = white();
             lam_object object = lam_object_default();
             float alpha = i ? 0.5f : 1;
@@ -554,7 +545,6 @@ TEST(test_clipped)
             assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
             struct way way = {.threads = 2, .format = LAM_RGBA32F, .params = {.reflection = LAM_REFLECTION_NONE}};
             lit[i] = draw_seen(scene, &seen, &way, drawn[i]);
-            lam_scene_free(scene);
         }
         for (int i = 0; i < SIZE * SIZE * 4; i++) {
             covered += drawn[0][i] == 1;
@@ -571,7 +561,7 @@ TEST(test_shading)
     static const float corners[4][3] = {{16, 16, 0}, {80, 16, 0}, {80, 80, 0}, {16, 80, 0}};
     static float drawn[SIZE * SIZE * 4];
     lam_error error = {0};
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_material material = white();
     material.diffuse.a = 0.5f;
     lam_object object = lam_object_default();
@@ -599,7 +589,6 @@ TEST(test_shading)
                             fabs((double)pixel[0] - 0.25 * expected) < 1e-5);
             }
     }
-    lam_scene_free(scene);
 }
 
 // A back material has its own alpha, whichever side is translucent; culled sides are omitted.
@@ -611,7 +600,7 @@ TEST(test_sides)
     for (int i = 0; i < 8; i++) {
         bool back = i & 1, swapped = i & 2, culled = i & 4;
         lam_error error = {0};
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         lam_material clear = white(), solid = white();
         clear.diffuse = (lam_rgba){0, 1, 0, 0.25f};
         lam_object object = lam_object_default();
@@ -624,7 +613,6 @@ TEST(test_sides)
              drawn);
         float expected = culled && back ? 0 : back != swapped ? 0.25f : 1;
         assert_true(drawn[4 * (48 * SIZE + 48) + 3] == expected);
-        lam_scene_free(scene);
     }
 }
 
@@ -668,7 +656,7 @@ TEST(test_straight)
     for (int i = 0; i < soup.count; i++)
         for (int c = 0; c < 3; c++)
             soup.colors[i][c] *= 0.6f;
-    lam_scene *scene = scene_of(&soup, NULL);
+    AUTO_SCENE scene = scene_of(&soup, NULL);
     draw(scene,
          &(struct way){.threads = 2,
                        .format = LAM_RGBA8,
@@ -687,6 +675,5 @@ TEST(test_straight)
         seen += p[3] < 0.99;
     }
     assert_true(seen > 500);
-    lam_scene_free(scene);
     soup_free(&soup);
 }

@@ -103,17 +103,15 @@ TEST(test_same_bytes)
         add(scene, &without, variant);
         add(scene, &half, &other);
         lam_frame_report report;
-        lam_image reference = draw(expected, variant, LAM_ISA_SCALAR, 1, &report);
+        AUTO_IMAGE reference = draw(expected, variant, LAM_ISA_SCALAR, 1, &report);
         assert_in_range(report.pixels_covered, WIDTH * HEIGHT / 2, WIDTH * HEIGHT);
         for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
             for (int threads = 1; threads < 4 && lam_isa_usable((lam_isa)isa); threads += 2) {
-                lam_image image = draw(scene, variant, (lam_isa)isa, threads, &report);
+                AUTO_IMAGE image = draw(scene, variant, (lam_isa)isa, threads, &report);
                 if (memcmp(image.pixels, reference.pixels, WIDTH * HEIGHT * 4) != 0)
                     fail_msg("variant %zu, %s, %d threads: the pictures differ", v, lam_isa_name((lam_isa)isa),
                              threads);
-                lam_image_free(&image);
             }
-        lam_image_free(&reference);
         lam_scene_free(expected);
         lam_scene_free(scene);
     }
@@ -130,14 +128,12 @@ TEST(test_memory)
     assert_non_null(positions);
     uint64_t bytes[2];
     for (int i = 0; i < 2; i++) {
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_mesh mesh = mesh_of(positions, NULL, i ? TRIANGLES : 1);
         add(scene, &mesh, &plain);
         lam_frame_report report;
-        lam_image image = draw(scene, &plain, LAM_ISA_AUTO, 1, &report);
+        AUTO_IMAGE image = draw(scene, &plain, LAM_ISA_AUTO, 1, &report);
         bytes[i] = report.memory_bytes;
-        lam_image_free(&image);
-        lam_scene_free(scene);
     }
     assert_true(bytes[1] - bytes[0] < TRIANGLES / 10); // the list of tasks
     free(positions);

@@ -263,11 +263,11 @@ static lam_scene *load(const struct known *k)
 static void compare(const struct known *k)
 {
     static struct world w;
-    lam_scene *scene = load(k);
+    AUTO_SCENE scene = load(k);
     lam_picture_settings settings;
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     lam_error error = {0};
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
+    AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
     assert_true(lam_scene_picture_settings(scene, &settings));
     assert_true(lam_image_make(&image, settings.width, settings.height, LAM_RGBA32F, &error));
     if (!lam_draw(device, scene, &settings.camera, &settings.draw, &image, NULL, &error))
@@ -306,9 +306,6 @@ static void compare(const struct known *k)
     assert_true(counted > 1000);
     assert_true(largest <= 2e-4);
     assert_true(total / (3 * counted) <= 2e-6);
-    lam_image_free(&image);
-    lam_device_free(device);
-    lam_scene_free(scene);
 }
 
 #define WHITE      {1, 1, 1}

@@ -235,8 +235,7 @@ static lam_image draw_ball(const lam_environment *environment, const lam_materia
     params.samples = 1;
     params.rig = LAM_RIG_NONE;
     params.occlusion = LAM_OCCLUSION_OFF;
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     lam_device_free(device);
     lam_scene_free(scene);
     return image;
@@ -294,7 +293,7 @@ TEST(test_same_bytes) { check_same_bytes((lam_draw_params){.reference = 19}); }
 TEST(test_limits)
 {
     lam_error error;
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, 64, 32, LAM_RGBA32F, &error));
     memset(image.pixels, 0, 64 * 32 * 16);
     for (int lit = 0; lit < 2; lit++) {
@@ -302,8 +301,8 @@ TEST(test_limits)
             ((float *)image.pixels)[4 * (8 * 64 + 20) + c] = 1e6f;
         lam_environment *environment = lam_environment_from_image(&image, LAM_COLOR_SRGB, &error);
         assert_non_null(environment);
-        lam_scene *scene = make_spheres(environment, (lam_rgb){1, 1, 1});
-        lam_image picture = draw_spheres(scene, (lam_draw_params){.reference = 64}, 0, LAM_ISA_AUTO);
+        AUTO_SCENE scene = make_spheres(environment, (lam_rgb){1, 1, 1});
+        AUTO_IMAGE picture = draw_spheres(scene, (lam_draw_params){.reference = 64}, 0, LAM_ISA_AUTO);
         double sum = 0;
         for (int i = 0; i < picture.width * picture.height * 4; i++) {
             float x = ((const float *)picture.pixels)[i];
@@ -311,12 +310,10 @@ TEST(test_limits)
             sum += i % 4 < 3 ? (double)x : 0;
         }
         assert_true(lit ? sum > 1e4 : sum == 0);
-        lam_image_free(&picture);
-        lam_scene_free(scene);
         lam_environment_free(environment);
     }
-    lam_scene *scene = lam_scene_make(&error);
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_SCENE scene = lam_scene_make(&error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     lam_camera camera = lam_camera_default();
     static const int wrong[] = {-1, 1, 15, (1 << 20) + 1};
     for (int i = 0; i < 4; i++) {
@@ -325,7 +322,4 @@ TEST(test_limits)
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
         assert_non_null(strstr(error.text, "reference is"));
     }
-    lam_device_free(device);
-    lam_scene_free(scene);
-    lam_image_free(&image);
 }

@@ -207,7 +207,7 @@ TEST(test_any_size)
 {
     lam_error error;
     for (int width = 2; width <= 46; width += 11) {
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, 2 * (width / 2 * 2), width / 2 * 2, LAM_RGBA32F, &error));
         for (int i = 0; i < image.width * image.height * 4; i++)
             ((float *)image.pixels)[i] = i % 4 == 3 ? 1 : 2e38f;
@@ -223,14 +223,12 @@ TEST(test_any_size)
                 if (!(fabsf(cube->texels[k] / 2e38f - 1) < 1e-4f))
                     fail_msg("level %d, number %zu: %g, expected 2e38", i, k, (double)cube->texels[k]);
         }
-        lam_image texture = {0};
+        AUTO_IMAGE texture = {0};
         assert_true(lam_environment_light_image(environment, &texture, NULL, &error));
         assert_int_equal(texture.width, ENVIRONMENT_LIGHT_WIDTH);
         const float *last = (const float *)texture.pixels + 4 * (size_t)environment_light_first(ENVIRONMENT_LEVELS);
         assert_memory_equal(last, light->irradiance.texels, 3 * sizeof(float));
-        lam_image_free(&texture);
         lam_environment_free(environment);
-        lam_image_free(&image);
     }
 }
 
@@ -312,7 +310,7 @@ TEST(test_levels_of_maps)
     lam_image pictures[2];
     assert_non_null(environment_light(whole, ENVIRONMENT_LIGHT_ALL, NULL, NULL, &error));
     for (int i = 0; i < 2; i++) {
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         lam_material material = lam_material_default();
         material.physical = true;
         material.roughness = 0.9f;
@@ -326,7 +324,6 @@ TEST(test_levels_of_maps)
         assert_true(object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
         assert_true(lam_scene_set_environment(scene, i ? parts : whole, 0, &error));
         pictures[i] = draw_spheres(scene, (lam_draw_params){0}, 2, LAM_ISA_AUTO);
-        lam_scene_free(scene);
     }
     assert_memory_equal(pictures[0].pixels, pictures[1].pixels,
                         (size_t)pictures[0].width * (size_t)pictures[0].height * 16);

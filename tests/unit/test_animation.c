@@ -14,8 +14,7 @@ static lam_animation *make(const char *format, const lam_animation_params *param
 {
     lam_error error;
     lam_animation *animation = lam_animation_make(format, 30, 20, params, &error);
-    if (!animation)
-        fail_msg("%s", error.text);
+    SUCCEEDS(animation);
     return animation;
 }
 
@@ -74,11 +73,10 @@ TEST(test_frames)
     lam_animation *animation = make("png", &(lam_animation_params){.loops = 3});
     static const lam_pixel_format formats[] = {LAM_RGBA8, LAM_BGRA8, LAM_RGB8, LAM_GREY8};
     for (size_t i = 0; i < 4; i++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, 30, 20, formats[i], &error));
         memset(image.pixels, (int)(40 * i), i < 2 ? 2400 : i == 2 ? 1800 : 600);
         assert_true(lam_animation_add(animation, &image, NULL, &error));
-        lam_image_free(&image);
     }
     lam_bytes bytes;
     assert_true(lam_animation_finish(animation, NULL, &bytes, &error));
@@ -94,14 +92,14 @@ TEST(test_first_frame)
 {
     lam_error error;
     lam_image image, back;
-    lam_bytes bytes;
+    AUTO_BYTES bytes = {0};
     char path[64];
     lam_animation *animation = make("png", NULL);
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
     fill(&image, 90, 90, 90, 255);
     ((uint8_t *)image.pixels)[0] = ((uint8_t *)image.pixels)[1] = ((uint8_t *)image.pixels)[2] = 7;
     assert_true(lam_animation_add(animation, &image, NULL, &error));
-    lam_image first = image;
+    AUTO_IMAGE first = image;
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
     fill(&image, 200, 10, 90, 100);
     assert_true(lam_animation_add(animation, &image, NULL, &error));
@@ -113,9 +111,7 @@ TEST(test_first_frame)
     unlink(path);
     assert_memory_equal(back.pixels, first.pixels, 2400);
     lam_image_free(&back);
-    lam_image_free(&first);
     lam_image_free(&image);
-    lam_bytes_free(&bytes);
     lam_animation_free(animation);
 }
 
@@ -124,7 +120,7 @@ TEST(test_cancelled)
     lam_error error;
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_bytes bytes;
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
     fill(&image, 1, 2, 3, 4);
@@ -138,7 +134,6 @@ TEST(test_cancelled)
         assert_false(lam_animation_finish(animation, NULL, &bytes, &error));
         lam_animation_free(animation);
     }
-    lam_image_free(&image);
 }
 
 // Pixels that no compression makes smaller.
@@ -155,7 +150,7 @@ TEST(test_memory)
     enum { LIMIT = 50000, FRAME = 30 * 20 * 4 };
     const lam_control control = {.memory_limit_bytes = LIMIT};
     lam_error error;
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_bytes bytes;
     uint32_t seed = 1;
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
@@ -179,7 +174,6 @@ TEST(test_memory)
             assert_int_equal(error.code, LAM_LIMIT);
         lam_animation_free(animation);
     }
-    lam_image_free(&image);
 }
 
 // For a WebP, the encoder's canvases count, and the memory for encoding a frame.
@@ -187,7 +181,7 @@ TEST(test_memory_webp)
 {
     enum { CANVASES = 3 * 4 * 30 * 20, NEXT = 12 * 30 * 20 };
     lam_error error;
-    lam_image image;
+    AUTO_IMAGE image = {0};
     uint32_t seed = 1;
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
     fill_noise(&image, &seed);
@@ -201,22 +195,20 @@ TEST(test_memory_webp)
             assert_int_equal(error.code, LAM_LIMIT);
         lam_animation_free(animation);
     }
-    lam_image_free(&image);
 }
 
 static void draw(const lam_scene *scene, lam_device *device, lam_image *image)
 {
     lam_error error;
     lam_camera camera = lam_camera_default();
-    if (!lam_draw(device, scene, &camera, NULL, image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, NULL, image, NULL, &error));
 }
 
 // A reset restores the picture after any change.
 TEST(test_reset)
 {
     lam_error error;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     assert_false(lam_scene_reset(scene, &error)); // nothing is marked
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_false(lam_scene_mark(NULL, &error));
@@ -234,7 +226,7 @@ TEST(test_reset)
     lam_image before, after;
     assert_true(lam_image_make(&before, 64, 64, LAM_RGBA8, &error) &&
                 lam_image_make(&after, 64, 64, LAM_RGBA8, &error));
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     draw(scene, device, &before);
     assert_true(lam_scene_mark(scene, &error));
     for (int i = 0; i < 3; i++) {
@@ -263,21 +255,18 @@ TEST(test_reset)
         assert_int_equal(lam_scene_up(scene), LAM_UP_Y);
         assert_ptr_equal(lam_scene_mesh(scene, 0)->parts, parts);
     }
-    lam_device_free(device);
     lam_image_free(&before);
     lam_image_free(&after);
-    lam_scene_free(scene);
 }
 
 TEST(test_warnings_once)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_scene_add_warning(scene, "one");
     lam_scene_add_warning(scene, "two");
     lam_scene_add_warning(scene, "one");
     assert_string_equal(lam_scene_warning(scene, 1), "two");
     assert_null(lam_scene_warning(scene, 2));
-    lam_scene_free(scene);
 }
 
 TEST(test_rotation)

@@ -203,7 +203,7 @@ TEST(turning_boxes_are_not_cut)
         double fill = 0, fill_still = 0;
         for (int turn = 0; turn < 200; turn++) {
             // A scene with one object at the position of the corners performs the rotation.
-            lam_scene *turning = lam_scene_make(NULL);
+            AUTO_SCENE turning = lam_scene_make(NULL);
             lam_object object = lam_object_default();
             object.mesh = lam_scene_add_shape(turning, "cube", NULL, NULL);
             assert_true(lam_scene_add_object(turning, &object, NULL) == 0);
@@ -218,7 +218,6 @@ TEST(turning_boxes_are_not_cut)
                 fill = fmax(fill, fmax(half - span.low[k], span.high[k] - half) / half);
                 fill_still = fmax(fill_still, fmax(half - before.low[k], before.high[k] - half) / half);
             }
-            lam_scene_free(turning);
         }
         if (!(fill < (same ? 0.985 : 0.925)))
             fail_msg("box %d: turned it reaches %g of the side", number, fill);
@@ -379,7 +378,7 @@ TEST(origins_are_exact)
         for (int i = 0; i < 9; i++) // a triangle of size 1
             p[i] = far[i % 3] + (i % 3 == 0 && i < 6 ? (float)(i / 3) : random_between(&r, 0, 1));
         p[9] = p[10] = p[11] = -3.4e38f;
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_mesh mesh = {.positions = p, .vertex_count = 4, .indices = (uint32_t[]){0, 1, 2}, .triangle_count = 1};
         assert_true(lam_scene_add_mesh(scene, &mesh, NULL) == 0);
         const lam_mesh *kept = lam_scene_mesh(scene, 0);
@@ -388,7 +387,6 @@ TEST(origins_are_exact)
         assert_true((kept->origin[0] != 0) == (number % 4 > 0));
         for (int i = 0; i < 12; i++)
             assert_true(isfinite(kept->positions[i]));
-        lam_scene_free(scene);
     }
 }
 

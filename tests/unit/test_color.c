@@ -76,7 +76,7 @@ TEST(wrong_colors_are_told)
 TEST(normals_made_anew)
 {
     lam_error error = {0};
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     assert_non_null(scene);
     int mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 16, .stacks = 8}, &error);
     assert_true(mesh >= 0);
@@ -98,5 +98,4 @@ TEST(normals_made_anew)
     lam_cancel cancel = {1};
     assert_false(lam_scene_make_normals(scene, LAM_NORMALS_SMOOTH, 0, 0, &(lam_control){.cancel = &cancel}, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
-    lam_scene_free(scene);
 }

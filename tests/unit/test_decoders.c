@@ -109,7 +109,7 @@ TEST(test_wide)
     for (int i = 0; i < 4; i++) {
         struct file file;
         assert_true(read_file("png", names[i], &file));
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         lam_error error = {0};
         bool wide = false;
         assert_true(
@@ -125,7 +125,6 @@ TEST(test_wide)
                 }
             }
         }
-        lam_image_free(&image);
     }
 }
 
@@ -173,14 +172,13 @@ TEST(test_inks)
     static const int expected[4] = {204, 102, 51, 255};
     for (int kind = 0; kind < 3; kind++) {
         struct file file = make_inks(kind == 1 ? JCS_YCCK : JCS_CMYK, kind < 2, kind < 2 ? through : inks);
-        lam_image image;
+        AUTO_IMAGE image = {0};
         lam_error error;
         assert_true(decode(&file, file.size, &image, &error));
         for (int i = 0; i < SIDE * SIDE * 4; i++)
             if (abs(((const uint8_t *)image.pixels)[i] - expected[i % 4]) > 2)
                 fail_msg("kind %d, channel %d: %d, expected %d", kind, i % 4, ((const uint8_t *)image.pixels)[i],
                          expected[i % 4]);
-        lam_image_free(&image);
     }
 }
 

@@ -14,8 +14,7 @@ static struct demo make_demo(const char *name)
 {
     struct demo demo;
     lam_error error = {0};
-    if (!demo_build_named(name, &demo, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(demo_build_named(name, &demo, &error));
     return demo;
 }
 
@@ -23,8 +22,7 @@ static lam_device *make_device(int threads)
 {
     lam_error error = {0};
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = threads}, &error);
-    if (!device)
-        fail_msg("%s", error.text);
+    SUCCEEDS(device);
     return device;
 }
 
@@ -43,7 +41,7 @@ TEST(test_default_samples)
     } cases[] = {{512, 512, 8}, {513, 512, 4},     {512, 513, 4},  {2048, 128, 8}, {2048, 129, 4},
                  {1, 1, 16},    {65535, 65535, 4}, {256, 256, 16}, {257, 256, 8}};
     struct demo demo = make_demo("sphere-phong");
-    lam_device *device = make_device(1);
+    AUTO_DEVICE device = make_device(1);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         int width = cases[i].width, height = cases[i].height;
         assert_int_equal(lam_default_samples(width, height), cases[i].samples);
@@ -58,14 +56,13 @@ TEST(test_default_samples)
         for (int k = 0; k < 2; k++)
             lam_image_free(&images[k]);
     }
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
 TEST(test_arguments)
 {
     struct demo demo = make_demo("sphere-phong");
-    lam_device *device = make_device(1);
+    AUTO_DEVICE device = make_device(1);
     lam_image image = make_image(32, 32), none = {0};
     lam_error error;
     lam_camera camera = demo.camera;
@@ -103,15 +100,14 @@ TEST(test_arguments)
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     lam_device_free(NULL);
     lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
 TEST(test_cancel_and_limits)
 {
     struct demo demo = make_demo("teapot");
-    lam_device *device = make_device(2);
-    lam_image image = make_image(256, 256);
+    AUTO_DEVICE device = make_device(2);
+    AUTO_IMAGE image = make_image(256, 256);
     lam_error error;
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
@@ -126,16 +122,13 @@ TEST(test_cancel_and_limits)
     assert_int_equal(error.code, LAM_LIMIT);
     assert_non_null(strstr(error.text, "time limit"));
 
-    lam_device *fresh = make_device(1);
+    AUTO_DEVICE fresh = make_device(1);
     control = (lam_control){.memory_limit_bytes = 100000};
     assert_false(lam_draw(fresh, demo.scene, &demo.camera, NULL, &image, &control, &error));
     assert_int_equal(error.code, LAM_LIMIT);
     assert_non_null(strstr(error.text, "memory limit"));
     control.memory_limit_bytes = 64000000;
     assert_true(lam_draw(fresh, demo.scene, &demo.camera, NULL, &image, &control, &error));
-    lam_device_free(fresh);
-    lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
@@ -158,14 +151,13 @@ TEST(test_progress)
     struct demo demo = make_demo("teapot");
     lam_device *device =
         make_device(1); // reports come from the calling thread: with others it may draw few tiles itself
-    lam_image image = make_image(512, 512);
+    AUTO_IMAGE image = make_image(512, 512);
     struct progress_seen seen = {0};
     lam_control control = {.progress = see_progress, .user = &seen};
     assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, &control, NULL));
     assert_true(seen.calls > 2);
     assert_false(seen.backwards);
     assert_true(seen.last == 1);
-    lam_image_free(&image);
     lam_device_free(device);
     lam_scene_free(demo.scene);
 }
@@ -174,8 +166,8 @@ TEST(test_progress)
 TEST(test_memory_settles)
 {
     struct demo demo = make_demo("ground"); // including clipped pieces
-    lam_device *device = make_device(1);
-    lam_image image = make_image(300, 200);
+    AUTO_DEVICE device = make_device(1);
+    AUTO_IMAGE image = make_image(300, 200);
     lam_frame_report first, second;
     assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, NULL, NULL));
     lam_device_report(device, &first);
@@ -185,8 +177,6 @@ TEST(test_memory_settles)
     assert_int_equal(first.memory_bytes, second.memory_bytes);
     assert_int_equal(first.triangles, lam_scene_triangle_count(demo.scene));
     assert_true(first.pixels_covered > 0 && first.points_lit >= first.pixels_covered);
-    lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
@@ -195,7 +185,7 @@ TEST(test_float_state)
 {
 #if defined(__SSE2__)
     struct demo demo = make_demo("lights");
-    lam_device *device = make_device(2);
+    AUTO_DEVICE device = make_device(2);
     lam_image before = make_image(160, 120), after = make_image(160, 120);
     assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &before, NULL, NULL));
     unsigned own = _mm_getcsr();
@@ -204,7 +194,7 @@ TEST(test_float_state)
     _mm_setcsr(odd);
     struct demo again;
     bool built = demo_build_named("lights", &again, NULL);
-    lam_device *made_here = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
+    AUTO_DEVICE made_here = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
     bool drawn = built && made_here && lam_draw(made_here, again.scene, &again.camera, NULL, &after, NULL, NULL);
     unsigned left = _mm_getcsr();
     _mm_setcsr(own);
@@ -213,8 +203,6 @@ TEST(test_float_state)
     assert_memory_equal(before.pixels, after.pixels, 160 * 120 * 4);
     lam_image_free(&before);
     lam_image_free(&after);
-    lam_device_free(device);
-    lam_device_free(made_here);
     lam_scene_free(again.scene);
     lam_scene_free(demo.scene);
 #else
@@ -265,8 +253,8 @@ TEST(test_shared_scene)
 TEST(test_null_device)
 {
     struct demo demo = make_demo("sphere-flat");
-    lam_device *device = lam_device_null(NULL);
-    lam_image image = make_image(16, 16);
+    AUTO_DEVICE device = lam_device_null(NULL);
+    AUTO_IMAGE image = make_image(16, 16);
     memset(image.pixels, 7, 16 * 16 * 4);
     assert_string_equal(lam_device_name(device), "null");
     assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, NULL, NULL));
@@ -274,8 +262,6 @@ TEST(test_null_device)
     lam_frame_report report;
     lam_device_report(device, &report);
     assert_int_equal(report.triangles, lam_scene_triangle_count(demo.scene));
-    lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
@@ -288,8 +274,8 @@ TEST(test_fit)
             struct demo demo = make_demo(names[n]);
             int width = wide ? 1000 : 400, height = wide ? 400 : 1000;
             lam_camera camera = lam_camera_fit(demo.scene, width, height, NULL);
-            lam_device *device = make_device(2);
-            lam_image image = make_image(width, height);
+            AUTO_DEVICE device = make_device(2);
+            AUTO_IMAGE image = make_image(width, height);
             assert_true(lam_draw(device, demo.scene, &camera, NULL, &image, NULL, NULL));
             int left = width, right = -1, top = height, bottom = -1;
             for (int y = 0; y < height; y++)
@@ -304,8 +290,6 @@ TEST(test_fit)
             assert_true(fabs((across > down ? across : down) - 0.92) < 0.006);
             assert_true(abs(left - (width - 1 - right)) <= 3);
             assert_true(abs(top - (height - 1 - bottom)) <= 3);
-            lam_image_free(&image);
-            lam_device_free(device);
             lam_scene_free(demo.scene);
         }
 }
@@ -331,8 +315,7 @@ static lam_scene *load_sheet(bool when_drawn, lam_normals normals, bool clear)
         text, used, "sheet.obj",
         &(lam_load_params){.normals_when_drawn = when_drawn, .normals = normals, .crease_angle_rad = 0.6}, NULL,
         &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     assert_int_equal(lam_scene_mesh(scene, 0)->normals == NULL, when_drawn);
     // Twice; the second one is mirrored, and made of glass on request.
     lam_object object = *lam_scene_object(scene, 0);
@@ -364,8 +347,7 @@ TEST(test_normals_when_drawn)
         for (int k = 0; k < 3; k++) { // twice with the same device
             images[k] = make_image(200, 150);
             lam_error error = {0};
-            if (!lam_draw(device, scenes[k > 0], &camera, &params, &images[k], NULL, &error))
-                fail_msg("%s", error.text);
+            SUCCEEDS(lam_draw(device, scenes[k > 0], &camera, &params, &images[k], NULL, &error));
             assert_memory_equal(images[k].pixels, images[0].pixels, 200 * 150 * 4);
         }
         lam_frame_report report;
@@ -402,8 +384,8 @@ TEST(test_normals_when_drawn)
 TEST(test_ranges_of_settings)
 {
     struct demo demo = make_demo("sphere-phong");
-    lam_device *device = make_device(1);
-    lam_image image = make_image(8, 8);
+    AUTO_DEVICE device = make_device(1);
+    AUTO_IMAGE image = make_image(8, 8);
     const lam_setting *s;
     int checked = 0;
     for (int i = 0; (s = lam_draw_setting(i)); i++) {
@@ -436,7 +418,5 @@ TEST(test_ranges_of_settings)
         checked++;
     }
     assert_true(checked > 20);
-    lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }

@@ -35,8 +35,7 @@ static uint8_t *draw(const lam_scene *scene)
     lam_image image = {.width = SIZE, .height = SIZE, .format = LAM_RGBA8, .pixels = bytes};
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
     lam_draw_params params = {.samples = 1, .shadows = true, .ground = LAM_GROUND_CHECKER, .wireframe = true};
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     return bytes;
 }
 
@@ -63,7 +62,7 @@ static lam_scene *scene_of(const char *first, const char *second)
 
 TEST(hidden_is_absent)
 {
-    lam_scene *scene = scene_of("torus", "cube");
+    AUTO_SCENE scene = scene_of("torus", "cube");
     int points = add_points(scene);
     uint8_t *whole = draw(scene);
     assert_true(lam_scene_hide_object(scene, points, true, NULL));
@@ -83,24 +82,22 @@ TEST(hidden_is_absent)
     same(scene, scene_of(NULL, "cube"));
     free(whole);
     free(again);
-    lam_scene_free(scene);
 }
 
 TEST(all_hidden_is_empty)
 {
-    lam_scene *scene = scene_of("torus", NULL);
+    AUTO_SCENE scene = scene_of("torus", NULL);
     lam_scene_hide_object(scene, 0, true, NULL);
     lam_vec3 low, high, centre;
     double radius;
     assert_false(lam_scene_bounds(scene, &low, &high));
     assert_false(lam_scene_sphere(scene, -1, &centre, &radius));
     same(scene, scene_of(NULL, NULL));
-    lam_scene_free(scene);
 }
 
 TEST(removed_is_absent)
 {
-    lam_scene *scene = scene_of("torus", "cube");
+    AUTO_SCENE scene = scene_of("torus", "cube");
     assert_true(lam_scene_remove_object(scene, 0, NULL));
     assert_int_equal(lam_scene_object_count(scene), 1);
     same(scene, scene_of(NULL, "cube"));
@@ -112,7 +109,6 @@ TEST(removed_is_absent)
     assert_true(lam_scene_remove_mesh(scene, 0, NULL)); // with its object
     assert_int_equal(lam_scene_object_count(scene), 1);
     same(scene, scene_of("torus", NULL));
-    lam_scene_free(scene);
 }
 
 TEST(replaced_is_the_new_one)
@@ -177,7 +173,7 @@ static void refused(bool ok, const lam_error *error, const char *text)
 TEST(bad_arguments)
 {
     lam_error error;
-    lam_scene *scene = scene_of("torus", "cube");
+    AUTO_SCENE scene = scene_of("torus", "cube");
     const float infinite[] = {0, 0, 0, 1, 0, 0, 0, 1.0f / 0.0f, 0};
     refused(lam_scene_set_mesh(scene, 2, lam_scene_mesh(scene, 0), &error), &error, "mesh: 2 of 2");
     refused(lam_scene_set_mesh(scene, 0, NULL, &error), &error, "mesh: the mesh is NULL");
@@ -190,7 +186,6 @@ TEST(bad_arguments)
     refused(lam_scene_remove_mesh(scene, -1, &error), &error, "mesh: -1 of 2");
     refused(lam_scene_remove_mesh(NULL, 0, &error), &error, "mesh: the scene is NULL");
     same(scene, scene_of("torus", "cube")); // nothing has changed
-    lam_scene_free(scene);
 }
 
 TEST(scene_files)
@@ -199,7 +194,7 @@ TEST(scene_files)
     strcpy(folder, "/tmp/lambent-edit-XXXXXX");
     assert_non_null(mkdtemp(folder));
     const char *path = in_folder("scene.json");
-    lam_scene *scene = scene_of("torus", "cube");
+    AUTO_SCENE scene = scene_of("torus", "cube");
     assert_true(lam_scene_hide_object(scene, 0, true, NULL));
     const lam_picture_settings settings = {.draw = {.ground = LAM_GROUND_CHECKER}}; // draw() has a ground
     assert_true(lam_scene_save(scene, &settings, path, &error));
@@ -211,7 +206,6 @@ TEST(scene_files)
     assert_false(lam_scene_save(scene, NULL, path, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     assert_non_null(strstr(error.text, "object 1 ('cube')"));
-    lam_scene_free(scene);
     remove_folder(NULL);
 }
 

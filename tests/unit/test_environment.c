@@ -116,8 +116,7 @@ static lam_environment *environment_of(const struct cube *cube)
         faces[face] = &cube->faces[face];
     lam_error error = {0};
     lam_environment *environment = lam_environment_make(faces, LAM_COLOR_RAW, &error);
-    if (!environment)
-        fail_msg("%s", error.text);
+    SUCCEEDS(environment);
     return environment;
 }
 
@@ -260,7 +259,7 @@ static void check_ball(const struct ball *ball)
     lam_error error = {0};
     struct cube cube = make_cube(64, true);
     lam_environment *environment = environment_of(&cube);
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 24, .stacks = 12}, &error);
     lam_material mirror = {.diffuse = {0, 0, 0, 1}, .reflectivity = {0.9f, 0.8f, 0.7f}};
@@ -280,11 +279,10 @@ static void check_ball(const struct ball *ball)
     camera.ortho_half_height = ball->orthographic ? 1.05 : 0;
     camera.fovy_rad = 0.65;
     lam_draw_params params = {.samples = 1, .color = LAM_COLOR_RAW, .rig = LAM_RIG_NONE};
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, SIDE, SIDE, LAM_RGBA32F, &error));
-    lam_device *device = lam_device_cpu(NULL, &error);
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
 
     vec eye = from_lam(camera.eye), back = unit(eye), right = unit(cross(of(0, 1, 0), back)),
         above = cross(back, right);
@@ -322,9 +320,6 @@ static void check_ball(const struct ball *ball)
     if (most > 5e-4 || sum / count > 5e-6)
         fail_msg("%g at most, %g on average, expected 5e-4 and 5e-6", most, sum / count);
     assert_true(wrong / count > 0.05);
-    lam_device_free(device);
-    lam_image_free(&image);
-    lam_scene_free(scene);
     free_cube(&cube);
 }
 
@@ -352,7 +347,7 @@ TEST(test_crosses)
     static const int places[2][6][2] = {{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}},
                                         {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {1, 3}}};
     for (int stands = 0; stands < 2; stands++) {
-        lam_image cross_image = {0};
+        AUTO_IMAGE cross_image = {0};
         assert_true(lam_image_make(&cross_image, N * (stands ? 3 : 4), N * (stands ? 4 : 3), LAM_RGBA32F, NULL));
         memset(cross_image.pixels, 0xff, (size_t)12 * N * N * 16); // NaN: texels outside the cross are never used
         for (int face = 0; face < 6; face++) {
@@ -368,15 +363,13 @@ TEST(test_crosses)
         }
         lam_error error = {0};
         lam_environment *e = lam_environment_from_image(&cross_image, LAM_COLOR_RAW, &error);
-        if (!e)
-            fail_msg("%s", error.text);
+        SUCCEEDS(e);
         for (int i = 0; i < 2000; i++) {
             vec d = of(random_number() * 2 - 1, random_number() * 2 - 1, random_number() * 2 - 1);
             lam_rgb a = look_at(e, d), b = look_at(straight, d);
             assert_memory_equal(&a, &b, sizeof a);
         }
         lam_environment_free(e);
-        lam_image_free(&cross_image);
     }
     lam_environment_free(straight);
     free_cube(&cube);
@@ -386,7 +379,7 @@ TEST(test_crosses)
 TEST(test_equirectangular)
 {
     enum { WIDTH = 512, HEIGHT = 256 };
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA32F, NULL));
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
@@ -409,7 +402,6 @@ TEST(test_equirectangular)
                      apart(look_at(e, d), of(0.5 + 0.5 * d.x, 0.5 + 0.5 * d.y, 0.5 + 0.5 * d.z)));
     }
     lam_environment_free(e);
-    lam_image_free(&image);
 }
 
 // --- files
@@ -445,8 +437,7 @@ TEST(test_files_of_16_bits)
     for (int mode = 0; mode < 2; mode++) {
         lam_error error = {0};
         lam_environment *e = lam_environment_load_faces(paths, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error);
-        if (!e)
-            fail_msg("%s", error.text);
+        SUCCEEDS(e);
         for (int face = 0; face < 6; face++) {
             double v[3];
             for (int c = 0; c < 3; c++)
@@ -569,7 +560,7 @@ TEST(test_refusals)
         refused(lam_environment_make(faces, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT, "face +Y: pixel 1, 1");
     }
     pixel[4 * 5 + 1] = 0;
-    lam_image odd = {0};
+    AUTO_IMAGE odd = {0};
     assert_true(lam_image_make(&odd, 5, 4, LAM_RGBA8, NULL));
     memset(odd.pixels, 0, 80);
     faces[4] = &odd;
@@ -588,6 +579,5 @@ TEST(test_refusals)
     assert_true(lam_scene_set_environment(scene, NULL, 0, &error));
     lam_scene_free(scene);
     assert_true(apart(lam_environment_sample(NULL, (lam_vec3){1, 0, 0}), of(0, 0, 0)) == 0);
-    lam_image_free(&odd);
     free_cube(&cube);
 }

@@ -15,8 +15,7 @@ static lam_device *make_device(lam_isa isa)
 {
     lam_error error = {0};
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
-    if (!device)
-        fail_msg("%s", error.text);
+    SUCCEEDS(device);
     return device;
 }
 
@@ -281,7 +280,7 @@ static int alpha_of(const lam_image *image, int x, int y)
 // Some pixels of each kind: without triangles, partly covered, and fully covered.
 static void check_pixels(lam_device *drawing, lam_device *explaining, const struct demo *demo, const char *name)
 {
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     lam_error error = {0};
     masked_scene = strcmp(name, "masked") == 0 || strcmp(name, "shadows-leaves") == 0;
     soft_scene = strcmp(name, "shadows-soft") == 0 || strncmp(name, "ground", 6) == 0;
@@ -296,7 +295,6 @@ static void check_pixels(lam_device *drawing, lam_device *explaining, const stru
             check_pixel(explaining, demo, &image, x, y, name);
         }
     }
-    lam_image_free(&image);
 }
 
 static const lam_shading shadings[] = {LAM_SHADING_PHONG, LAM_SHADING_GOURAUD, LAM_SHADING_FLAT};
@@ -308,8 +306,7 @@ TEST(test_scenes)
     for (int i = 0; i < demo_count; i++) {
         struct demo demo;
         lam_error error = {0};
-        if (!demo_build(&demos[i], &demo, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(demo_build(&demos[i], &demo, &error));
         lam_device *a = i & 1 ? widest : plain, *b = i & 1 ? plain : widest;
         check_pixels(a, b, &demo, demos[i].name); // unchanged
         for (int s = 0; s < 3; s++) {
@@ -367,7 +364,7 @@ TEST(test_models)
 // gl1, matched highlights, an infinite viewer: each changes a number, and the explanation contains it.
 TEST(test_ways)
 {
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     for (int i = 0; i < demo_count; i++) {
         if (strcmp(demos[i].name, "lights") != 0)
             continue;
@@ -383,13 +380,12 @@ TEST(test_ways)
         }
         lam_scene_free(demo.scene);
     }
-    lam_device_free(device);
 }
 
 // Maps, and their effect on a material: the numbers equal the pictures of --show, and S = pi D V n.l.
 TEST(test_values)
 {
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     struct demo demo;
     assert_true(demo_build_named("textured", &demo, NULL));
     demo.params.samples = 1;
@@ -442,13 +438,12 @@ TEST(test_values)
     for (int i = 0; i < 5; i++)
         lam_image_free(&images[i]);
     lam_scene_free(demo.scene);
-    lam_device_free(device);
 }
 
 // A picture filled by one surface: each pixel of a tile is one fragment, and no sum is stored while it is drawn.
 TEST(test_filled)
 {
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     struct demo demo = {.width = 130, .height = 130, .camera = lam_camera_default()};
     demo.scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
@@ -463,13 +458,12 @@ TEST(test_filled)
         check_pixels(device, device, &demo, "filled");
     }
     lam_scene_free(demo.scene);
-    lam_device_free(device);
 }
 
 // A known point: the sphere's middle under the headlight, seen straight from the front.
 TEST(test_known)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_material material = lam_material_default();
     material.name = "chalk";
     material.ambient = (lam_rgb){0, 0, 0};
@@ -487,7 +481,7 @@ TEST(test_known)
     light.attenuation = (lam_attenuation){0, 0, 1};
     assert_int_equal(lam_scene_add_light(scene, &light, NULL), 0);
     lam_camera camera = lam_camera_default();
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     lam_explanation *e = lam_explain(device, scene, &camera, NULL, 101, 101, LAM_RGBA32F, 50, 50, NULL, NULL);
     assert_non_null(e);
     assert_true(e->fragment_count >= 1);
@@ -509,13 +503,10 @@ TEST(test_known)
     assert_null(lam_explain(device, scene, &camera, NULL, 0, 101, LAM_RGBA8, 0, 0, NULL, &error));
     assert_null(lam_explain(device, NULL, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
     assert_null(lam_explain(NULL, scene, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
-    lam_device *null = lam_device_null(NULL);
+    AUTO_DEVICE null = lam_device_null(NULL);
     assert_null(lam_explain(null, scene, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     lam_explanation_free(NULL);
-    lam_device_free(null);
-    lam_device_free(device);
-    lam_scene_free(scene);
 }
 
 // A picture drawn after an explanation equals the picture before it.
@@ -523,7 +514,7 @@ TEST(test_device_unchanged)
 {
     struct demo demo;
     assert_true(demo_build(&demos[0], &demo, NULL));
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     lam_image before = {0}, after = {0};
     assert_true(lam_image_make(&before, 200, 150, LAM_RGBA8, NULL) &&
                 lam_image_make(&after, 200, 150, LAM_RGBA8, NULL));
@@ -536,6 +527,5 @@ TEST(test_device_unchanged)
     assert_memory_equal(before.pixels, after.pixels, 200 * 150 * 4);
     lam_image_free(&before);
     lam_image_free(&after);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }

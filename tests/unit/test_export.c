@@ -62,7 +62,7 @@ TEST(test_round_trips)
 {
     lam_error error;
     for (int by_triangle = 0; by_triangle < 2; by_triangle++) {
-        lam_scene *scene = quad(by_triangle);
+        AUTO_SCENE scene = quad(by_triangle);
         for (int i = 0; lam_export_format(i); i++) {
             const char *format = lam_export_format(i);
             lam_export_params params = {.name = "a.b"};
@@ -74,7 +74,7 @@ TEST(test_round_trips)
             assert_memory_equal(name, "a.", 2);
             assert_string_equal(name + 2, format);
             lam_bytes bytes = lam_export_file(result, 0);
-            lam_scene *again = lam_scene_load_memory(bytes.data, bytes.size, name, NULL, NULL, &error);
+            AUTO_SCENE again = lam_scene_load_memory(bytes.data, bytes.size, name, NULL, NULL, &error);
             assert_non_null(again);
             assert_int_equal(lam_scene_triangle_count(again), 2);
             bool colored = lam_scene_mesh(again, 0)->colors != NULL;
@@ -82,10 +82,8 @@ TEST(test_round_trips)
             assert_null(lam_export_file_name(result, -1));
             assert_null(lam_export_loss(result, 1000));
             assert_null(lam_export_file(result, 1000).data);
-            lam_scene_free(again);
             lam_export_free(result);
         }
-        lam_scene_free(scene);
     }
 }
 
@@ -100,7 +98,7 @@ TEST(test_cameras)
                 {0, 9, 2, 1, 0},   {9, 0, 2, 1, 1}, {1e31, 1e32, 0, 0, 1}, {1, 1e31, 2, 0, 1}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lam_error error = {0};
-        lam_scene *scene = quad(false);
+        AUTO_SCENE scene = quad(false);
         lam_camera camera = lam_camera_default();
         camera.near_plane = rows[i].near_plane;
         camera.far_plane = rows[i].far_plane;
@@ -112,12 +110,10 @@ TEST(test_cameras)
             losses += strstr(lam_export_loss(result, k), "cameras") != NULL;
         assert_int_equal(losses, rows[i].losses);
         lam_bytes bytes = lam_export_file(result, 0);
-        lam_scene *again = lam_scene_load_memory(bytes.data, bytes.size, "a.glb", NULL, NULL, &error);
+        AUTO_SCENE again = lam_scene_load_memory(bytes.data, bytes.size, "a.glb", NULL, NULL, &error);
         if (!again)
             fail_msg("row %zu: %s", i, error.text);
         assert_int_equal(lam_scene_camera_count(again), rows[i].cameras);
-        lam_scene_free(again);
         lam_export_free(result);
-        lam_scene_free(scene);
     }
 }

@@ -63,14 +63,13 @@ TEST(test_round)
         assert_memory_equal(back.pixels, image.pixels, (size_t)image.width * (size_t)image.height * 16);
         for (size_t cut = 0; cut < first.size;
              cut += 1 + first.size / 40) { // truncated files: an error or, in the last chunk, pixels
-            lam_image part = {0};
+            AUTO_IMAGE part = {0};
             char path[] = "/tmp/lambent-exr-XXXXXX";
             int file = mkstemp(path);
             assert_true(file >= 0 && write(file, first.data, cut) == (ssize_t)cut);
             close(file);
             lam_image_load(&part, path, NULL, &error);
             unlink(path);
-            lam_image_free(&part);
         }
         lam_image_free(&image);
         lam_image_free(&back);

@@ -161,7 +161,7 @@ TEST(forms_depend_on_surfaces)
         struct surface_facts plain = {.detail = 0};
         for (int change = 0; change < CHANGES; change++) {
             struct soup soup = changed(&rows[i].soup, (enum change)change);
-            lam_scene *scene = scene_with(&soup, (enum change)change);
+            AUTO_SCENE scene = scene_with(&soup, (enum change)change);
             const struct surface_facts facts = surface_facts(scene, NULL);
             if (change == NOTHING)
                 plain = facts;
@@ -177,7 +177,6 @@ TEST(forms_depend_on_surfaces)
                     "%.9g, detail %.9g without it",
                     rows[i].name, change, (int)scene_form(scene), scene_is_fine(scene), facts.facing.y, facts.fullest,
                     facts.detail, plain.facing.y, plain.fullest, plain.detail);
-            lam_scene_free(scene);
             free(soup.corners);
         }
         free(rows[i].soup.corners);
@@ -188,7 +187,7 @@ TEST(forms_depend_on_surfaces)
 TEST(kept_results_follow_the_scene)
 {
     struct soup ball = grid(181, bumpy_ball), flat = plate(); // more triangles than one task
-    lam_scene *scene = scene_with(&ball, NOTHING);
+    AUTO_SCENE scene = scene_with(&ball, NOTHING);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_mesh(
         scene, &(lam_mesh){.positions = flat.corners, .vertex_count = 3 * flat.count, .triangle_count = flat.count},
@@ -202,7 +201,6 @@ TEST(kept_results_follow_the_scene)
     pool_free(pool);
     assert_true(lam_scene_hide_object(scene, 1, true, NULL));
     assert_int_equal(scene_form(scene), FORM_CURVED);
-    lam_scene_free(scene);
     free(ball.corners);
     free(flat.corners);
 }

@@ -110,8 +110,7 @@ static void draw(lam_device *device, const lam_scene *scene, lam_draw_params par
     }
     lam_camera camera = lam_camera_fit(scene, WIDTH, HEIGHT, NULL);
     lam_error error = {0};
-    if (!lam_draw(device, scene, &camera, &params, image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, image, NULL, &error));
 }
 
 static lam_scene *make_scene(void)
@@ -140,7 +139,7 @@ static void draw_all(lam_device *device, size_t first, size_t share)
         {LAM_OUTPUT_COVERAGE, LAM_COLOR_SRGB, {0, 0, 0, 0}},
         {LAM_OUTPUT_CLIPPED, LAM_COLOR_SRGB, {0, 0, 0, 0}},
     };
-    lam_scene *scene = make_scene();
+    AUTO_SCENE scene = make_scene();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         if (!is_taken(first + i, share))
             continue;
@@ -160,7 +159,6 @@ static void draw_all(lam_device *device, size_t first, size_t share)
         for (int k = 0; k < 4; k++)
             lam_image_free(&plain[k]);
     }
-    lam_scene_free(scene);
     lam_device_free(device);
 }
 
@@ -214,8 +212,7 @@ TEST(every_format_is_taken)
         bool is_float = tight.format == LAM_RGBA32F;
         lam_bytes bytes[2];
         lam_error error = {0};
-        if (!lam_image_encode(&w.image, is_float ? "pfm" : "png", NULL, &bytes[0], &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(lam_image_encode(&w.image, is_float ? "pfm" : "png", NULL, &bytes[0], &error));
         assert_true(lam_image_encode(&tight, is_float ? "pfm" : "png", NULL, &bytes[1], NULL));
         assert_int_equal(bytes[0].size, bytes[1].size);
         assert_memory_equal(bytes[0].data, bytes[1].data, bytes[0].size);
@@ -266,8 +263,8 @@ TEST(refuses_pictures_that_cannot_be)
         {4, 4, LAM_RGBA32F, 66, 0, "divisible by 4"},
         {4, 4, LAM_RGB32F, 48, 2, "divisible by 4"},
     };
-    lam_device *device = lam_device_null(NULL);
-    lam_scene *scene = make_scene();
+    AUTO_DEVICE device = lam_device_null(NULL);
+    AUTO_SCENE scene = make_scene();
     lam_camera camera = lam_camera_default();
     lam_image ok = good;
     assert_true(lam_draw(device, scene, &camera, NULL, &ok, NULL, NULL));
@@ -292,8 +289,6 @@ TEST(refuses_pictures_that_cannot_be)
     lam_image made;
     assert_false(lam_image_make(&made, 8, 8, (lam_pixel_format)6, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
-    lam_scene_free(scene);
-    lam_device_free(device);
 }
 
 // --- lam_render
@@ -303,8 +298,7 @@ TEST(renders_into_the_callers_memory)
     struct window w = open_window(LAM_BGRA8, false);
     lam_render_report report;
     lam_error error = {0};
-    if (!lam_render("teapot", NULL, &w.image, &report, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_render("teapot", NULL, &w.image, &report, &error));
     assert_true(report.frame.pixels_covered > 1000 && report.triangles > 1000 && report.warnings[0] == 0);
     lam_image made = {.width = WIDTH, .height = HEIGHT, .format = LAM_RGBA8};
     assert_true(lam_render("teapot", NULL, &made, NULL, &error));

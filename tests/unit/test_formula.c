@@ -217,7 +217,7 @@ TEST(seams_are_welded)
         lam_formula formula = {
             .text = rows[i].text, .u = rows[i].u, .v = rows[i].v, .u_segments = 32, .v_segments = 16};
         lam_error error = {0};
-        lam_scene *scene = scene_of(&formula, &error);
+        AUTO_SCENE scene = scene_of(&formula, &error);
         if (!scene)
             fail_msg("%s: %s", rows[i].name, error.text);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
@@ -229,7 +229,6 @@ TEST(seams_are_welded)
             const float *n = mesh->normals + 3 * (size_t)mesh->normal_indices[c];
             assert_float_equal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-5);
         }
-        lam_scene_free(scene);
     }
 }
 
@@ -238,7 +237,7 @@ TEST(normals_are_those_of_the_sphere)
     for (int flip = 0; flip < 2; flip++) {
         // u around and v downwards: the product of the derivatives points inward.
         lam_formula formula = {.text = "x=sin(v)*cos(u); y=sin(v)*sin(u); z=cos(v)", .v = "0..pi", .flip = flip};
-        lam_scene *scene = scene_of(&formula, NULL);
+        AUTO_SCENE scene = scene_of(&formula, NULL);
         const lam_mesh *m = lam_scene_mesh(scene, 0);
         double sign = flip ? 1 : -1;
         for (size_t c = 0; c < 3 * (size_t)m->triangle_count; c++) {
@@ -256,7 +255,6 @@ TEST(normals_are_those_of_the_sphere)
                          (double)p[0][2] * ((double)p[1][0] * (double)p[2][1] - (double)p[1][1] * (double)p[2][0]);
             assert_true(sign * det > 0);
         }
-        lam_scene_free(scene);
     }
 }
 
@@ -291,7 +289,7 @@ TEST(model_files_hold_the_mesh)
 {
     static const char *const endings[] = {"obj", "stl", "ply"};
     lam_formula formula = {.text = "x=u; y=2v; z=3+u*v", .u = "0..1", .v = "0..1", .u_segments = 4, .v_segments = 3};
-    lam_scene *scene = scene_of(&formula, NULL);
+    AUTO_SCENE scene = scene_of(&formula, NULL);
     lam_error error = {0};
     for (int i = 0; i < 3; i++) {
         char path[] = "/tmp/lambent-mesh-XXXXXX.obj";
@@ -300,7 +298,7 @@ TEST(model_files_hold_the_mesh)
         assert_true(file >= 0);
         close(file);
         assert_true(lam_mesh_save(lam_scene_mesh(scene, 0), path, LAM_UP_Z, &error));
-        lam_scene *read = lam_scene_load(path, NULL, NULL, &error);
+        AUTO_SCENE read = lam_scene_load(path, NULL, NULL, &error);
         unlink(path);
         assert_non_null(read);
         const lam_mesh *a = lam_scene_mesh(scene, 0), *b = lam_scene_mesh(read, 0);
@@ -318,11 +316,9 @@ TEST(model_files_hold_the_mesh)
             assert_float_equal(n[1], -o[2], 1e-6);
             assert_float_equal(n[2], o[1], 1e-6);
         }
-        lam_scene_free(read);
     }
     assert_false(lam_mesh_save(lam_scene_mesh(scene, 0), "/tmp/x.fbx", LAM_UP_Z, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
-    lam_scene_free(scene);
 }
 
 // The gradient equals the differences, for each function of the language.
@@ -377,7 +373,7 @@ TEST(implicit_surfaces_are_found)
         lam_formula formula = {
             .text = rows[i].text, .implicit = true, .x = rows[i].x, .flip = rows[i].flip, .u_segments = 24};
         lam_error error = {0};
-        lam_scene *scene = scene_of(&formula, &error);
+        AUTO_SCENE scene = scene_of(&formula, &error);
         if (!scene)
             fail_msg("%s: %s", rows[i].text, error.text);
         const lam_mesh *m = lam_scene_mesh(scene, 0);
@@ -405,7 +401,6 @@ TEST(implicit_surfaces_are_found)
             }
             assert_true(volume >= 0);
         }
-        lam_scene_free(scene);
     }
     // A plane is infinite, so it is cut at the first cube. A given range cuts the surface, and is kept.
     lam_vec3 low, high;

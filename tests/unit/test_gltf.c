@@ -80,11 +80,10 @@ TEST(test_in_place)
         "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, "
         "{\"bufferView\": 0, \"byteOffset\": 48, \"componentType\": 5125, \"count\": 6, \"type\": \"SCALAR\"}]}",
         &file);
-    lam_scene *scene = load(&file, "a.glb");
+    AUTO_SCENE scene = load(&file, "a.glb");
     check_square(scene);
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_ptr_equal((const char *)mesh->indices - (const char *)mesh->positions, (void *)48);
-    lam_scene_free(scene);
 }
 
 // --- accessors
@@ -192,9 +191,8 @@ TEST(test_index_types)
             "\"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, {\"bufferView\": 1, \"componentType\": %d, "
             "\"count\": 6, \"type\": \"SCALAR\"}]}",
             6 << i, components[i]);
-        lam_scene *scene = load_document(&document, json);
+        AUTO_SCENE scene = load_document(&document, json);
         check_square(scene);
-        lam_scene_free(scene);
     }
 }
 
@@ -350,7 +348,7 @@ TEST(test_several_primitives)
 {
     struct document document;
     put_square(&document);
-    lam_scene *scene = load_document(
+    AUTO_SCENE scene = load_document(
         &document,
         "{" ASSET ", \"nodes\": [{\"mesh\": 0, \"name\": \"left\"}, {\"mesh\": 0, \"translation\": [2, 0, 0]}], "
         "\"materials\": [{\"name\": \"one\"}, {\"name\": \"two\", \"doubleSided\": true}], "
@@ -374,7 +372,6 @@ TEST(test_several_primitives)
     assert_true(lam_scene_object(scene, 4)->transform.m[0][3] == 2);
     assert_string_equal(lam_scene_warning(scene, 0),
                         "a.gltf: not drawn: primitives without the attribute POSITION (1)");
-    lam_scene_free(scene);
 }
 
 // Two meshes with the same positions, far from zero: each gets its origin, and neither moves the other.
@@ -409,12 +406,11 @@ TEST(test_normals)
     for (int i = 0; i < 3; i++) {
         lam_load_params params = {.crease_angle_rad = i == 1 ? 1.0 : 0,
                                   .normals = i == 2 ? LAM_NORMALS_SMOOTH : LAM_NORMALS_FILE};
-        lam_scene *scene = load_with(document.text, strlen(document.text), "a.gltf", &params);
+        AUTO_SCENE scene = load_with(document.text, strlen(document.text), "a.gltf", &params);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         const uint32_t *own = mesh->normal_indices ? mesh->normal_indices : mesh->indices;
         const float *a = mesh->normals + 3 * (size_t)own[0], *b = mesh->normals + 3 * (size_t)own[3];
         assert_int_equal(memcmp(a, b, 12) == 0, i > 0);
-        lam_scene_free(scene);
     }
 }
 
@@ -465,7 +461,7 @@ TEST(test_instances)
     put_floats(&document, 6, (float[]){1, 1, 1, 2, 2, 2});
     for (int i = 0; i < 8; i++)
         put_u8(&document.data, (uint8_t[]){0, 0, 0, 127, 0, 127, 0, 0}[i]);
-    lam_scene *scene = load_document(
+    AUTO_SCENE scene = load_document(
         &document,
         "{" ASSET
         ", \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0, \"translation\": [0, 10, 0], \"extensions\": "
@@ -486,7 +482,6 @@ TEST(test_instances)
     const lam_mat4 *a = &lam_scene_object(scene, 0)->transform, *b = &lam_scene_object(scene, 1)->transform;
     assert_true(a->m[0][3] == 1 && a->m[1][3] == 10 && a->m[0][0] == 1);
     assert_true(b->m[0][3] == 2 && b->m[1][3] == 10 && b->m[1][1] == 2 && b->m[0][0] == -2); // half a turn about y
-    lam_scene_free(scene);
 }
 
 // A scale of 0 hides a node; a flat node is omitted with a warning.
@@ -494,12 +489,11 @@ TEST(test_zero_scale)
 {
     struct document document;
     put_square(&document);
-    lam_scene *scene = load_document(
+    AUTO_SCENE scene = load_document(
         &document, "{" ASSET ", \"nodes\": [{\"mesh\": 0, \"scale\": [0, 0, 0]}, {\"mesh\": 0, \"scale\": [1, 0, 1]}, "
                    "{\"mesh\": 0}], " MESH ", %B, " VIEWS ", " ACCESSORS "}");
     assert_int_equal(lam_scene_object_count(scene), 1);
     assert_string_equal(lam_scene_warning(scene, 0), "a.gltf: not drawn: meshes flattened by a node's scale of 0 (1)");
-    lam_scene_free(scene);
 }
 
 // --- materials, lights, cameras
@@ -581,7 +575,7 @@ TEST(test_layers)
     snprintf(text, sizeof text,
              "%s, \"materials\": [{\"extensions\": {%s}}, {\"extensions\": {\"KHR_materials_unlit\": {}, %s}}, {}]",
              SCENE, layers, layers);
-    lam_scene *scene = load_more(text, ", \"material\": 0", NULL);
+    AUTO_SCENE scene = load_more(text, ", \"material\": 0", NULL);
     const lam_material *m = lam_scene_material(scene, 0);
     assert_true(m->ior == 0 && m->specular_weight == 0.25f);
     assert_true(m->f0_color.r == 2 && m->f0_color.g == 0.5f && m->f0_color.b == 0);
@@ -603,7 +597,6 @@ TEST(test_layers)
         assert_true(m->ior == plain.ior && m->specular_weight == 1 && m->f0_color.g == 1 && m->clearcoat == 0);
         assert_true(m->sheen_color.r == 0 && m->anisotropy == 0 && m->iridescence == 0 && m->transmission == 0);
     }
-    lam_scene_free(scene);
 }
 
 TEST(test_variants)
@@ -613,20 +606,19 @@ TEST(test_variants)
         int material;
     } rows[] = {{NULL, 0}, {"night", 1}, {"1", 1}, {"day", 0}, {"noon", 1}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lam_scene *scene = load_more(SCENE ", \"materials\": [{}, {}], \"extensions\": {\"KHR_materials_variants\": "
+        AUTO_SCENE scene = load_more(SCENE ", \"materials\": [{}, {}], \"extensions\": {\"KHR_materials_variants\": "
                                            "{\"variants\": [{\"name\": \"day\"}, "
                                            "{\"name\": \"night\"}, {\"name\": \"noon\"}]}}",
                                      ", \"material\": 0, \"extensions\": {\"KHR_materials_variants\": {\"mappings\": "
                                      "[{\"material\": 1, \"variants\": [1, 2]}]}}",
                                      &(lam_load_params){.variant = rows[i].variant});
         assert_int_equal(lam_scene_mesh(scene, 0)->parts[0].material, rows[i].material);
-        lam_scene_free(scene);
     }
 }
 
 TEST(test_lights)
 {
-    lam_scene *scene = load_more("\"nodes\": [{\"mesh\": 0}, {\"translation\": [1, 2, 3], \"name\": \"bulb\", "
+    AUTO_SCENE scene = load_more("\"nodes\": [{\"mesh\": 0}, {\"translation\": [1, 2, 3], \"name\": \"bulb\", "
                                  "\"extensions\": {\"KHR_lights_punctual\": "
                                  "{\"light\": 0}}, \"children\": [2]}, {\"rotation\": [0, 0.7071067811865476, 0, "
                                  "0.7071067811865476], \"scale\": [2, 2, "
@@ -659,12 +651,11 @@ TEST(test_lights)
     assert_string_equal(l->name, "sun");
     assert_true(l->direction.z == -1);
     assert_near((double)l->diffuse.r, 1 / pi, 1e-7);
-    lam_scene_free(scene);
 }
 
 TEST(test_cameras)
 {
-    lam_scene *scene = load_more(
+    AUTO_SCENE scene = load_more(
         "\"nodes\": [{\"mesh\": 0}, {\"translation\": [0, 0, 9], \"camera\": 0, \"name\": \"eye\"}, {\"rotation\": [0, "
         "0.7071067811865476, 0, 0.7071067811865476], \"scale\": [3, 3, 3], \"camera\": 1}, {\"camera\": 2, "
         "\"translation\": [0, 0, 20]}], "
@@ -691,7 +682,6 @@ TEST(test_cameras)
     assert_true(lam_scene_camera(scene, 2, &camera)); // infinitely far: behind the scene
     assert_true(camera.near_plane == 0.25 && camera.far_plane > 20 && camera.far_plane < 21);
     assert_false(lam_scene_camera(scene, 3, &camera));
-    lam_scene_free(scene);
 }
 
 // --- files next to the model
@@ -747,12 +737,11 @@ TEST(test_files)
         struct shelf shelf = {document.data.bytes, document.data.size, ""};
         lam_load_params params = {.open = open_from_shelf, .user = &shelf};
         lam_error error = {0};
-        lam_scene *scene = lam_scene_load_memory(text, strlen(text), "a.gltf", &params, NULL, &error);
+        AUTO_SCENE scene = lam_scene_load_memory(text, strlen(text), "a.gltf", &params, NULL, &error);
         assert_string_equal(shelf.asked, rows[i].asked);
         assert_string_equal(error.text, rows[i].sentence ? rows[i].sentence : "");
         if (!rows[i].sentence)
             check_square(scene);
-        lam_scene_free(scene);
     }
 }
 
@@ -866,12 +855,11 @@ TEST(test_errors)
     put_square(&document);
     memcpy(document.data.bytes + 16, (float[]){INFINITY}, 4);
     make_text(&document, SQUARE);
-    lam_scene *scene = load_text(document.text, "a.gltf");
+    AUTO_SCENE scene = load_text(document.text, "a.gltf");
     assert_string_equal(
         lam_scene_warning(scene, 0),
         "a.gltf: 1 vertices have coordinates that are not finite; 1 triangles, lines or points that use "
         "them are left out");
-    lam_scene_free(scene);
 }
 
 // What is wrong but not needed is left out, with one warning.
@@ -973,10 +961,9 @@ TEST(test_tolerated)
         snprintf(whole, sizeof whole, "a.gltf%s", rows[i].warning ? rows[i].warning : "");
         if (rows[i].warning)
             warn_once(document.text, strlen(document.text), "a.gltf", NULL, whole);
-        lam_scene *scene = load_text(document.text, "a.gltf");
+        AUTO_SCENE scene = load_text(document.text, "a.gltf");
         check_square(scene);
         assert_true(rows[i].warning || !lam_scene_warning(scene, 0));
-        lam_scene_free(scene);
     }
 }
 

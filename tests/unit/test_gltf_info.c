@@ -19,7 +19,7 @@ TEST(test_everything)
 {
     struct document document;
     put_triangle(&document);
-    lam_scene *scene = load_document(
+    AUTO_SCENE scene = load_document(
         &document,
         "{\"asset\": {\"version\": \"2.0\", \"generator\": \"by hand\", \"copyright\": \"nobody\"}, " MESH
         ", \"accessors\": [" POSITIONS
@@ -78,7 +78,6 @@ TEST(test_everything)
         assert_int_equal(info->extensions[i].support, extensions[i].support);
     }
     assert_true(lam_scene_memory(scene) > 36 && lam_scene_memory(scene) < 1 << 22);
-    lam_scene_free(scene);
 }
 
 TEST(test_nothing)

@@ -86,7 +86,7 @@ static void check_row(const char *relative, const lam_scene *scene)
 static void check_file(const char *path)
 {
     lam_error error = {0};
-    lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
+    AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, &error);
     const char *relative = path + strlen(root) + 1;
     files++;
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
@@ -97,10 +97,8 @@ static void check_file(const char *path)
             fail_msg("%s: %s", relative, scene ? "loads, but should be refused" : error.text);
         return;
     }
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     check_row(relative, scene);
-    lam_scene_free(scene);
 }
 
 static bool ends_with(const char *text, const char *end)

@@ -292,7 +292,7 @@ TEST(test_skinned_normals)
         "\"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0, \"skin\": 0}, {\"scale\": [2, -1, 1]}], \"meshes\": "
         "[{\"primitives\": [{\"attributes\": {\"POSITION\": 0, \"NORMAL\": 1, \"JOINTS_0\": 2, \"WEIGHTS_0\": 3}}]}], "
         "\"skins\": [{\"joints\": [1]}]");
-    lam_scene *scene = load_at(&b, NULL, 0);
+    AUTO_SCENE scene = load_at(&b, NULL, 0);
     const float *n = lam_scene_mesh(scene, 0)->normals;
     double length = sqrt(0.09 + 0.64);
     for (int i = 0; i < 3; i++) {
@@ -301,7 +301,6 @@ TEST(test_skinned_normals)
     }
     assert_point(lam_scene_mesh(scene, 0), 1, 2, 0, 0);
     assert_point(lam_scene_mesh(scene, 0), 2, 0, -1, 0);
-    lam_scene_free(scene);
 }
 
 // --- what is wrong is left out, with one warning

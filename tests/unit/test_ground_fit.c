@@ -59,8 +59,8 @@ static lam_camera fitted(const struct placed *p, const lam_view *view, const lam
 static void model_box(const struct placed *p, const lam_camera *camera, int box[4])
 {
     lam_error error = {0};
-    lam_image image = {0};
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
+    AUTO_IMAGE image = {0};
+    AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
     lam_draw_params params = {.ground = LAM_GROUND_NONE};
     assert_true(lam_image_make(&image, SIDE, SIDE, LAM_RGBA8, &error));
     assert_true(lam_draw(device, p->scene, camera, &params, &image, NULL, &error));
@@ -71,8 +71,6 @@ static void model_box(const struct placed *p, const lam_camera *camera, int box[
                 box[0] = x < box[0] ? x : box[0], box[1] = x > box[1] ? x : box[1];
                 box[2] = y < box[2] ? y : box[2], box[3] = y > box[3] ? y : box[3];
             }
-    lam_image_free(&image);
-    lam_device_free(device);
 }
 
 // Shadows of lights from all around, hard and soft, long and short, end before the border; the model is in the middle

@@ -101,24 +101,21 @@ TEST(test_choice)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lam_error error;
-        lam_scene *scene = lam_scene_load_memory(rows[i].text, strlen(rows[i].text), rows[i].name, NULL, NULL, &error);
-        if (!scene)
-            fail_msg("%s", error.text);
+        AUTO_SCENE scene = lam_scene_load_memory(rows[i].text, strlen(rows[i].text), rows[i].name, NULL, NULL, &error);
+        SUCCEEDS(scene);
         assert_string_equal(lam_scene_format(scene), rows[i].format);
         assert_int_equal(lam_scene_triangle_count(scene), 1);
         assert_int_equal(lam_scene_object_count(scene), 1);
         assert_int_equal(lam_scene_up(scene), strcmp(rows[i].format, "stl") == 0 ? LAM_UP_Z : LAM_UP_Y);
-        lam_scene_free(scene);
     }
     lam_error error;
     lam_load_params params = {.up = LAM_UP_X, .format = "OBJ"};
-    lam_scene *scene = lam_scene_load_memory(TRIANGLE, strlen(TRIANGLE), "x", &params, NULL, &error);
+    AUTO_SCENE scene = lam_scene_load_memory(TRIANGLE, strlen(TRIANGLE), "x", &params, NULL, &error);
     assert_non_null(scene);
     assert_int_equal(lam_scene_up(scene), LAM_UP_X);
     double read_ms = -1, prepare_ms = -1;
     lam_scene_times(scene, &read_ms, &prepare_ms);
     assert_true(read_ms > 0 && prepare_ms > 0);
-    lam_scene_free(scene);
 }
 
 TEST(test_foreign)
@@ -219,11 +216,10 @@ TEST(test_files)
         snprintf(text, sizeof text, "mtllib %s\n" TRIANGLE, libraries[i]);
         snprintf(path, sizeof path, "%s/inner/m.obj", outer);
         write_text(path, text);
-        lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
+        AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, &error);
         assert_non_null(scene);
         assert_int_equal(lam_scene_material_count(scene), found[i]);
         assert_true((lam_scene_warning(scene, 0) == NULL) == found[i]);
-        lam_scene_free(scene);
         unlink(path);
     }
     snprintf(path, sizeof path, "%s/inner/a.mtl", outer);
@@ -251,8 +247,7 @@ static lam_scene *load_inner(const char *text)
     snprintf(whole, sizeof whole, "%s" TRIANGLE, text);
     write_text(in_folder("inner/m.obj"), whole);
     lam_scene *scene = lam_scene_load(in_folder("inner/m.obj"), NULL, NULL, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     return scene;
 }
 
@@ -286,19 +281,17 @@ TEST(test_links, .setup_func = make_folder, .teardown_func = remove_folder)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[100];
         snprintf(text, sizeof text, "mtllib %s\n", rows[i].library);
-        lam_scene *scene = load_inner(text);
+        AUTO_SCENE scene = load_inner(text);
         assert_int_equal(lam_scene_material_count(scene), rows[i].warning == NULL);
         const char *warning = lam_scene_warning(scene, 0);
         if (rows[i].warning ? !warning || !strstr(warning, rows[i].warning) : warning != NULL)
             fail_msg("%s: %s", rows[i].library, warning ? warning : "no warning");
-        lam_scene_free(scene);
     }
     // The model's own folder may be named through a link, and from inside.
     lam_scene_free(load_inner("mtllib sub/a.mtl\n"));
     lam_error error;
-    lam_scene *scene = lam_scene_load(in_folder("also-inner/m.obj"), NULL, NULL, &error);
+    AUTO_SCENE scene = lam_scene_load(in_folder("also-inner/m.obj"), NULL, NULL, &error);
     assert_int_equal(lam_scene_material_count(scene), 1);
-    lam_scene_free(scene);
 }
 
 // Warnings about a material file contain its path; they show at most 32 characters of a name in a file, without control
@@ -342,11 +335,10 @@ TEST(test_zero_in_materials, .setup_func = make_folder, .teardown_func = remove_
     assert_non_null(file);
     fwrite(bytes, 1, sizeof bytes - 1, file);
     fclose(file);
-    lam_scene *scene = load_inner("mtllib z.mtl\n");
+    AUTO_SCENE scene = load_inner("mtllib z.mtl\n");
     assert_non_null(strstr(lam_scene_warning(scene, 0), "/inner/z.mtl:3: found a zero byte, expected text"));
     assert_null(lam_scene_warning(scene, 1));
     assert_true(lam_scene_material(scene, 0)->shininess == 7);
-    lam_scene_free(scene);
 }
 
 // --- how often material files are read
@@ -432,15 +424,13 @@ TEST(test_corpus)
         for (int threads = 1; threads <= 3; threads += 2) {
             lam_error error;
             lam_load_params params = {.threads = threads};
-            lam_scene *scene = lam_scene_load(path, &params, NULL, &error);
-            if (!scene)
-                fail_msg("%s", error.text);
+            AUTO_SCENE scene = lam_scene_load(path, &params, NULL, &error);
+            SUCCEEDS(scene);
             if (lam_scene_triangle_count(scene) != triangles)
                 fail_msg("%s: %llu triangles, expected %llu", name, (unsigned long long)lam_scene_triangle_count(scene),
                          triangles);
             lam_vec3 low, high;
             assert_true(lam_scene_bounds(scene, &low, &high));
-            lam_scene_free(scene);
         }
         loaded++;
     }

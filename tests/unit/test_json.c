@@ -81,7 +81,7 @@ TEST(test_save, .setup_func = fail_allocations, .teardown_func = restore)
     assert_true(file >= 0);
     close(file);
     lam_error error;
-    lam_scene *scene = load_whole(&error);
+    AUTO_SCENE scene = load_whole(&error);
     assert_non_null(scene);
     int refused = 0;
     for (long i = 0;; i++) {
@@ -98,7 +98,6 @@ TEST(test_save, .setup_func = fail_allocations, .teardown_func = restore)
             break;
     }
     assert_true(refused > 50);
-    lam_scene_free(scene);
     unlink(path);
 }
 

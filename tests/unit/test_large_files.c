@@ -157,9 +157,8 @@ TEST(stl_vertices)
     for (int shuffled = 0; shuffled <= TRIANGLES / 2; shuffled += TRIANGLES / 2) { // all facets, or the second half
         make_shuffled_stl("a header", 0, shuffled);
         assert_true(load_both(NULL));
-        lam_scene *scene = load_stl(2, LAM_NORMALS_FILE);
+        AUTO_SCENE scene = load_stl(2, LAM_NORMALS_FILE);
         assert_null(lam_scene_mesh(scene, 0)->indices);
-        lam_scene_free(scene);
     }
 }
 
@@ -428,12 +427,11 @@ TEST(memory)
         for (long countdown = 0; countdown < 40; countdown++) {
             lam_error error = {0};
             arena_fail_after(countdown);
-            lam_scene *scene = lam_scene_load(path, &(lam_load_params){.threads = 1}, NULL, &error);
+            AUTO_SCENE scene = lam_scene_load(path, &(lam_load_params){.threads = 1}, NULL, &error);
             arena_fail_after(-1);
             if (!scene)
                 assert_int_equal(error.code, LAM_MACHINE);
             refused += !scene;
-            lam_scene_free(scene);
         }
         assert_true(refused >= 3);
     }

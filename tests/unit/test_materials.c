@@ -149,8 +149,7 @@ static void refused(const lam_light *light, const char *field)
 static void accepted(const lam_light *light)
 {
     lam_error error = {0};
-    if (!lam_light_check(light, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_light_check(light, &error));
 }
 
 // Sets a field of a light to an invalid number and expects an error that names it; lights of other types accept it.

@@ -67,8 +67,8 @@ static void visible_as_all(const lam_mesh *mesh, double crease_degrees, struct p
         lam_mesh bare = *mesh;
         bare.normals = NULL;
         bare.normal_indices = NULL;
-        if (!make_some(&bare, firsts[k], takes[k], lanes[k], RADIANS(crease_degrees), &visible, &arena, pool, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(
+            make_some(&bare, firsts[k], takes[k], lanes[k], RADIANS(crease_degrees), &visible, &arena, pool, &error));
         uint32_t *same = arena_array(&arena, mesh->normal_count, sizeof *same), members = 0;
         uint8_t *wanted = arena_alloc_zeroed(&arena, (size_t)visible.used + 1);
         memset(same, 0xff, mesh->normal_count * sizeof *same);
@@ -149,8 +149,7 @@ static void all_as_one_by_one(const lam_mesh *mesh, double crease_degrees)
 static void smooth(lam_mesh *mesh, double crease_degrees, struct arena *arena, struct pool *pool)
 {
     lam_error error = {0};
-    if (!normals_smooth(mesh, RADIANS(crease_degrees), arena, pool, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(normals_smooth(mesh, RADIANS(crease_degrees), arena, pool, NULL, &error));
     for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++)
         assert_true(mesh->normal_indices[c] < mesh->normal_count);
     all_as_one_by_one(mesh, crease_degrees);
@@ -314,7 +313,7 @@ TEST(test_facet)
 
 TEST(test_sphere)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     struct arena arena;
     arena_start(&arena, NULL);
     double before = 0;
@@ -335,7 +334,6 @@ TEST(test_sphere)
         before = worst;
     }
     arena_free(&arena);
-    lam_scene_free(scene);
 }
 
 // --- Welding
@@ -500,7 +498,7 @@ TEST(test_inconsistent_winding)
 
 TEST(test_threads)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     struct arena arena;
     arena_start(&arena, NULL);
     int index = lam_scene_add_shape(scene, "teapot", &(lam_shape_params){.slices = 200, .stacks = 40}, NULL);
@@ -539,7 +537,6 @@ TEST(test_threads)
     free(counted);
     free(soup);
     arena_free(&arena);
-    lam_scene_free(scene);
 }
 
 // --- Meshes designed to be slow: each must take about as long as any other mesh of its size
@@ -732,7 +729,7 @@ TEST(test_one_part_of_the_table)
 
 TEST(test_controls)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     int index = lam_scene_add_shape(scene, "sphere", NULL, NULL);
     const lam_mesh mesh = *lam_scene_mesh(scene, index);
     lam_cancel cancel = {0};
@@ -781,5 +778,4 @@ TEST(test_controls)
         assert_true(done || error.code == LAM_MACHINE);
         arena_free(&arena);
     }
-    lam_scene_free(scene);
 }

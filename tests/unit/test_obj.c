@@ -58,19 +58,17 @@ TEST(releases_what_the_caller_opened)
     static const char text[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
     int calls = 0;
     lam_load_params params = {.threads = 1, .open = open_constant, .release = release_constant, .user = &calls};
-    lam_scene *scene = lam_scene_load_memory(text, sizeof text - 1, "t.obj", &params, NULL, NULL);
+    AUTO_SCENE scene = lam_scene_load_memory(text, sizeof text - 1, "t.obj", &params, NULL, NULL);
     assert_non_null(scene);
     assert_int_equal(calls, 100); // opened once, released once
     assert_true(lam_scene_material(scene, 0)->diffuse.r == 1);
-    lam_scene_free(scene);
 }
 
 static lam_scene *load(const char *text)
 {
     lam_error error;
     lam_scene *scene = load_with(text, (lam_load_params){0}, NULL, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     return scene;
 }
 
@@ -91,13 +89,11 @@ static void expect_error(const char *text, lam_code code, const char *sentence)
 static void expect_warning(const char *text, const struct library *libraries, const char *sentence)
 {
     lam_error error = {0};
-    lam_scene *scene = load_with(text, (lam_load_params){0}, libraries, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    AUTO_SCENE scene = load_with(text, (lam_load_params){0}, libraries, &error);
+    SUCCEEDS(scene);
     assert_non_null(lam_scene_warning(scene, 0));
     assert_string_equal(lam_scene_warning(scene, 0), sentence);
     assert_null(lam_scene_warning(scene, 1));
-    lam_scene_free(scene);
 }
 
 static const float *position(const lam_mesh *mesh, uint32_t corner)
@@ -142,7 +138,7 @@ TEST(test_face_forms)
     };
     static const float expected[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
-        lam_scene *scene = load(forms[i]);
+        AUTO_SCENE scene = load(forms[i]);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         assert_int_equal(mesh->triangle_count, 1);
         for (uint32_t c = 0; c < 3; c++)
@@ -151,13 +147,12 @@ TEST(test_face_forms)
         assert_null(lam_scene_warning(scene, 0));
         assert_string_equal(lam_scene_format(scene), "obj");
         assert_int_equal(lam_scene_up(scene), LAM_UP_Y);
-        lam_scene_free(scene);
     }
 }
 
 TEST(test_attributes)
 {
-    lam_scene *scene = load(SQUARE "vt 0 0\nvt 1\nvt 0.5 0.25 7\nvn 0 0 1\nvn 0 1 0\n"
+    AUTO_SCENE scene = load(SQUARE "vt 0 0\nvt 1\nvt 0.5 0.25 7\nvn 0 0 1\nvn 0 1 0\n"
                                    "f 1/1/1 2/2/2 3/3/-1\nf -4/-3/-2 3/-1/2 4//1\n");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->triangle_count, 2);
@@ -168,7 +163,6 @@ TEST(test_attributes)
     static const float numbers[8] = {0, 0, 1, 0, 0.5f, 0.25f, 0, 0};
     assert_memory_equal(mesh->texcoords, numbers, sizeof numbers);
     assert_true(mesh->normals[3] == 0 && mesh->normals[4] == 1 && mesh->normals[5] == 0);
-    lam_scene_free(scene);
 }
 
 // Corners with normals keep them; faces without normals get computed ones.
@@ -227,9 +221,8 @@ TEST(test_large_polygon)
     for (int i = 1; i <= 2 * HALF; i++)
         at += sprintf(at, i % 10 ? " %d" : " %d\\\n", i);
     at += sprintf(at, "\n");
-    lam_scene *scene = load(text);
+    AUTO_SCENE scene = load(text);
     assert_int_equal(lam_scene_triangle_count(scene), 2 * HALF - 2);
-    lam_scene_free(scene);
     free(text);
 }
 
@@ -400,11 +393,10 @@ TEST(test_mrgb)
 {
     lam_error error;
     const char *text = SQUARE "#MRGB ffff0000FF00ff33\n#MRGB 003300ff12\nf 1 2 3 4\n";
-    lam_scene *scene = load_with(text, (lam_load_params){.color = LAM_COLOR_RAW}, NULL, &error);
+    AUTO_SCENE scene = load_with(text, (lam_load_params){.color = LAM_COLOR_RAW}, NULL, &error);
     static const float colors[16] = {1, 0, 0, 1, 0, 1, 0.2f, 1, 0.2f, 0, 1, 1, 1, 1, 1, 1};
     assert_memory_equal(lam_scene_mesh(scene, 0)->colors, colors, sizeof colors);
     assert_null(lam_scene_warning(scene, 0));
-    lam_scene_free(scene);
 }
 
 // A file of vertices only is a cloud of points, with one normal for each vertex or none.
@@ -543,11 +535,10 @@ TEST(test_names)
     }
     static const struct library libraries[] = {{"a.mtl", "newmtl x#1\nKd 1 0 0\n"}, {NULL, NULL}};
     lam_error error;
-    lam_scene *scene = load_with("mtllib a.mtl # the file\n" TRIANGLE "usemtl x#1 # red\ng part # 1\nf 1 2 3\n",
+    AUTO_SCENE scene = load_with("mtllib a.mtl # the file\n" TRIANGLE "usemtl x#1 # red\ng part # 1\nf 1 2 3\n",
                                  (lam_load_params){0}, libraries, &error);
     assert_null(lam_scene_warning(scene, 0));
     expect_part(lam_scene_mesh(scene, 0), 0, "part", 0, 1, 0);
-    lam_scene_free(scene);
 }
 
 // Ns 0 removes the highlight if there is one; a small exponent does not.
@@ -705,7 +696,7 @@ TEST(test_clear)
         char text[300];
         lam_error error;
         snprintf(text, sizeof text, "mtllib a.mtl\n" TRIANGLE "%s", rows[i].faces);
-        lam_scene *scene = load_with(text, (lam_load_params){0}, libraries, &error);
+        AUTO_SCENE scene = load_with(text, (lam_load_params){0}, libraries, &error);
         assert_non_null(scene);
         float a = lam_scene_material(scene, 0)->diffuse.a, b = lam_scene_material(scene, 1)->diffuse.a;
         const char *warning = lam_scene_warning(scene, 0);
@@ -713,7 +704,6 @@ TEST(test_clear)
             (warning ? strcmp(warning, rows[i].warning ? rows[i].warning : "") != 0 : rows[i].warning != NULL))
             fail_msg("row %zu: %g, %g, %s", i, (double)a, (double)b, warning ? warning : "no warning");
         assert_null(lam_scene_warning(scene, warning ? 1 : 0));
-        lam_scene_free(scene);
     }
 }
 

@@ -202,9 +202,8 @@ TEST(unused_vertex)
         assert_true(load_both());
         assert_true(served(2));
         lam_vec3 high;
-        lam_scene *scene = lam_scene_load(path, NULL, NULL, NULL);
+        AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, NULL);
         assert_true(lam_scene_bounds(scene, NULL, &high) && high.z < 1);
-        lam_scene_free(scene);
     }
 }
 

@@ -35,7 +35,7 @@ TEST(all_sides)
 {
     for (int up = LAM_UP_X; up < LAM_UP_COUNT; up++)
         for (int side = 0; side < LAM_SIDE_COUNT; side++) {
-            lam_scene *scene = teapot((lam_up)up);
+            AUTO_SCENE scene = teapot((lam_up)up);
             lam_view view = lam_view_of_side((lam_side)side);
             lam_camera fitted = lam_camera_fit(scene, 100, 100, &view);
             lam_orbit orbit = lam_orbit_of(&fitted, scene);
@@ -49,7 +49,6 @@ TEST(all_sides)
             camera = lam_orbit_camera(&orbit);
             project(&camera, orbit.target, &x, &y);
             assert_true(fabs(x - 50) < 1e-9 && fabs(y - 50) < 1e-9);
-            lam_scene_free(scene);
         }
 }
 

@@ -79,19 +79,17 @@ static void draw_with(lam_device *device, const lam_scene *scene, lam_reflection
     lam_error error;
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){0, 0, 9};
-    lam_image image;
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA32F, &error));
     lam_draw_params params = {.reflection = reflection, .samples = 1};
     assert_true(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     memcpy(out, image.pixels, sizeof(float) * HEIGHT * WIDTH * 4);
-    lam_image_free(&image);
 }
 
 static void draw(const lam_scene *scene, lam_reflection reflection, float out[HEIGHT][WIDTH][4])
 {
-    lam_device *device = lam_device_cpu(NULL, NULL);
+    AUTO_DEVICE device = lam_device_cpu(NULL, NULL);
     draw_with(device, scene, reflection, out);
-    lam_device_free(device);
 }
 
 static float picture[5][HEIGHT][WIDTH][4];
@@ -100,7 +98,7 @@ TEST(test_two_kinds_in_one_scene)
 {
     lam_material metal = physical(1, 0.7f, 0.3f, 1, 0.3f),
                  plastic = lam_material_named(LAM_MATERIAL_RED_PLASTIC, LAM_COLOR_SRGB);
-    lam_scene *scene = two_spheres(&metal, &plastic);
+    AUTO_SCENE scene = two_spheres(&metal, &plastic);
     draw(scene, LAM_REFLECTION_AUTO, picture[0]);
     draw(scene, LAM_REFLECTION_GGX, picture[1]);
     draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[2]);
@@ -119,7 +117,6 @@ TEST(test_two_kinds_in_one_scene)
     assert_true(lam_scene_set_material(scene, 0, &classic, &error));
     draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[3]);
     assert_memory_equal(picture[2], picture[3], sizeof picture[2]);
-    lam_scene_free(scene);
 }
 
 // A device keeps the studio of its first scene without lights. Pictures of later scenes, which need its light for other
@@ -129,7 +126,7 @@ TEST(test_kept_studio)
     lam_material metal = physical(1, 0.7f, 0.3f, 1, 0.3f), dull = physical(0.2f, 0.7f, 0.3f, 0, 0.9f);
     const lam_material *right[] = {&metal, &dull, &metal};
     lam_scene *scenes[3];
-    lam_device *device = lam_device_cpu(NULL, NULL);
+    AUTO_DEVICE device = lam_device_cpu(NULL, NULL);
     const lam_environment *studio = NULL;
     for (int i = 0; i < 3; i++) {
         scenes[i] = two_spheres(&metal, right[i]);
@@ -144,7 +141,6 @@ TEST(test_kept_studio)
             lam_scene_free(scenes[i - 1]); // after the next scene is drawn, so that their addresses differ
     }
     lam_scene_free(scenes[2]);
-    lam_device_free(device);
 }
 
 TEST(test_unlit)
@@ -152,14 +148,13 @@ TEST(test_unlit)
     lam_material flat = lam_material_default(), lit = lam_material_default();
     flat.unlit = true;
     flat.diffuse = (lam_rgba){0.25f, 0.5f, 0.75f, 1};
-    lam_scene *scene = two_spheres(&flat, &lit);
+    AUTO_SCENE scene = two_spheres(&flat, &lit);
     draw(scene, LAM_REFLECTION_AUTO, picture[0]);
     const float *middle = picture[0][HEIGHT / 2][WIDTH / 4], *beside = picture[0][HEIGHT / 2][WIDTH / 4 + 3];
     assert_true(middle[0] == 0.25f && middle[1] == 0.5f && middle[2] == 0.75f);
     assert_memory_equal(middle, beside, 4 * sizeof *middle);
     const float *round = picture[0][HEIGHT / 2][3 * WIDTH / 4];
     assert_true(memcmp(round, round + 16, 3 * sizeof *round) != 0);
-    lam_scene_free(scene);
 }
 
 // If the front and back of an object are of different kinds, the reflection model of the front draws both.
@@ -168,7 +163,7 @@ TEST(test_back_of_the_other_kind)
     lam_error error;
     lam_material metal = physical(1, 0.7f, 0.3f, 0.5f, 0.4f),
                  plastic = lam_material_named(LAM_MATERIAL_RED_PLASTIC, LAM_COLOR_SRGB);
-    lam_scene *scene = two_spheres(&metal, &plastic);
+    AUTO_SCENE scene = two_spheres(&metal, &plastic);
     for (int i = 0; i < 2; i++) {
         lam_object object = *lam_scene_object(scene, i);
         object.back_material = 1 - i;
@@ -183,7 +178,6 @@ TEST(test_back_of_the_other_kind)
         assert_memory_equal(picture[0][y] + WIDTH / 2, picture[2][y] + WIDTH / 2, sizeof picture[0][y] / 2);
     }
     assert_true(picture[0][HEIGHT / 2][WIDTH / 4][3] == 1);
-    lam_scene_free(scene);
 }
 
 // A square that faces the eye, with normals that point away from it, and light in their direction: neither a metal nor
@@ -211,7 +205,7 @@ TEST(test_leaning_normals)
         m.metallic = layer != 3;
         m.clearcoat = layer == 3;
         m.clearcoat_roughness = 0.8f;
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         lam_object object = lam_object_default();
         object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
         object.material = lam_scene_add_material(scene, &m, &error);
@@ -227,7 +221,6 @@ TEST(test_leaning_normals)
             assert_true(pixel[3] == 0 || pixel[0] > 1e-3f);
         }
         assert_true(seen > 500);
-        lam_scene_free(scene);
     }
 }
 

@@ -182,8 +182,7 @@ TEST(test_jpeg_pixels)
         lam_image image = {0};
         lam_error error = {0};
         assert_true(codec_jpeg.probe(file.bytes, file.size));
-        if (!codec_jpeg.read(&(struct picture_file){file.bytes, file.size, "test.jpg", NULL}, &image, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(codec_jpeg.read(&(struct picture_file){file.bytes, file.size, "test.jpg", NULL}, &image, &error));
         assert_true(image.width == SIDE && image.height == SIDE && image.format == LAM_RGBA8);
         for (int y = 0; y < SIDE; y++) {
             for (int x = 0; x < SIDE; x++) {
@@ -234,8 +233,7 @@ TEST(test_linear)
     memcpy(bytes.pixels, (uint8_t[]){255, 128, 10, 255, 200, 100, 0, 51}, 8);
     assert_true(lam_image_save(&bytes, path, NULL, &error));
     for (int mode = 0; mode < 2; mode++) {
-        if (!lam_image_load_linear(&linear, path, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(lam_image_load_linear(&linear, path, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error));
         assert_int_equal(linear.format, LAM_RGBA32F);
         for (int i = 0; i < 8; i++) {
             double x = ((const uint8_t *)bytes.pixels)[i] / 255.0, alpha = i < 4 ? 1 : 0.2;

@@ -42,9 +42,8 @@ TEST(sphere_is_the_models)
     assert_false(lam_scene_sphere(scene, 1, &centre, &radius));
     assert_true(radius == 0);
     lam_scene_free(scene);
-    lam_scene *empty = lam_scene_make(NULL);
+    AUTO_SCENE empty = lam_scene_make(NULL);
     assert_false(lam_scene_sphere(empty, -1, &centre, &radius));
-    lam_scene_free(empty);
 }
 
 // A curve of points in the order along it, the same in a scattered order, and with other vertex numbers and an unused
@@ -67,7 +66,7 @@ TEST(camera_does_not_depend_on_the_order)
         lam_camera cameras[ORDERS];
         for (int order = 0; order < ORDERS; order++) {
             lam_error error;
-            lam_scene *scene = lam_scene_make(&error);
+            AUTO_SCENE scene = lam_scene_make(&error);
             lam_mesh mesh = {.positions = points[order], .vertex_count = COUNT, .triangle_count = COUNT / 3};
             if (order == 2) {
                 mesh.vertex_count++;
@@ -100,7 +99,6 @@ TEST(camera_does_not_depend_on_the_order)
                 farthest = fmax(farthest, fmax(x, y));
             }
             near(farthest, 0.92, 1e-5);
-            lam_scene_free(scene);
         }
         for (int order = 1; order < ORDERS; order++)
             assert_memory_equal(&cameras[0], &cameras[order], sizeof cameras[0]);
@@ -145,7 +143,7 @@ TEST(camera_fits_the_picture)
 {
     static const int sizes[][2] = {{300, 600}, {600, 300}, {1, 1000}, {1000, 1}, {256, 256}};
     static const float points[] = {-1, 0, 0.5f, 2, 0.25f, -1, 0, 1.5f, 0, 0.5f, -0.75f, 1, 1, 1, 1, -0.5f, 0.5f, -2};
-    lam_scene *scene = scene_of_points(points, 6);
+    AUTO_SCENE scene = scene_of_points(points, 6);
     for (size_t i = 0; i < 2 * sizeof sizes / sizeof *sizes; i++) {
         int width = sizes[i / 2][0], height = sizes[i / 2][1];
         lam_camera camera = lam_camera_fit(scene, width, height, &(lam_view){.orthographic = i % 2});
@@ -157,7 +155,6 @@ TEST(camera_fits_the_picture)
     }
     lam_camera none = lam_camera_fit(scene, 0, -5, NULL), one = lam_camera_fit(scene, 1, 1, NULL);
     assert_memory_equal(&none, &one, sizeof one);
-    lam_scene_free(scene);
 }
 
 // A named side shows the model from the direction of its name, for either up axis.
@@ -170,7 +167,7 @@ TEST(sides_have_names)
                     {"left", {-1, 0, 0}, {-1, 0, 0}}, {"right", {1, 0, 0}, {1, 0, 0}},
                     {"top", {0, 1, 0}, {0, 0, 1}},    {"bottom", {0, -1, 0}, {0, 0, -1}},
                     {"iso", {1, 1, 1}, {1, -1, 1}}};
-    lam_scene *scene = shape_scene("sphere", 1);
+    AUTO_SCENE scene = shape_scene("sphere", 1);
     for (size_t i = 0; i < 2 * sizeof expected / sizeof *expected; i++) {
         lam_side side = lam_side_find(expected[i / 2].name);
         assert_true(side < LAM_SIDE_COUNT);
@@ -191,13 +188,12 @@ TEST(sides_have_names)
     assert_int_equal(lam_side_find("frnt"), LAM_SIDE_COUNT);
     assert_int_equal(lam_side_find(NULL), LAM_SIDE_COUNT);
     assert_null(lam_side_name(LAM_SIDE_COUNT));
-    lam_scene_free(scene);
 }
 
 // Cameras given as text: omitted keys come from the scene. (tests/cli tests every error.)
 TEST(cameras_in_words)
 {
-    lam_scene *scene = shape_scene("cube", 1);
+    AUTO_SCENE scene = shape_scene("cube", 1);
     lam_mat4 move = lam_mat4_identity();
     move.m[1][3] = 10;
     assert_true(lam_scene_transform(scene, &move, NULL));
@@ -219,7 +215,6 @@ TEST(cameras_in_words)
         assert_non_null(strstr(error.text, wrong[i][1]));
         assert_memory_equal(&camera, &before, sizeof camera);
     }
-    lam_scene_free(scene);
 }
 
 // Materials and lights given as text. (tests/cli tests every error.)
@@ -281,7 +276,7 @@ TEST(lights_in_words)
 
 TEST(turning_and_moving)
 {
-    lam_scene *scene = shape_scene("cube", 1);
+    AUTO_SCENE scene = shape_scene("cube", 1);
     lam_error error;
     lam_mat4 move = lam_mat4_identity();
     move.m[0][3] = 4;
@@ -306,12 +301,11 @@ TEST(turning_and_moving)
     assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 0, 0}, 1, &error));
     assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 1, 0}, (double)NAN, &error));
     assert_memory_equal(&before, &lam_scene_object(scene, 0)->transform, sizeof before);
-    lam_scene_free(scene);
 }
 
 TEST(rigs_stand_about_the_scene)
 {
-    lam_scene *scene = shape_scene("sphere", 2);
+    AUTO_SCENE scene = shape_scene("sphere", 2);
     lam_mat4 move = lam_mat4_identity();
     move.m[1][3] = 10;
     assert_true(lam_scene_transform(scene, &move, NULL));
@@ -331,7 +325,6 @@ TEST(rigs_stand_about_the_scene)
     lam_light own = lam_light_default(LAM_LIGHT_POINT);
     assert_int_equal(lam_scene_add_light(scene, &own, NULL), 0);
     assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, false, lights), 0);
-    lam_scene_free(scene);
 }
 
 enum { HILLS_SIDE = 33 };
@@ -408,7 +401,7 @@ TEST(curved_models_have_their_own_light)
     lam_light lights[LAM_RIG_LIGHTS_MAX], studio[LAM_RIG_LIGHTS_MAX];
     const int all = lam_rig_lights(LAM_RIG_STUDIO, studio);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lam_scene *scene = shape_scene(cases[i].shape, 1);
+        AUTO_SCENE scene = shape_scene(cases[i].shape, 1);
         for (int turn = 0; turn < 3; turn++) {
             assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, false, lights), all - cases[i].curved);
             assert_true((lights[0].diffuse.r > studio[0].diffuse.r) == cases[i].curved);
@@ -416,7 +409,6 @@ TEST(curved_models_have_their_own_light)
             assert_true(lights[0].diffuse.r == studio[0].diffuse.r);
             assert_true(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){1, 2, 3}, 0.7, NULL));
         }
-        lam_scene_free(scene);
     }
     lam_scene *many = lam_scene_make(NULL), *cut = hills(0);
     lam_object object = lam_object_default();
@@ -433,11 +425,10 @@ TEST(curved_models_have_their_own_light)
 static void draw(lam_scene *scene, lam_image *image)
 {
     lam_camera camera = lam_camera_default();
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, NULL);
+    AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, NULL);
     assert_non_null(device);
     assert_true(lam_image_make(image, 24, 24, LAM_RGBA32F, NULL));
     assert_true(lam_draw(device, scene, &camera, &(lam_draw_params){.samples = 1}, image, NULL, NULL));
-    lam_device_free(device);
 }
 
 // A light in the model's frame moves with the model: it has the same effect as a light of the world at the position to
@@ -446,14 +437,13 @@ TEST(lights_go_with_the_model)
 {
     lam_image images[2];
     for (int i = 0; i < 2; i++) {
-        lam_scene *scene = shape_scene("sphere", 1);
+        AUTO_SCENE scene = shape_scene("sphere", 1);
         lam_light light = lam_light_default(LAM_LIGHT_POINT);
         light.frame = i ? LAM_FRAME_WORLD : LAM_FRAME_MODEL;
         light.position = i ? (lam_vec3){3, 1, -1} : (lam_vec3){1, 1, 3};
         assert_int_equal(lam_scene_add_light(scene, &light, NULL), 0);
         assert_true(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 1, 0}, PI_HALF, NULL));
         draw(scene, &images[i]);
-        lam_scene_free(scene);
     }
     const float *a = images[0].pixels, *b = images[1].pixels;
     double most = 0, brightest = 0;
@@ -506,7 +496,7 @@ TEST(parts_change_their_material)
 {
     lam_part parts[] = {{.name = "a", .triangle_count = 1, .material = -1},
                         {.name = "b", .first_triangle = 1, .triangle_count = 1, .material = -1}};
-    lam_scene *scene = square_scene(parts, 2);
+    AUTO_SCENE scene = square_scene(parts, 2);
     lam_material gold = lam_material_named(LAM_MATERIAL_GOLD, LAM_COLOR_SRGB);
     assert_int_equal(lam_scene_add_material(scene, &gold, NULL), 0);
     assert_true(lam_scene_set_part_material(scene, 0, 1, 0, NULL));
@@ -521,5 +511,4 @@ TEST(parts_change_their_material)
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     lam_scene_add_warning(scene, "one");
     assert_string_equal(lam_scene_warning(scene, 0), "one");
-    lam_scene_free(scene);
 }

@@ -17,7 +17,7 @@ static const lam_mesh *mesh_of(const lam_scene *scene) { return lam_scene_mesh(s
 
 TEST(test_ascii)
 {
-    lam_scene *scene = load_text(ascii, "a.ply");
+    AUTO_SCENE scene = load_text(ascii, "a.ply");
     const lam_mesh *mesh = mesh_of(scene);
     assert_string_equal(lam_scene_format(scene), "ply");
     assert_int_equal(lam_scene_up(scene), LAM_UP_Y);
@@ -26,7 +26,6 @@ TEST(test_ascii)
     assert_int_equal(mesh->triangle_count, 2);
     assert_corner(mesh, 0, 2, 1, 1, 0);
     assert_corner(mesh, 1, 2, 0, 1, 0);
-    lam_scene_free(scene);
 }
 
 // One mesh in every format: vertices with extra properties before, between and after, an element in between with lists,
@@ -146,9 +145,8 @@ TEST(test_unused_vertex)
                 put_u32(&file, corners[k]);
         }
         lam_vec3 low;
-        lam_scene *scene = load(&file, "a.ply");
+        AUTO_SCENE scene = load(&file, "a.ply");
         assert_true(lam_scene_bounds(scene, &low, NULL) && low.z == (last == 3 ? -9 : 0));
-        lam_scene_free(scene);
     }
 }
 
@@ -222,7 +220,7 @@ TEST(test_mixed_of_triangle_size)
 
 TEST(test_vertex_attributes)
 {
-    lam_scene *scene = load_text(HEADER("ascii") "element vertex 3\nproperty float nz\n" XYZ
+    AUTO_SCENE scene = load_text(HEADER("ascii") "element vertex 3\nproperty float nz\n" XYZ
                                                  "property float nx\nproperty float ny\nproperty float tx\n"
                                                  "property float ty\nproperty float tz\nproperty float u\n"
                                                  "property float v\n" FACE("1") "end_header\n"
@@ -243,7 +241,6 @@ TEST(test_vertex_attributes)
         assert_near((double)mesh->tangents[i], (double)tangents[i], 1e-7);
     assert_int_equal(mesh->texcoord_count, 3);
     assert_memory_equal(mesh->texcoords, texcoords, sizeof texcoords);
-    lam_scene_free(scene);
 }
 
 TEST(test_colors_bytes)
@@ -322,7 +319,7 @@ TEST(test_colors_ranges)
                                          "1") "end_header\n0 0 0 %s\n1 0 0 %s\n0 1 0 %s\n3 0 1 2\n",
                      rows[i].type, rows[i].type, rows[i].type, rows[i].alpha, rows[i].first, rows[i].rest,
                      rows[i].rest);
-            lam_scene *scene = load_with(text, strlen(text), "a.ply",
+            AUTO_SCENE scene = load_with(text, strlen(text), "a.ply",
                                          &(lam_load_params){.color = raw ? LAM_COLOR_RAW : LAM_COLOR_SRGB});
             const char *warning = lam_scene_warning(scene, 0);
             const float *colors = mesh_of(scene)->colors;
@@ -333,7 +330,6 @@ TEST(test_colors_ranges)
                 assert_near((double)colors[c], raw ? s : linear, 1e-6);
             }
             assert_near((double)colors[3], rows[i].opacity, 1e-6);
-            lam_scene_free(scene);
         }
 }
 
@@ -367,7 +363,7 @@ TEST(test_colors_special)
         snprintf(text, sizeof text, HEADER("ascii") "element vertex 1\n" XYZ "%s%send_header\n0 0 0 %s\n%s",
                  rows[i].properties, rows[i].bytes[3] ? "" : "element camera 1\nproperty int a\nproperty int b\n",
                  rows[i].numbers, rows[i].bytes[3] ? "" : "1 2\n");
-        lam_scene *scene = load_text(text, "a.ply");
+        AUTO_SCENE scene = load_text(text, "a.ply");
         const lam_mesh *mesh = mesh_of(scene);
         if (rows[i].warning)
             assert_string_equal(lam_scene_warning(scene, 0), rows[i].warning);
@@ -382,7 +378,6 @@ TEST(test_colors_special)
             assert_memory_equal(mesh->colors, rows[i].bytes, 4);
         else
             assert_null(mesh->colors);
-        lam_scene_free(scene);
     }
 }
 
@@ -399,7 +394,7 @@ TEST(test_textures)
     static const lam_part parts[] = {{.triangle_count = 3, .material = 1},
                                      {.first_triangle = 3, .triangle_count = 1, .material = 0},
                                      {.first_triangle = 4, .triangle_count = 1, .material = -1}};
-    lam_scene *scene = load_text(text, "a.ply");
+    AUTO_SCENE scene = load_text(text, "a.ply");
     const lam_mesh *mesh = mesh_of(scene);
     assert_int_equal(mesh->triangle_count, 5);
     for (size_t i = 0; i < 15; i++)
@@ -413,7 +408,6 @@ TEST(test_textures)
     assert_int_equal(lam_scene_material_count(scene), 2);
     assert_string_equal(lam_scene_material(scene, 1)->map_names[LAM_MAP_DIFFUSE], "two words.ppm");
     assert_non_null(strstr(lam_scene_warning(scene, 0), "one.ppm"));
-    lam_scene_free(scene);
 }
 
 // Colours and normals of faces, repeated for the triangles of a polygon.
@@ -444,7 +438,7 @@ TEST(test_face_attributes)
 TEST(test_concave_polygon)
 {
     // An L of six corners: a fan from its first corner would cover the notch.
-    lam_scene *scene = load_text(
+    AUTO_SCENE scene = load_text(
         HEADER("ascii") "element vertex 6\n" XYZ FACE("1") "end_header\n"
                                                            "2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n6 0 1 2 3 4 5\n",
         "a.ply");
@@ -458,7 +452,6 @@ TEST(test_concave_polygon)
         area += twice / 2;
     }
     assert_near(area, 3, 1e-12);
-    lam_scene_free(scene);
 }
 
 TEST(test_strips)
@@ -580,13 +573,12 @@ TEST(test_unknown_header_lines)
             length += sprintf(text + length, "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
         else
             length += (int)(memcpy(text + length, corners, 36), memcpy(text + length + 36, face, 13), 49);
-        lam_scene *scene = load_with(text, (size_t)length, "a.ply", NULL);
+        AUTO_SCENE scene = load_with(text, (size_t)length, "a.ply", NULL);
         assert_int_equal(lam_scene_triangle_count(scene), 1);
         assert_string_equal(lam_scene_warning(scene, 0),
                             "a.ply:3: found 'Created', expected format, comment, element, property or end_header; the "
                             "line is ignored, and others");
         assert_null(lam_scene_warning(scene, 1));
-        lam_scene_free(scene);
     }
 }
 
@@ -632,7 +624,7 @@ TEST(test_clear_colors)
         {THREE FACE("1") RGBA("uchar") "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9 9 9 0\n", 3},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lam_scene *scene = load_text(rows[i].text, "a.ply");
+        AUTO_SCENE scene = load_text(rows[i].text, "a.ply");
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         bool floats = mesh->colors_format == LAM_COLORS_LINEAR_F32;
         for (uint32_t c = 0; c < mesh->color_count; c++) {
@@ -646,7 +638,6 @@ TEST(test_clear_colors)
                 "a.ply: every material or colour is fully transparent (alpha 0); the picture would be empty, "
                 "so everything is drawn opaque");
         assert_null(lam_scene_warning(scene, rows[i].clear == 3));
-        lam_scene_free(scene);
     }
 }
 

@@ -73,8 +73,7 @@ static uint32_t pixel_of(enum content content, int x, int y, int width, int heig
 static void make_picture(lam_image *image, int width, int height, enum content content)
 {
     lam_error error;
-    if (!lam_image_make(image, width, height, LAM_RGBA8, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_image_make(image, width, height, LAM_RGBA8, &error));
     random_state = (uint64_t)width * 1000003u + (uint64_t)height * 17 + content;
     uint32_t pixel = 0;
     for (int y = 0; y < height; y++)
@@ -89,8 +88,7 @@ static lam_bytes encode_as(const lam_image *image, int threads, lam_compress com
     lam_error error;
     lam_bytes bytes;
     lam_save_params params = {.threads = threads, .compress = compress};
-    if (!lam_image_encode(image, "png", &params, &bytes, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_image_encode(image, "png", &params, &bytes, &error));
     return bytes;
 }
 
@@ -120,15 +118,13 @@ static void decode_and_compare(const lam_bytes *bytes, const lam_image *image, c
 
 static void round_trip(int width, int height, enum content content)
 {
-    lam_image image;
+    AUTO_IMAGE image = {0};
     make_picture(&image, width, height, content);
-    lam_bytes bytes = encode(&image, 1);
+    AUTO_BYTES bytes = encode(&image, 1);
     decode_and_compare(&bytes, &image, content_names[content]);
     const uint8_t *data = bytes.data;
     static const uint8_t end[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
     assert_memory_equal(data + bytes.size - 12, end, 12);
-    lam_bytes_free(&bytes);
-    lam_image_free(&image);
 }
 
 TEST(decodes_to_the_source)
@@ -155,7 +151,7 @@ TEST(decodes_at_the_limits_of_size)
 TEST(holds_runs_of_every_length)
 {
     for (int opaque = 0; opaque < 2; opaque++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         lam_error error;
         assert_true(lam_image_make(&image, 256, 256, LAM_RGBA8, &error));
         for (int y = 0; y < 256; y++)
@@ -166,11 +162,9 @@ TEST(holds_runs_of_every_length)
                 value |= opaque ? 0xFF000000u : 0x80000000u;
                 memcpy((uint8_t *)image.pixels + (y * 256 + x) * 4, &value, 4);
             }
-        lam_bytes bytes = encode(&image, 1);
+        AUTO_BYTES bytes = encode(&image, 1);
         decode_and_compare(&bytes, &image, "staircase");
         assert_true(bytes.size < 256 * 40);
-        lam_bytes_free(&bytes);
-        lam_image_free(&image);
     }
 }
 
@@ -179,7 +173,7 @@ TEST(threads_change_nothing)
     static const int sizes[][2] = {{1024, 700}, {333, 1001}, {65535, 5}, {7, 50000}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int content = NOISE; content < CONTENTS; content++) {
-            lam_image image;
+            AUTO_IMAGE image = {0};
             make_picture(&image, sizes[i][0], sizes[i][1], content);
             lam_bytes one = encode(&image, 1), two = encode(&image, 2), five = encode(&image, 5);
             assert_int_equal(one.size, two.size);
@@ -189,7 +183,6 @@ TEST(threads_change_nothing)
             lam_bytes_free(&one);
             lam_bytes_free(&two);
             lam_bytes_free(&five);
-            lam_image_free(&image);
         }
 }
 
@@ -209,17 +202,15 @@ TEST(bytes_are_the_recorded_ones)
     };
     int wrong = 0;
     for (size_t i = 0; i < sizeof recorded / sizeof *recorded; i++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         make_picture(&image, 509, 211, recorded[i].content);
-        lam_bytes bytes = encode(&image, 2);
+        AUTO_BYTES bytes = encode(&image, 2);
         uint64_t hash = hash_of(bytes.data, bytes.size);
         if (hash != recorded[i].hash || bytes.size != recorded[i].size) {
             print_message("%s: %zu bytes, 0x%016llx\n", content_names[recorded[i].content], bytes.size,
                           (unsigned long long)hash);
             wrong++;
         }
-        lam_bytes_free(&bytes);
-        lam_image_free(&image);
     }
     assert_int_equal(wrong, 0);
 }
@@ -255,7 +246,7 @@ TEST(best_files_decode)
             const bool large = sizes[i][0] * sizes[i][1] > 100000;
             if (large && content != RUNS && content != OPAQUE_NOISE) // others are slow
                 continue;
-            lam_image image;
+            AUTO_IMAGE image = {0};
             make_picture(&image, sizes[i][0], sizes[i][1], content);
             lam_bytes bytes = encode_as(&image, 1, LAM_COMPRESS_BEST), fast = encode(&image, 1);
             decode_and_compare(&bytes, &image, content_names[content]);
@@ -263,14 +254,12 @@ TEST(best_files_decode)
                 fail_msg("%s, %d×%d: %zu bytes, %zu by the fast way", content_names[content], sizes[i][0], sizes[i][1],
                          bytes.size, fast.size);
             if (large) {
-                lam_bytes three = encode_as(&image, 3, LAM_COMPRESS_BEST);
+                AUTO_BYTES three = encode_as(&image, 3, LAM_COMPRESS_BEST);
                 assert_int_equal(bytes.size, three.size);
                 assert_memory_equal(bytes.data, three.data, bytes.size);
-                lam_bytes_free(&three);
             }
             lam_bytes_free(&bytes);
             lam_bytes_free(&fast);
-            lam_image_free(&image);
         }
 }
 
@@ -279,7 +268,7 @@ TEST(best_keeps_its_time)
 {
     if (!have_best())
         skip();
-    lam_image image;
+    AUTO_IMAGE image = {0};
     make_picture(&image, 3000, 2000, GREY); // some 15 seconds of work
     lam_control control = {.time_limit_s = 0.2};
     lam_save_params params = {.control = &control, .threads = 1, .compress = LAM_COMPRESS_BEST};
@@ -292,7 +281,6 @@ TEST(best_keeps_its_time)
     assert_int_equal(error.code, LAM_LIMIT);
     assert_null(bytes.data);
     assert_true(end.tv_sec - start.tv_sec < 5);
-    lam_image_free(&image);
 }
 
 static void *no_memory(size_t size)
@@ -311,7 +299,7 @@ TEST(best_without_memory)
     void (*set_allocator)(void *(*)(size_t), void (*)(void *));
     *(void **)&set_allocator = dlsym(library, "libdeflate_set_memory_allocator");
     assert_non_null(set_allocator);
-    lam_image image;
+    AUTO_IMAGE image = {0};
     make_picture(&image, 300, 200, NOISE);
     lam_save_params params = {.compress = LAM_COMPRESS_BEST};
     lam_bytes bytes;
@@ -323,13 +311,12 @@ TEST(best_without_memory)
     assert_int_equal(error.code, LAM_MACHINE);
     assert_null(bytes.data);
     dlclose(library);
-    lam_image_free(&image);
 }
 
 // A cancelled call, with either compression, gives an error and no bytes.
 TEST(stops_when_cancelled)
 {
-    lam_image image;
+    AUTO_IMAGE image = {0};
     make_picture(&image, 400, 300, GRADIENT);
     const int last = have_best() ? LAM_COMPRESS_BEST : LAM_COMPRESS_FAST;
     for (int compress = LAM_COMPRESS_FAST; compress <= last; compress++) {
@@ -343,7 +330,6 @@ TEST(stops_when_cancelled)
         assert_int_equal(error.code, LAM_CANCELLED);
         assert_null(bytes.data);
     }
-    lam_image_free(&image);
 }
 
 static const uint8_t *find_chunk(const lam_bytes *bytes, const char *type)
@@ -359,7 +345,7 @@ static const uint8_t *find_chunk(const lam_bytes *bytes, const char *type)
 
 TEST(chunks_say_what_is_in_it)
 {
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_bytes bytes;
     make_picture(&image, 40, 30, GRADIENT);
     assert_true(lam_image_encode(&image, "png", NULL, &bytes, NULL));
@@ -374,7 +360,6 @@ TEST(chunks_say_what_is_in_it)
     assert_true(lam_image_encode(&image, "png", &(lam_save_params){.raw = true}, &bytes, NULL));
     assert_null(find_chunk(&bytes, "sRGB"));
     lam_bytes_free(&bytes);
-    lam_image_free(&image);
 }
 
 static int color_type(const lam_image *image, int threads, lam_compress compress)
@@ -400,20 +385,18 @@ TEST(the_fewest_channels_are_written)
         int file = mkstemps(path, 4);
         assert_true(file >= 0);
         close(file);
-        lam_image image;
+        AUTO_IMAGE image = {0};
         make_picture(&image, 90, 40, content);
         for (int compress = LAM_COMPRESS_FAST; compress <= (best ? LAM_COMPRESS_BEST : LAM_COMPRESS_FAST); compress++) {
             assert_int_equal(color_type(&image, 1, (lam_compress)compress), expected[content]);
             lam_save_params params = {.compress = (lam_compress)compress};
             assert_true(lam_image_save(&image, path, &params, NULL));
             assert_true(lam_image_is_from_lambent(path));
-            lam_image back;
+            AUTO_IMAGE back = {0};
             assert_true(lam_image_load(&back, path, NULL, NULL));
             assert_memory_equal(back.pixels, image.pixels, 90 * 40 * 4);
-            lam_image_free(&back);
         }
         unlink(path);
-        lam_image_free(&image);
     }
 }
 
@@ -440,12 +423,11 @@ TEST(one_pixel_decides)
         const int expected[3] = {rows[i].in_grey, rows[i].in_grey_alpha, rows[i].in_rgb};
         for (int k = 0; k < 3; k++)
             for (int last = 0; last < 2; last++) {
-                lam_image image;
+                AUTO_IMAGE image = {0};
                 make_picture(&image, WIDTH, HEIGHT, contents[k]);
                 ((uint32_t *)image.pixels)[last ? WIDTH * HEIGHT - 1 : 0] = pixel;
                 for (int threads = 1; threads <= 3; threads += 2)
                     assert_int_equal(color_type(&image, threads, LAM_COMPRESS_FAST), expected[k]);
-                lam_image_free(&image);
             }
     }
 }
@@ -651,7 +633,7 @@ TEST(survives_without_memory)
 {
     const int last = have_best() ? LAM_COMPRESS_BEST : LAM_COMPRESS_FAST;
     for (int compress = LAM_COMPRESS_FAST; compress <= last; compress++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         make_picture(&image, compress ? 100 : 1024, 300, GRADIENT);
         int failures = 0;
         for (long countdown = 0;; countdown++) {
@@ -670,6 +652,5 @@ TEST(survives_without_memory)
             failures++;
         }
         assert_true(failures >= 4);
-        lam_image_free(&image);
     }
 }

@@ -138,7 +138,7 @@ TEST(test_files)
     for (int kind = 0; kind < KINDS; kind++)
         for (enum fault fault = NOTHING; fault < FAULTS; fault++) {
             struct file file = make_file(kinds[kind].color_type, kinds[kind].channels, fault);
-            lam_image image;
+            AUTO_IMAGE image = {0};
             lam_error error = {0};
             bool ok = picture_decode(&(struct picture_file){file.bytes, file.size, "a.png", NULL}, &image, &error);
             if (reference(&file, expected) != (fault <= LAST_SOUND) || ok != (fault <= LAST_SOUND))
@@ -147,7 +147,6 @@ TEST(test_files)
                 assert_memory_equal(image.pixels, expected, sizeof expected);
             else if (!strstr(error.text, "a.png: PNG pixels: "))
                 fail_msg("kind %d, fault %d: %s", kind, (int)fault, error.text);
-            lam_image_free(&image);
             free(file.bytes);
         }
 }
@@ -159,7 +158,7 @@ TEST(test_opaque)
     for (int kind = 0; kind < KINDS; kind++)
         for (enum fault fault = NOTHING; fault <= LAST_SOUND; fault++) {
             struct file file = make_file(kinds[kind].color_type, kinds[kind].channels, fault);
-            lam_image image;
+            AUTO_IMAGE image = {0};
             struct picture_file picture = {file.bytes, file.size, "a.png", NULL};
             bool wide;
             assert_true(picture_decode_wide(&picture, &wide, &image, NULL));
@@ -168,7 +167,6 @@ TEST(test_opaque)
             assert_int_equal(image.format, bytes == 4 ? LAM_RGBA8 : LAM_RGB8);
             for (int i = 0; i < WIDTH * HEIGHT; i++)
                 assert_memory_equal((uint8_t *)image.pixels + i * bytes, expected + 4 * i, (size_t)bytes);
-            lam_image_free(&image);
             free(file.bytes);
         }
 }
@@ -188,7 +186,7 @@ TEST(test_at_once)
             struct call_control call;
             call_start(&call, &(lam_control){.memory_limit_bytes = FILE_BYTES});
             struct picture_file picture = {file.bytes, file.size, "a.png", &call};
-            lam_image image;
+            AUTO_IMAGE image = {0};
             size_t extra = png_whole_extra(WIDTH, HEIGHT, LAM_RGBA8, kinds[kind].channels);
             assert_true(image_make_larger(&image, WIDTH, HEIGHT, LAM_RGBA8, extra, NULL));
             bool expected = fault <= TEXT_CRC || fault == JUNK_BEHIND_END;
@@ -198,7 +196,6 @@ TEST(test_at_once)
             call_start(&call, &(lam_control){.memory_limit_bytes = 1000});
             assert_false(png_read_whole(&picture, kinds[kind].channels, &image));
             assert_true(call_should_continue(&call) && !call.refused && call.memory_used == 0);
-            lam_image_free(&image);
             free(file.bytes);
         }
 }

@@ -52,14 +52,12 @@ static void build(struct soup *s, int threads, const lam_mat4 *transform)
     lam_camera camera = lam_camera_fit(s->scene, 100, 100, NULL);
     s->frame = (struct frame){0};
     lam_draw_params params = {.shadows = true};
-    if (!frame_build(&s->frame, s->scene, &camera, &params, 100, 100, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(frame_build(&s->frame, s->scene, &camera, &params, 100, 100, NULL, &error));
     struct pool *pool = pool_make(threads);
     bool built;
     memset(&s->memory, 0, sizeof s->memory);
     s->hierarchy = hierarchy_of_frame(&s->memory, &s->frame, pool, NULL, &built, &error);
-    if (!s->hierarchy)
-        fail_msg("%s", error.text);
+    SUCCEEDS(s->hierarchy);
     assert_true(built);
     // An unchanged scene is not built again.
     assert_true(hierarchy_of_frame(&s->memory, &s->frame, pool, NULL, &built, &error) == s->hierarchy && !built);

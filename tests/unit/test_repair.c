@@ -118,7 +118,7 @@ TEST(test_normals)
          false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lam_scene *scene = load_text(cases[i].text, cases[i].name);
+        AUTO_SCENE scene = load_text(cases[i].text, cases[i].name);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         char expected[200];
         snprintf(expected, sizeof expected,
@@ -134,7 +134,6 @@ TEST(test_normals)
             bool own = cases[i].own && mesh->indices[c] == 0;
             assert_near((double)n[own ? 0 : 2] / length, 1, 1e-6);
         }
-        lam_scene_free(scene);
     }
 }
 
@@ -187,7 +186,7 @@ TEST(test_gltf)
                         "[\"KHR_mesh_quantization\"]"
                       : "");
             make_text(&document, json);
-            lam_scene *scene = load_text(document.text, "a.gltf");
+            AUTO_SCENE scene = load_text(document.text, "a.gltf");
             assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 2);
             assert_int_equal(lam_scene_mesh(scene, 1)->triangle_count, !bad);
             assert_true(lam_scene_mesh(scene, 0)->normals[2] == 1);
@@ -196,6 +195,5 @@ TEST(test_gltf)
                 "a.gltf: 5 of 5 normals are zero or not finite; they are computed, or left out for lines "
                 "and points");
             assert_null(lam_scene_warning(scene, bad + 1));
-            lam_scene_free(scene);
         }
 }

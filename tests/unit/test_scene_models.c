@@ -90,7 +90,7 @@ TEST(test_shared)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct counts counts;
-        lam_scene *scene = load_objects(rows[i].objects, &counts);
+        AUTO_SCENE scene = load_objects(rows[i].objects, &counts);
         if (lam_scene_mesh_count(scene) != rows[i].meshes || lam_scene_material_count(scene) != rows[i].materials ||
             counts.models != rows[i].models)
             fail_msg("row %zu: %d meshes, %d materials, %d models opened", i, lam_scene_mesh_count(scene),
@@ -103,7 +103,6 @@ TEST(test_shared)
         // Meshes that are not shared share their vertices if possible.
         for (int k = 0; k < lam_scene_object_count(scene); k++)
             assert_non_null(lam_scene_mesh(scene, lam_scene_object(scene, k)->mesh)->normals);
-        lam_scene_free(scene);
     }
 }
 
@@ -156,7 +155,7 @@ TEST(test_clear)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct counts counts;
-        lam_scene *scene = load_objects(rows[i].objects, &counts);
+        AUTO_SCENE scene = load_objects(rows[i].objects, &counts);
         bool said = false, clear = false;
         for (int k = 0; lam_scene_warning(scene, k); k++)
             said |= strstr(lam_scene_warning(scene, k), "so everything is drawn opaque") != NULL;
@@ -164,7 +163,6 @@ TEST(test_clear)
             clear |= lam_scene_material(scene, k)->diffuse.a == 0;
         if (said != rows[i].opaque || clear != !rows[i].opaque)
             fail_msg("row %zu: %s, %s", i, said ? "said" : "not said", clear ? "clear" : "opaque");
-        lam_scene_free(scene);
     }
 }
 
@@ -187,12 +185,10 @@ TEST(test_written)
     fclose(file);
     lam_error error;
     lam_scene *scene = lam_scene_load(path[0], NULL, NULL, &error), *back;
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     assert_true(lam_scene_save(scene, NULL, path[1], &error));
     back = lam_scene_load(path[1], NULL, NULL, &error);
-    if (!back)
-        fail_msg("%s", error.text);
+    SUCCEEDS(back);
     assert_int_equal(lam_scene_object_count(back), 5);
     assert_int_equal(lam_scene_mesh_count(back), 2);
     for (int i = 0; i < 5; i++) {
@@ -225,12 +221,10 @@ TEST(test_memory)
         lam_load_params params = {.threads = 1, .open = open_beside, .user = &counts};
         lam_control control = {.memory_limit_bytes = 24 << 20};
         lam_error error;
-        lam_scene *scene = lam_scene_load_memory(text, strlen(text), "s.json", &params, &control, &error);
-        if (!scene)
-            fail_msg("%s", error.text);
+        AUTO_SCENE scene = lam_scene_load_memory(text, strlen(text), "s.json", &params, &control, &error);
+        SUCCEEDS(scene);
         assert_int_equal(lam_scene_object_count(scene), OBJECTS);
         assert_int_equal(counts.models, kind);
-        lam_scene_free(scene);
         free(text);
     }
 }
@@ -279,7 +273,7 @@ TEST(test_files, .setup_func = make_folder, .teardown_func = remove_folder)
         {"in/s.json", "in/m.obj", "in/none.mtl", "in/sky.ppm", "in/sub/m.mtl", "in/sub/sky.ppm"}};
     for (int i = 0; i < 2; i++) {
         lam_error error;
-        lam_scene *scene = lam_scene_load(in_folder(models[i]), NULL, NULL, &error);
+        AUTO_SCENE scene = lam_scene_load(in_folder(models[i]), NULL, NULL, &error);
         if (!scene)
             fail_msg("%s: %s", models[i], error.text);
         for (int k = 0; k < 6; k++) {
@@ -291,14 +285,12 @@ TEST(test_files, .setup_func = make_folder, .teardown_func = remove_folder)
         }
         assert_null(lam_scene_file(scene, 6));
         assert_null(lam_scene_file(scene, -1));
-        lam_scene_free(scene);
     }
     assert_null(lam_scene_file(NULL, 0));
     struct counts counts;
-    lam_scene *scene = load_objects(A, &counts);
+    AUTO_SCENE scene = load_objects(A, &counts);
     assert_string_equal(lam_scene_file(scene, 0), "a.mtl"); // the names passed to the function
     assert_string_equal(lam_scene_file(scene, 1), "a.obj");
-    lam_scene_free(scene);
 }
 
 // A scene file's own folder is the root for its models and pictures; models_anywhere lifts this.
@@ -369,8 +361,7 @@ TEST(test_function)
         "\".//in/./a.obj\"}]}";
     lam_error error;
     lam_scene *scene = lam_scene_load_memory(good, sizeof good - 1, "s.json", &params, NULL, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     assert_true(counts.models == 1 && counts.materials == 1 && counts.pictures == 1);
     assert_non_null(lam_scene_environment(scene));
     assert_string_equal(lam_scene_warning(scene, 0),

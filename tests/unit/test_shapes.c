@@ -262,7 +262,7 @@ TEST(test_shapes)
 
 TEST(test_shape_options)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     for (int i = 0; i < lam_shape_count(); i++) {
         // The coarsest, an odd and a finer tessellation are also closed.
         static const lam_shape_params tries[] = {{.slices = 3, .stacks = 3},
@@ -303,7 +303,6 @@ TEST(test_shape_options)
     assert_non_null(strstr(error.text, "at least 3"));
     assert_int_equal(lam_scene_add_shape(NULL, "sphere", NULL, &error), -1);
     assert_int_equal(lam_scene_add_shape(scene, NULL, NULL, &error), -1);
-    lam_scene_free(scene);
 }
 
 // Any number of threads gives the same mesh.
@@ -313,25 +312,23 @@ TEST(test_threads)
         static const int threads[] = {1, 2, 5};
         uint64_t hashes[3];
         for (int k = 0; k < 3; k++) {
-            lam_scene *scene = lam_scene_make(NULL);
+            AUTO_SCENE scene = lam_scene_make(NULL);
             hashes[k] = hash_mesh(make(scene, lam_shape_name(i),
                                        &(lam_shape_params){.slices = 150, .stacks = 131, .threads = threads[k]}));
-            lam_scene_free(scene);
         }
         assert_true(hashes[0] == hashes[1] && hashes[0] == hashes[2]);
     }
     lam_error error;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     assert_int_equal(lam_scene_add_shape(scene, "torus", &(lam_shape_params){.threads = 1025}, &error), -1);
     assert_non_null(strstr(error.text, "threads"));
-    lam_scene_free(scene);
 }
 
 // For any coarseness, no side of a triangle occurs twice in one direction. In a tube that is so coarse that it is flat,
 // both sheets are in one place and share all sides.
 TEST(test_coarsest_segments)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     for (int i = 0; i < lam_shape_count() * 6 * 3; i++) {
         lam_shape_params params = {.slices = 3 + i % 6, .stacks = 1 + i / 6 % 3};
         lam_error error = {0};
@@ -355,14 +352,13 @@ TEST(test_coarsest_segments)
         free(edges);
         free(same);
     }
-    lam_scene_free(scene);
 }
 
 // A sphere's triangles approach it. When the segments double, the error between face normals and vertex normals halves,
 // and the error between the face normal and the mean of the vertex normals falls to a quarter.
 static void sphere_errors(int slices, double *at_vertices, double *at_middle)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     const lam_mesh *mesh = make(scene, "sphere", &(lam_shape_params){.slices = slices, .stacks = slices / 2});
     *at_vertices = *at_middle = 0;
     for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -383,7 +379,6 @@ static void sphere_errors(int slices, double *at_vertices, double *at_middle)
         *at_middle += fabs(1 - length(mean) / 3) / mesh->triangle_count;
         assert_true(length(cross(middle, mean)) / (length(middle) * length(mean)) < 1e-6);
     }
-    lam_scene_free(scene);
 }
 
 TEST(test_convergence)
@@ -437,7 +432,7 @@ static lam_vec3 ball_gradient(void *user, lam_vec3 p)
 
 TEST(test_unit_sphere)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_error error = {0};
     int yes = 1;
     // With the limit direction at the poles, and with derivatives that vanish there.
@@ -483,7 +478,6 @@ TEST(test_unit_sphere)
             assert_true(length(minus(p, normal(mesh, c))) < 3e-7);
         }
     }
-    lam_scene_free(scene);
 }
 
 // Every case of the table, by random values on the lattice: closed meshes without an edge in more than two triangles.
@@ -528,14 +522,13 @@ TEST(test_every_cell_case)
         struct noise noise = {N, sign};
         lam_implicit surface = {
             .value = noise_value, .gradient = noise_gradient, .user = &noise, .maximum = {N, N, N}, .cells = N};
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_error error = {0};
         assert_int_equal(lam_scene_add_implicit(scene, &surface, NULL, &error), 0);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         assert_true(mesh->triangle_count > 10000);
         assert_int_equal(open_edges(mesh), 0);
         assert_true(volume(mesh) > 0);
-        lam_scene_free(scene);
     }
 }
 
@@ -553,7 +546,7 @@ static void cone_point(void *user, double u, double v, lam_surface_point *out)
 // A tip is not a smooth pole: each triangle's corner there has the normal of its own side.
 TEST(test_tip)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     // (v, u) in this order makes ∂p/∂u × ∂p/∂v point outward, so the tip is a column that coincides, not a row.
     lam_parametric cone = parametric(cone_point, 2 * M_PI, 1, 16, 4, true);
     assert_int_equal(lam_scene_add_parametric(scene, &cone, NULL, NULL), 0);
@@ -567,7 +560,6 @@ TEST(test_tip)
               face = cross(minus(position(mesh, c / 3 * 3 + 1), a), minus(position(mesh, c / 3 * 3 + 2), a));
         assert_true(dot(face, n) > 0.98 * length(face));
     }
-    lam_scene_free(scene);
 }
 
 static void triangle_patch(void *user, double u, double v, lam_surface_point *out)
@@ -580,7 +572,7 @@ static void triangle_patch(void *user, double u, double v, lam_surface_point *ou
 
 TEST(test_column_pole_and_origin)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_parametric patch = parametric(triangle_patch, 1, 1, 3, 4, false);
     patch.v_min = -1;
     assert_int_equal(lam_scene_add_parametric(scene, &patch, NULL, NULL), 0);
@@ -592,7 +584,6 @@ TEST(test_column_pole_and_origin)
         assert_true(normal(mesh, c).z > 0.999999);
     assert_true(fabs(mesh->origin[2] + (double)mesh->positions[2] - 1e7) < 1e-6);
     assert_true(fabs((double)mesh->positions[2]) < 1);
-    lam_scene_free(scene);
 }
 
 static void infinite_point(void *user, double u, double v, lam_surface_point *out)
@@ -606,7 +597,7 @@ static double nan_value(void *user, lam_vec3 p) { return p.x < 0 ? (double)NAN :
 
 TEST(test_bad_formulas)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_error error;
     lam_parametric good = parametric(user_sphere, 1, 1, 4, 4, false);
     lam_parametric bad[6];
@@ -661,7 +652,6 @@ TEST(test_bad_formulas)
     assert_int_equal(lam_scene_add_implicit(scene, &ball, &(lam_control){.memory_limit_bytes = 4 << 20}, &error), -1);
     assert_int_equal(error.code, LAM_LIMIT);
     assert_int_equal(lam_scene_mesh_count(scene), 1);
-    lam_scene_free(scene);
 }
 
 // Of several bad points, the first one is reported, whichever thread finds it.
@@ -690,7 +680,7 @@ TEST(test_allocations_fail)
     for (int shape = 0; shape < lam_shape_count(); shape++) {
         bool done = false;
         for (long k = 0; !done && k < 200; k++) {
-            lam_scene *scene = lam_scene_make(NULL);
+            AUTO_SCENE scene = lam_scene_make(NULL);
             lam_error error = {0};
             arena_fail_after(k);
             int index = lam_scene_add_shape(scene, lam_shape_name(shape),
@@ -701,7 +691,6 @@ TEST(test_allocations_fail)
                 assert_int_equal(error.code, LAM_MACHINE);
                 assert_int_equal(lam_scene_mesh_count(scene), 0);
             }
-            lam_scene_free(scene);
         }
         assert_true(done);
     }
@@ -748,7 +737,7 @@ TEST(test_teapot_against_file)
             count++;
     fclose(file);
     assert_int_equal(count, 3644);
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     const lam_mesh *mesh = make(scene, "teapot", &(lam_shape_params){.slices = 40, .stacks = 10});
     assert_int_equal(mesh->triangle_count,
                      6320); // 32 patches of 200, minus 10 at each of the 8 that end in a pole
@@ -769,13 +758,12 @@ TEST(test_teapot_against_file)
     assert_true(worst < 2e-6); // the file has six decimals
     for (size_t k = 0; k < count; k++)
         assert_true(found[k]);
-    lam_scene_free(scene);
 }
 
 // Poles and joints of the teapot: the lid's top faces up, the bottom faces down, and normals do not jump across joints.
 TEST(test_teapot_normals)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     const lam_mesh *mesh = make(scene, "teapot", NULL);
     double low[3], high[3];
     bounds(mesh, low, high);
@@ -808,7 +796,6 @@ TEST(test_teapot_normals)
     }
     free(first);
     free(same);
-    lam_scene_free(scene);
 }
 
 // circle(): exact at quarters, mirrored, and accurate.

@@ -164,7 +164,7 @@ TEST(test_every_method)
                                               .reflection = (lam_reflection)model,
                                               .samples = gl1 ? 1 : 4,
                                               .gl1 = gl1 && shading == LAM_SHADING_PHONG};
-                    lam_scene *scene = full_scene(colors);
+                    AUTO_SCENE scene = full_scene(colors);
                     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
                     char name[80];
                     snprintf(name, sizeof name, "colours %d, shading %d, model %d, gl1 %d", colors, shading, model,
@@ -173,17 +173,16 @@ TEST(test_every_method)
                     if (params.gl1)
                         lam_scene_set_ambient(scene, (lam_rgb){0});
                     check_scene(name, scene, &camera, params);
-                    lam_scene_free(scene);
                 }
 }
 
 // The other lights, and terms that belong to no light, do not affect it.
 TEST(test_one_light)
 {
-    lam_scene *scene = full_scene(false);
+    AUTO_SCENE scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
     lam_draw_params params = {.samples = 1, .output = LAM_OUTPUT_LIGHT, .output_light = 4};
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     lam_error error;
     assert_true(lam_image_make(&image, 16, 16, LAM_RGBA8, NULL));
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
@@ -200,8 +199,6 @@ TEST(test_one_light)
     assert_int_equal(lam_draw_lights(scene, LAM_RIG_AUTO, false, lights, 2), 4);
     assert_string_equal(lights[1].name, "lamp");
     assert_int_equal(lam_draw_lights(scene, LAM_RIG_STUDIO, true, NULL, 0), 8);
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // --- quantities: a rectangle across the picture at z = 0, whose left half is seen from behind, over a second one at z
@@ -280,7 +277,7 @@ TEST(test_numbers)
     };
     static const lam_shading shadings[] = {LAM_SHADING_PHONG, LAM_SHADING_GOURAUD, LAM_SHADING_FLAT};
     lam_camera camera;
-    lam_scene *scene = two_sheets(&camera);
+    AUTO_SCENE scene = two_sheets(&camera);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         for (size_t k = 0; k < 3 * 2; k++) {
             const struct expected *e = &all[i];
@@ -288,8 +285,8 @@ TEST(test_numbers)
                                       .shading = shadings[k / 2],
                                       .samples = k % 2 ? 4 : 1,
                                       .background = {1, 0.5f, 0, 0.4f}};
-            lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
-            lam_image bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
+            AUTO_IMAGE floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
+            AUTO_IMAGE bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
             const int at[3] = {40 * 60 + 15, 20 * 60 + 40, 2 * 60 + 2}; // left below, right above, outside
             const float *const values[] = {e->left, e->right, e->outside};
             const uint8_t *const codes[] = {e->left_code, e->right_code, e->outside_code};
@@ -304,10 +301,7 @@ TEST(test_numbers)
                         fail_msg("%s, place %d, channel %d: byte %d, expected %d", lam_output_name(e->show), p, c, code,
                                  codes[p][c]);
                 }
-            lam_image_free(&floats);
-            lam_image_free(&bytes);
         }
-    lam_scene_free(scene);
 }
 
 // 8 bits of depth cover the scene's vertices, visible or not, from any eye position; the camera's planes limit the
@@ -318,7 +312,7 @@ TEST(test_depth_range)
         double near_plane, far_plane, scale_z, expected_near, expected_far;
     } cases[] = {{0, 0, 1, 7, 9}, {0, 0, 0.25, 7.75, 8.25}, {7.5, 100, 1, 7.5, 9}, {1, 7.9, 1, 7, 7.9}};
     for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_object object = lam_object_default();
         object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 128, .stacks = 64}, NULL);
         object.transform.m[2][2] = cases[i / 2].scale_z;
@@ -343,14 +337,13 @@ TEST(test_depth_range)
             assert_int_equal(middle, 255);
         lam_image_free(&floats);
         lam_image_free(&bytes);
-        lam_scene_free(scene);
     }
 }
 
 TEST(test_ids)
 {
     lam_camera camera;
-    lam_scene *scene = two_sheets(&camera);
+    AUTO_SCENE scene = two_sheets(&camera);
     camera.eye.z = -4; // from behind: the lower half shows object 1
     lam_draw_params params = {.output = LAM_OUTPUT_IDS, .samples = 4};
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),
@@ -377,16 +370,15 @@ TEST(test_ids)
     assert_memory_not_equal(colors[1][0], colors[1][1], 3);
     lam_image_free(&floats);
     lam_image_free(&bytes);
-    lam_scene_free(scene);
 }
 
 // The pixels whose linear numbers exceed 1, and the excess.
 TEST(test_clipped)
 {
     lam_camera camera;
-    lam_scene *scene = two_sheets(&camera);
+    AUTO_SCENE scene = two_sheets(&camera);
     lam_draw_params params = {.samples = 4, .exposure = 0.6};
-    lam_image picture = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
+    AUTO_IMAGE picture = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
     params.output = LAM_OUTPUT_CLIPPED;
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),
               bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
@@ -405,17 +397,15 @@ TEST(test_clipped)
         marked += over;
     }
     assert_true(marked > 1000 && marked < 60 * 60);
-    lam_image_free(&picture);
     lam_image_free(&floats);
     lam_image_free(&bytes);
-    lam_scene_free(scene);
 }
 
 // Coverage is the picture's alpha; tangents are unit vectors perpendicular to the normals; depth is the distance from
 // the eye.
 TEST(test_relations)
 {
-    lam_scene *scene = full_scene(false);
+    AUTO_SCENE scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
     lam_draw_params params = {.samples = 8};
     lam_image picture = draw_show(scene, &camera, params, LAM_OUTPUT_PICTURE, 0);
@@ -448,7 +438,6 @@ TEST(test_relations)
     lam_image *all[] = {&picture, &coverage, &normals, &tangents, &n_h, &n_l};
     for (int i = 0; i < 6; i++)
         lam_image_free(all[i]);
-    lam_scene_free(scene);
 }
 
 TEST(test_names)

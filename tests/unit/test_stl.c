@@ -48,7 +48,7 @@ static void assert_color(const lam_mesh *mesh, uint32_t triangle, int r, int g, 
 
 TEST(test_ascii)
 {
-    lam_scene *scene = load_text(one_facet, "a.stl");
+    AUTO_SCENE scene = load_text(one_facet, "a.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_string_equal(lam_scene_format(scene), "stl");
     assert_int_equal(lam_scene_up(scene), LAM_UP_Z);
@@ -58,7 +58,6 @@ TEST(test_ascii)
     assert_corner(mesh, 0, 2, 0, 20, -0.25);
     assert_int_equal(mesh->part_count, 1);
     assert_string_equal(mesh->parts[0].name, "thing");
-    lam_scene_free(scene);
 }
 
 // Keywords in any case, lines broken anywhere, every line end, a byte order mark, normals that are not numbers, a facet
@@ -72,7 +71,7 @@ TEST(test_ascii_oddities)
         "solid empty\nendsolid empty\n"
         "facet normal outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n"
         "solid caf\xe9\nfacet outer loop vertex 0 0 0 vertex 2 0 0 vertex 0 1 0 endloop endfacet\nendsolid\n";
-    lam_scene *scene = load_text(text, "odd.stl");
+    AUTO_SCENE scene = load_text(text, "odd.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->triangle_count, 3);
     assert_corner(mesh, 0, 2, 7, 8, 9);
@@ -85,7 +84,6 @@ TEST(test_ascii_oddities)
         assert_int_equal(mesh->parts[i].first_triangle, i);
         assert_int_equal(mesh->parts[i].triangle_count, 1);
     }
-    lam_scene_free(scene);
 }
 
 // A file that ends between two facets may be truncated.
@@ -119,12 +117,11 @@ TEST(test_ascii_without_end)
          "short"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lam_scene *scene = load_text(rows[i].text, "a.stl");
+        AUTO_SCENE scene = load_text(rows[i].text, "a.stl");
         const char *warning = lam_scene_warning(scene, 0);
         if (rows[i].warning ? !warning || strcmp(warning, rows[i].warning) != 0 : warning != NULL)
             fail_msg("row %zu: %s", i, warning ? warning : "no warning");
         assert_null(lam_scene_warning(scene, 1));
-        lam_scene_free(scene);
     }
 }
 
@@ -157,13 +154,12 @@ TEST(test_ascii_with_zero)
 
 TEST(test_ascii_in_one_line)
 {
-    lam_scene *scene = load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
+    AUTO_SCENE scene = load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
                                  "endloop endfacet endsolid",
                                  "line.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->triangle_count, 1);
     assert_string_equal(mesh->parts[0].name, "all of it");
-    lam_scene_free(scene);
 }
 
 // A part with details of a millimetre, 500 km from zero.
@@ -275,12 +271,11 @@ TEST(test_not_finite)
                      "a.stl: %u vertices have coordinates that are not finite; %u triangles, lines or points that use "
                      "them are left out",
                      left_out, left_out);
-            lam_scene *scene = load_with(bytes, size, "a.stl", &(lam_load_params){.threads = threads});
+            AUTO_SCENE scene = load_with(bytes, size, "a.stl", &(lam_load_params){.threads = threads});
             assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, facets - left_out);
             assert_string_equal(lam_scene_warning(scene, 0), expected);
             assert_null(lam_scene_warning(scene, 1));
             assert_corner(lam_scene_mesh(scene, 0), 7, 2, 0, 1, 1); // facet 8
-            lam_scene_free(scene);
         }
         free(bytes);
     }
@@ -337,9 +332,8 @@ TEST(test_colors_junk)
         put_header(&file, "junk", 3);
         for (int f = 0; f < 3; f++)
             put_facet(&file, f, words[i][f]);
-        lam_scene *scene = load(&file, "a.stl");
+        AUTO_SCENE scene = load(&file, "a.stl");
         assert_null(lam_scene_mesh(scene, 0)->colors);
-        lam_scene_free(scene);
     }
 }
 

@@ -44,27 +44,23 @@ TEST(widths)
             const float p[6] = {(float)-half, (float)(diagonal ? -half : 0), 0,
                                 (float)half,  (float)(diagonal ? half : 0),  0};
             lam_mesh line = {.positions = p, .vertex_count = 2, .line_count = 1};
-            lam_scene *scene = scene_of(&line);
+            AUTO_SCENE scene = scene_of(&line);
             lam_camera camera = facing(d);
             double length = SIDE / 2.0 * (diagonal ? sqrt(2) : 1);
             for (double width = 1; width < 9; width += 1.5) {
-                lam_image image = draw(scene, &camera, (lam_draw_params){.line_width = (float)width});
+                AUTO_IMAGE image = draw(scene, &camera, (lam_draw_params){.line_width = (float)width});
                 assert_true(fabs(area(&image) - length * width) < 0.06 * length * width);
-                lam_image_free(&image);
             }
-            lam_scene_free(scene);
         }
     static const float one[3] = {0, 0, 0};
     lam_mesh point = {.positions = one, .vertex_count = 1, .point_count = 1};
-    lam_scene *scene = scene_of(&point);
+    AUTO_SCENE scene = scene_of(&point);
     lam_camera camera = facing(3);
     for (double size = 2; size < 20; size += 3) {
-        lam_image image = draw(scene, &camera, (lam_draw_params){.point_size = (float)size});
+        AUTO_IMAGE image = draw(scene, &camera, (lam_draw_params){.point_size = (float)size});
         double wanted = size < 4 ? size * size : 3.14159265 / 4 * size * size; // a square, or the area of a disc
         assert_true(fabs(area(&image) - wanted) < 0.03 * wanted + 0.01);
-        lam_image_free(&image);
     }
-    lam_scene_free(scene);
 }
 
 // A line from behind the eye ends at the near plane, with the interpolated colour of the whole line.
@@ -78,7 +74,7 @@ TEST(clipping)
                      .color_count = 2,
                      .colors_format = LAM_COLORS_LINEAR_F32,
                      .line_count = 1};
-    lam_scene *scene = scene_of(&mesh);
+    AUTO_SCENE scene = scene_of(&mesh);
     lam_material white = lam_material_default();
     white.diffuse = (lam_rgba){1, 1, 1, 1};
     assert_true(lam_scene_set_default_material(scene, &white, NULL));
@@ -105,7 +101,6 @@ TEST(clipping)
     image = draw(scene, &camera, (lam_draw_params){.line_width = 3});
     assert_true(area(&image) == 0);
     lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // Lines without normals are unlit, with their emission; lines with normals are lit, from any side and with flat
@@ -124,19 +119,17 @@ TEST(light)
     for (int lit = 0; lit < 2; lit++) {
         mesh.normals = lit ? up : NULL;
         mesh.normal_count = lit ? 2 : 0;
-        lam_scene *scene = scene_of(&mesh);
+        AUTO_SCENE scene = scene_of(&mesh);
         assert_true(lam_scene_set_default_material(scene, &m, NULL) && lam_scene_add_light(scene, &above, NULL) >= 0);
         lam_camera camera = facing(3);
         for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
             lam_draw_params params = {.line_width = 4, .samples = 1, .shading = (lam_shading)shading};
-            lam_image image = draw(scene, &camera, params);
+            AUTO_IMAGE image = draw(scene, &camera, params);
             const float *c = at(&image, SIDE / 2, SIDE / 2);
             float share = lit ? 0.6f : 1;
             assert_true(fabsf(c[0] - (0.25f * share + 0.5f)) < 1e-5f && fabsf(c[1] - 0.5f * share) < 1e-5f &&
                         fabsf(c[2] - 0.75f * share) < 1e-5f);
-            lam_image_free(&image);
         }
-        lam_scene_free(scene);
     }
 }
 
@@ -265,7 +258,7 @@ TEST(gltf_files)
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         char text[1000];
         snprintf(text, sizeof text, gltf_mode, files[i].mode, files[i].indexed ? ", \"indices\": 1" : "");
-        lam_scene *scene = load_text(text, "a.gltf");
+        AUTO_SCENE scene = load_text(text, "a.gltf");
         const lam_mesh *mesh = mesh_at(scene, 0);
         assert_int_equal(lam_scene_line_count(scene), files[i].lines);
         assert_int_equal(lam_scene_point_count(scene), files[i].points);
@@ -278,7 +271,6 @@ TEST(gltf_files)
                                 files[i].indexed
                                     ? "a.gltf: meshes[0].primitives[0]: the last of 3 corners makes no line"
                                     : "a.gltf: meshes[0].primitives[0]: the last of 5 corners makes no line");
-        lam_scene_free(scene);
     }
 }
 
@@ -288,16 +280,14 @@ TEST(fit)
     static const char *const files[] = {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nf 1 2 3\nl 1 4\n",
                                         "v 0 0 0\nv 1 2 3\nl 1 2\n", "v 4 5 6\np 1\n"};
     for (int i = 0; i < 3; i++) {
-        lam_scene *scene = load_text(files[i], "a.obj");
+        AUTO_SCENE scene = load_text(files[i], "a.obj");
         lam_camera camera = lam_camera_fit(scene, SIDE, SIDE, NULL);
-        lam_image image = draw(scene, &camera, (lam_draw_params){.line_width = 2, .point_size = 4});
+        AUTO_IMAGE image = draw(scene, &camera, (lam_draw_params){.line_width = 2, .point_size = 4});
         double rim = 0;
         for (int k = 0; k < SIDE; k++)
             rim += (double)(at(&image, k, 0)[3] + at(&image, k, SIDE - 1)[3] + at(&image, 0, k)[3] +
                             at(&image, SIDE - 1, k)[3]);
         assert_true(area(&image) > 10 && rim == 0);
-        lam_image_free(&image);
-        lam_scene_free(scene);
     }
 }
 
@@ -319,23 +309,20 @@ TEST(refusals)
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         lam_error error = {0};
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         assert_int_equal(lam_scene_add_mesh(scene, &wrong[i].mesh, &error), -1);
         assert_string_equal(error.text, wrong[i].text);
-        lam_scene_free(scene);
     }
     lam_mesh point = {.positions = p, .vertex_count = 1, .point_count = 1};
-    lam_scene *scene = scene_of(&point);
+    AUTO_SCENE scene = scene_of(&point);
     lam_camera camera = facing(2);
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_error error = {0};
     assert_true(lam_image_make(&image, 8, 8, LAM_RGBA8, NULL));
     assert_false(lam_draw(device, scene, &camera, &(lam_draw_params){.point_size = -1}, &image, NULL, &error));
     assert_string_equal(error.text, "point_size is -1, expected pixels from 0 to 1000");
     assert_false(lam_draw(device, scene, &camera, &(lam_draw_params){.line_width = 1e9f}, &image, NULL, &error));
     assert_string_equal(error.text, "line_width is 1e+09, expected pixels from 0 to 1000");
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // The explanation of a pixel names the line, and positions in the model.
@@ -345,7 +332,7 @@ TEST(explained)
     static const uint32_t ends[4] = {2, 1, 0, 1};
     lam_mesh mesh = {
         .positions = p, .vertex_count = 3, .indices = ends, .normals = n, .normal_count = 3, .line_count = 2};
-    lam_scene *scene = scene_of(&mesh);
+    AUTO_SCENE scene = scene_of(&mesh);
     lam_error error = {0};
     lam_camera camera = facing(3);
     lam_explanation *e = lam_explain(device, scene, &camera, &(lam_draw_params){.line_width = 4, .samples = 1}, SIDE,
@@ -357,7 +344,6 @@ TEST(explained)
     lam_vec3 q = e->fragments[0].points[0].world_position;
     assert_true(fabs(q.x) < 0.05 && fabs(q.y) < 0.05 && fabs(q.z) < 0.25);
     lam_explanation_free(e);
-    lam_scene_free(scene);
 }
 
 // A line without a chosen colour is a grey that is visible on a white and on a transparent background, and on a dark
@@ -375,14 +361,13 @@ TEST(unchosen_color)
                 line.color_count = 2;
                 line.colors_format = LAM_COLORS_LINEAR_F32;
             }
-            lam_scene *scene = scene_of(&line);
+            AUTO_SCENE scene = scene_of(&line);
             lam_camera camera = facing(3);
             lam_image image =
                 draw(scene, &camera, (lam_draw_params){.line_width = 8, .background = backgrounds[i], .samples = 1});
             float expected = colored || i == 2 ? given : 0.2f;
             assert_true(fabsf(at(&image, SIDE / 2, SIDE / 2)[0] - expected) < 1e-6f);
             lam_image_free(&image);
-            lam_scene_free(scene);
         }
 }
 

@@ -292,14 +292,13 @@ TEST(tangents_of_a_normal_map)
     } rows[] = {
         {-1, same, -1, -1}, {0, same, -1, 1}, {1, same, 1, -1}, {0, upside_down, -1, -1}, {1, upside_down, 1, 1}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lam_scene *scene = normal_mapped_square(rows[i].set, rows[i].transform);
+        AUTO_SCENE scene = normal_mapped_square(rows[i].set, rows[i].transform);
         assert_true(lam_scene_make_tangents(scene, NULL, NULL));
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         const struct mesh_tangents made = {(float *)(uintptr_t)mesh->tangents, mesh->tangent_count,
                                            (uint32_t *)(uintptr_t)mesh->tangent_indices};
         for (uint32_t c = 0; c < 6; c++)
             expect(&made, c, rows[i].x, 0, 0, rows[i].w);
-        lam_scene_free(scene);
     }
 }
 
@@ -343,9 +342,8 @@ static void compare_reference(const char *models, int row, const float *expected
     char path[600];
     lam_error error = {0};
     snprintf(path, sizeof path, "%s/%s", models, references[row].model);
-    lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, &error);
+    SUCCEEDS(scene);
     const lam_mesh *mesh = NULL;
     for (int i = 0; i < lam_scene_mesh_count(scene); i++)
         if (strcmp(lam_scene_mesh(scene, i)->name, references[row].mesh) == 0)
@@ -371,7 +369,6 @@ static void compare_reference(const char *models, int row, const float *expected
                   references[row].mesh, references[row].corners, made.count, signs, directions, worst);
     assert_int_equal(signs, 0);
     assert_int_equal(directions, 0);
-    lam_scene_free(scene);
 }
 
 TEST(tangents_of_mikkelsens_code)
@@ -420,7 +417,7 @@ TEST(tangents_of_a_square)
         float expected[4];
     } rows[] = {{straight, {1, 0, 0, 1}}, {turned, {0, -1, 0, 1}}, {mirrored, {-1, 0, 0, -1}}, {nowhere, {1, 0, 0, 1}}};
     for (int r = 0; r < 4; r++) {
-        lam_scene *scene = square_scene(rows[r].texcoords);
+        AUTO_SCENE scene = square_scene(rows[r].texcoords);
         assert_true(lam_scene_make_tangents(scene, NULL, NULL));
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         assert_non_null(mesh->tangents);
@@ -428,12 +425,10 @@ TEST(tangents_of_a_square)
         for (uint32_t corner = 0; corner < 6; corner++)
             for (int i = 0; i < 4; i++)
                 assert_true(fabsf(tangent_at(mesh, corner)[i] - rows[r].expected[i]) <= 1e-7f);
-        lam_scene_free(scene);
     }
-    lam_scene *bare = square_scene(NULL);
+    AUTO_SCENE bare = square_scene(NULL);
     assert_true(lam_scene_make_tangents(bare, NULL, NULL));
     assert_null(lam_scene_mesh(bare, 0)->tangents);
-    lam_scene_free(bare);
 }
 
 // A shape's own tangents, from its formula, equal the tangents from its texture coordinates, except for the error of
@@ -474,13 +469,12 @@ TEST(tangents_can_be_bounded)
     lam_error error;
     for (int i = 0; i < 2; i++) {
         static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
-        lam_scene *scene = square_scene(straight);
+        AUTO_SCENE scene = square_scene(straight);
         lam_cancel cancel = {1};
         lam_control control = i ? (lam_control){.memory_limit_bytes = 16} : (lam_control){.cancel = &cancel};
         assert_false(lam_scene_make_tangents(scene, &control, &error));
         assert_int_equal(error.code, i ? LAM_LIMIT : LAM_CANCELLED);
         assert_null(lam_scene_mesh(scene, 0)->tangents);
-        lam_scene_free(scene);
     }
     assert_false(lam_scene_make_tangents(NULL, NULL, &error));
 }

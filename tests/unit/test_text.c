@@ -50,7 +50,7 @@ TEST(stands_on_its_baseline)
 {
     if (!font)
         skip();
-    lam_image image = blank(200, 60, LAM_RGBA8);
+    AUTO_IMAGE image = blank(200, 60, LAM_RGBA8);
     assert_true(lam_text_draw(&image, font, 20, 40, 32, (lam_rgba){1, 0, 0, 1}, "HEX", NULL));
     int box[4];
     ink(&image, box);
@@ -66,7 +66,6 @@ TEST(stands_on_its_baseline)
         full += p[4 * i + 3] == 255;
     }
     assert_true(full > 50);
-    lam_image_free(&image);
 }
 
 TEST(measures)
@@ -112,12 +111,11 @@ TEST(says_what_is_missing)
         assert_non_null(strstr(error.text, "/nowhere/font.ttf"));
         assert_null(lam_font_open("/etc/passwd", &error));
         assert_int_equal(error.code, LAM_CANNOT_READ);
-        lam_image image = blank(4, 4, LAM_RGBA8);
+        AUTO_IMAGE image = blank(4, 4, LAM_RGBA8);
         assert_false(lam_text_draw(&image, font, 0, 0, 0.5, (lam_rgba){0}, "a", &error));
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
         assert_false(lam_text_draw(&image, font, 1e9, 0, 10, (lam_rgba){0}, "a", &error));
         assert_false(lam_text_draw(&image, NULL, 0, 0, 10, (lam_rgba){0}, "a", &error));
-        lam_image_free(&image);
     } else {
         assert_null(lam_font_open(NULL, &error));
         assert_int_equal(error.code, LAM_UNSUPPORTED);

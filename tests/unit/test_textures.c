@@ -203,15 +203,12 @@ static lam_shading shading_in_use = LAM_SHADING_PHONG;
 static void draw(const lam_material *material, lam_reflection reflection, float *pixels)
 {
     lam_error error;
-    lam_scene *scene = lit_sphere(material);
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_SCENE scene = lit_sphere(material);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
     lam_draw_params params = {.samples = 4, .rig = LAM_RIG_NONE, .reflection = reflection, .shading = shading_in_use};
     lam_image image = {.width = SIZE, .height = SIZE, .format = LAM_RGBA32F, .pixels = pixels};
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
-    lam_device_free(device);
-    lam_scene_free(scene);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
 }
 
 static double largest_difference(const float *a, const float *b)
@@ -333,7 +330,7 @@ TEST(test_alpha_modes)
 TEST(test_refused)
 {
     lam_error error;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_texture *texture = constant(1, 1, 1, 1);
     lam_texture_map maps[] = {{.texture = NULL},
                               {.texture = texture, .texcoords = 2},
@@ -357,7 +354,6 @@ TEST(test_refused)
     assert_int_equal(lam_scene_add_material(scene, &m, &error), 0);
     lam_texture_free(texture);
     assert_string_equal(lam_texture_name(lam_scene_material(scene, 0)->maps[LAM_MAP_DIFFUSE]->texture), "constant");
-    lam_scene_free(scene);
 }
 
 // --- a plane seen at 4 degrees
@@ -398,7 +394,7 @@ TEST(test_slanted)
     const float positions[] = {-400, 0, far, 400, 0, far, 400, 0, -far, -400, 0, -far};
     const float texcoords[] = {-end, length, end, length, end, -length, -end, -length};
     const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     const lam_part part = {.triangle_count = 2, .material = lam_scene_add_material(scene, &material, &error)};
     const lam_mesh mesh = {.positions = positions,
                            .vertex_count = 4,
@@ -414,14 +410,13 @@ TEST(test_slanted)
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){0, 1000 * slant, 1000 * sqrt(1 - slant * slant)};
     camera.ortho_half_height = VIEW / 2.0; // one pixel is one unit, and one unit is one texel
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     double off[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         lam_draw_params params = {.samples = 1, .anisotropy = k ? 16 : 1};
         assert_true(lam_image_make(&image, VIEW, VIEW, LAM_RGBA32F, &error));
-        if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
         for (int y = 0; y < VIEW; y++)
             for (int x = 0; x < VIEW; x++) {
                 double exact = 0;
@@ -431,11 +426,8 @@ TEST(test_slanted)
                 double apart = (double)((const float *)image.pixels)[4 * (y * VIEW + x)] - exact;
                 off[k] += apart * apart / (VIEW * VIEW);
             }
-        lam_image_free(&image);
     }
     print_message("a plane at 4 degrees: %.3f off with 1 probe, %.3f with 16\n", sqrt(off[0]), sqrt(off[1]));
     assert_true(sqrt(off[0]) > 0.15 && sqrt(off[1]) < 0.03);
-    lam_device_free(device);
-    lam_scene_free(scene);
     lam_texture_free(texture);
 }

@@ -21,6 +21,7 @@ class Sentences(Case):
     def test_models(self):
         (self.folder / "folder").mkdir()
         (self.folder / "noise.step").write_text("hello there\n")
+        self.given |= {"folder", "noise.step"}
         models = self.good("formats").stdout.decode().split("Pictures")[0].splitlines()[1:-1]
         reads = "lambent reads %s and scene files (.json)" % ", ".join("." + ending.strip(".") for line in models for ending in line.split()[1:])
         self.assertIn(".stl, .ply, ", reads)

@@ -528,6 +528,7 @@ class Killed(Case):
         made = shutil.which("cc") and subprocess.run(["cc", "-shared", "-fPIC", "-o", "refuse.so", "refuse.c", "-ldl"], cwd=self.folder, check=False)
         if not made or made.returncode:
             self.skipTest("no compiler")
+        self.given |= {"refuse.c", "refuse.so"}
         self.env["LD_PRELOAD"] = str(self.folder / "refuse.so")
         done = subprocess.run(self.words, cwd=self.folder, capture_output=True, env=self.env)
         if done.returncode:

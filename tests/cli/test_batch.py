@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import time
-import unittest
 import urllib.parse
 
 from harness import PROGRAM, Case, read_png, write_png, writers_and_others
@@ -404,7 +403,3 @@ class Terminal(Batch):
             else:
                 self.assertTrue(progress, text)
                 self.assertIn(b"30 of 30 pictures written", text)
-
-
-if __name__ == "__main__":
-    unittest.main()

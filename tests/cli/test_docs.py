@@ -303,7 +303,3 @@ class Docs(Case):
         for isa in re.search(r"The instruction set: (.*)", self.help()).group(1).split(" [")[0].rstrip(".").replace(" or ", ", ").split(", "):
             if isa and isa != "auto":
                 self.assertIn(f'"{isa}"', schema)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,7 +3,6 @@ import json
 import math
 import random
 import re
-import unittest
 
 from harness import SHARED_MODELS, Case, covered, pixel
 
@@ -131,7 +130,6 @@ class Explain(Case):
 
         scene = {"lambent": 1, "objects": [{"shape": "torus", "transform": [["rotate", 30, 1, 2, 3], ["scale", -1, 1.5, 2]]}]}
         (self.folder / "stretched.json").write_text(json.dumps(scene))
-        self.given |= {"stretched.json"}
         for words in (["teapot"], ["stretched.json"], ["teapot", "--projection", "orthographic"], ["stretched.json", "--shading", "gouraud"],
                       ["stretched.json", "--shading", "flat"], ["cube.stl"]):
             words = [words[0], "20,24", *words[1:]]
@@ -294,7 +292,3 @@ class Explain(Case):
         self.bad(1, "explain", "teapot", says="missing")
         self.bad(2, "explain", "no-such.obj", "1,1", says="no-such.obj")
         self.assertEqual(self.run_program("explain", "teapot", "64,0", "-s", 64, "--json").returncode, 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

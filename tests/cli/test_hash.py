@@ -106,7 +106,6 @@ class Hash(Case):
     def test_options_of_the_file(self):
         """Without picture options, --check uses only the file's picture options."""
         self.good("hash", "m", "teapot", "-o", "p.hash", "-s", 64, "-b", "#fff", "--light", "point:position=1/2/3", "-q")
-        self.given.add("p.hash")
         text = (self.folder / "p.hash").read_text()
         self.assertIn("--background '#fff'", text)
         self.assertEqual(self.check("--check", "p.hash", code=0), ["3 equal"])
@@ -174,17 +173,14 @@ class Hash(Case):
     def test_folder_of_pictures(self):
         """If a folder cannot be created, one error message appears before anything is drawn."""
         (self.folder / "file").write_text("")
-        self.given.add("file")
         for folder, says in (("file", "found the file 'file', expected a folder"), ("file/x", "cannot make the folder 'file/x': Not a directory")):
             done = self.bad(5, "hash", "m", "-s", 8, "-o", "p.hash", "--pictures", folder, says=says)
             self.assertNotIn(b"failed", done.stderr)
         user = self.plain_user()
         if user:
             os.mkdir(self.folder / "theirs", 0o755)
-            self.given.add("theirs")
             self.bad(5, "hash", "m", "-s", 8, "-o", "-", "--pictures", "theirs", says="theirs: cannot write to the folder: Permission denied", user=user)
         self.write()
-        self.given.add("p.hash")
         self.check("--check", "p.hash", "--pictures", "file", code=0)  # which writes no pictures
 
     def test_report_beside_the_file(self):

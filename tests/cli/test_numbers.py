@@ -5,7 +5,6 @@ import json
 import math
 import re
 import subprocess
-import unittest
 
 from harness import PROGRAM, ROOT, Case, write_png
 
@@ -342,7 +341,3 @@ class Defaults(Case):
                             self.assertEqual(found.group(1), stated if isinstance(stated, str) else json.dumps(stated))
                         checked += 1
         self.assertGreater(checked, 15)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -152,7 +152,6 @@ class Sandbox(Case):
         done = self.run_program("cube.obj", "-s", 8, "-v", env=environment)
         self.assertEqual(done.returncode, 0)
         self.assertIn(b"sandbox  off; ", done.stderr)
-        self.given.add("cube.png")
         done = self.run_program("cube.obj", "-s", 8, *REQUIRE, env=environment)
         self.assertEqual(done.returncode, 3)
         self.assertRegex(done.stderr.decode(), r"lambent: option '--sandbox require': the sandbox is not complete: \S")

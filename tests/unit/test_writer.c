@@ -1,23 +1,15 @@
 // test_writer.c: the process that writes files for the sandboxed process: its rights, several threads at once, and the
 // end of either process.
+#include "test.h"
 #include "writer.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 static char folder[] = "/tmp/lambent-writer-XXXXXX";
 
@@ -80,6 +72,7 @@ static int count_files(void)
 static int start(void **state)
 {
     (void)state;
+    umask(022);
     lam_error error;
     memcpy(strrchr(folder, '-') + 1, "XXXXXX", 6);
     return !mkdtemp(folder) || !writer_start(rule, "rule", 2, 100 << 20, &error);
@@ -95,9 +88,8 @@ static int end(void **state)
     return system(command);
 }
 
-static void test_rights(void **state)
+TEST(test_rights, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     lam_error error;
     assert_true(writer_is_there() && writer_process() != getpid());
     // Any file is replaced, a new folder is created, and nothing is executable.
@@ -135,9 +127,8 @@ static void test_rights(void **state)
 }
 
 // A name that the user did not give is written only to a regular file or a new file, and not through a link.
-static void test_implied(void **state)
+TEST(test_implied, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     lam_error error;
     put("precious", "of the user");
     assert_int_equal(symlink("precious", in_folder("implied link")), 0);
@@ -176,9 +167,8 @@ static bool save_set(const char *second, lam_error *error)
 }
 
 // All files of a set are replaced, or none, with the writer and without.
-static void test_set(void **state)
+TEST(test_set, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     lam_error error;
     put("any first", "older");
     assert_int_equal(chmod(in_folder("any first"), 0640), 0);
@@ -219,9 +209,8 @@ static void *save_many(void *user)
 }
 
 // More threads than connections take turns.
-static void test_threads(void **state)
+TEST(test_threads, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     pthread_t threads[THREADS];
     struct stat about;
     char name[30];
@@ -239,9 +228,8 @@ static void test_threads(void **state)
 }
 
 // The end of the writer is an error, not a signal.
-static void test_writer_ends(void **state)
+TEST(test_writer_ends, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     lam_error error;
     assert_true(save("any", "1", &error));
     assert_int_equal(kill(writer_process(), SIGKILL), 0);
@@ -254,9 +242,8 @@ static void test_writer_ends(void **state)
 }
 
 // Signals that end the process leave no partial files and no writer.
-static void test_process_ends(void **state)
+TEST(test_process_ends, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     static const int signals[] = {SIGTERM, SIGKILL, SIGABRT, SIGPIPE, SIGUSR1};
     enum { LARGE = 3 << 20 };
     char *text = calloc(1, LARGE);
@@ -301,9 +288,8 @@ static void test_process_ends(void **state)
 }
 
 // A closed standard stream does not become a connection.
-static void test_closed_streams(void **state)
+TEST(test_closed_streams, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     int status = 0;
     pid_t child = fork();
     if (child == 0) {
@@ -320,19 +306,4 @@ static void test_closed_streams(void **state)
     waitpid(child, &status, 0);
     assert_int_equal(status, 0);
     assert_contains("any", "1");
-}
-
-int main(void)
-{
-    umask(022);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_rights, start, end),
-        cmocka_unit_test_setup_teardown(test_implied, start, end),
-        cmocka_unit_test_setup_teardown(test_set, start, end),
-        cmocka_unit_test_setup_teardown(test_threads, start, end),
-        cmocka_unit_test_setup_teardown(test_writer_ends, start, end),
-        cmocka_unit_test_setup_teardown(test_process_ends, start, end),
-        cmocka_unit_test_setup_teardown(test_closed_streams, start, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,6 @@ class Plot(Case):
             {"type": "spot", "attenuation": [0, 0, 2], "range": 3}]}
         (self.folder / "lights.json").write_text(json.dumps(scene))
         (self.folder / "dark.json").write_text(json.dumps({**scene, "lights": []}))
-        self.given |= {"lights.json", "dark.json"}
         found = self.numbers("attenuation", "1/0/1", "point:attenuation=1/0/1,name=lamp", "spot:attenuation=1/0.5/0.25,range=9", "lights.json")
         curves = found["curves"]
         self.assertEqual([c["label"] for c in curves], ["a/b/c = 1/0/1", "lamp: a/b/c = 1/0/1", "a/b/c = 1/0.5/0.25, range 9",
@@ -81,7 +80,6 @@ class Plot(Case):
         self.assertIn((0, 0x72, 0xb2, 255), colors)
         # A file that lambent did not write is not replaced.
         (self.folder / "spot.png").write_bytes(b"mine")
-        self.given |= {"attenuation.png", "p.png", "spot.png"}
         self.bad(5, "plot", "spot", says="spot.png")
         self.assertEqual((self.folder / "spot.png").read_bytes(), b"mine")
         small = read_png(self.good("plot", "spot", "-s", "64x40", "-o", "-").stdout)
@@ -107,7 +105,6 @@ class Plot(Case):
     def test_fonts(self):
         self.good("plot", "spot", "-o", "p.png", "--no-captions", "--font", "/nowhere.ttf")
         self.good("plot", "spot", "-o", "p.svg", "--font", "/nowhere.ttf")
-        self.given |= {"p.png", "p.svg"}
         self.bad(2, "plot", "spot", "-o", "f.png", "--font", "/nowhere.ttf", says="/nowhere.ttf")
         self.bad(2, "plot", "spot", "-o", "f.png", env={"LAMBENT_FONT": "/else.ttf"}, says="/else.ttf")
         self.bad(2, "plot", "spot", "-o", "f.png", "--font", "cube.obj", says="cube.obj")

@@ -62,8 +62,7 @@ static bool browser_open(const char *address)
 
 enum {
     CONNECTIONS_MAX = 256,
-    SILENCE_S = 30,         // the timeout of an idle connection
-    HEADERS_MAX = 64 << 10, // the maximum size of a request
+    SILENCE_S = 30, // the timeout of an idle connection
     STEP_MS = 500,
     IDLE_MINUTES = 30,
 };
@@ -115,9 +114,9 @@ static bool start_daemon(struct view *view, lam_error *error)
         MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG, 0, NULL, NULL, view_routes_answer, view,
         MHD_OPTION_EXTERNAL_LOGGER, say_nothing, NULL, MHD_OPTION_LISTEN_SOCKET, socket, MHD_OPTION_CONNECTION_LIMIT,
         (unsigned)CONNECTIONS_MAX, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_S,
-        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)HEADERS_MAX, MHD_OPTION_NOTIFY_COMPLETED, view_routes_completed,
-        view, MHD_OPTION_NOTIFY_CONNECTION, view_waiting_notify, view, MHD_OPTION_URI_LOG_CALLBACK,
-        view_waiting_address, view, MHD_OPTION_END);
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)VIEW_HEADERS_MAX, MHD_OPTION_NOTIFY_COMPLETED,
+        view_routes_completed, view, MHD_OPTION_NOTIFY_CONNECTION, view_waiting_notify, view,
+        MHD_OPTION_URI_LOG_CALLBACK, view_waiting_address, view, MHD_OPTION_END);
     if (view->daemon)
         return true;
     const int reason = errno;

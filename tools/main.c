@@ -9,6 +9,7 @@
 #include "failure.h"
 #include "page.h"
 #include "run.h"
+#include "sandbox_start.h"
 #include "settings_file.h"
 #include "settings_json.h"
 
@@ -33,6 +34,9 @@ static int run(const struct command *command, int operands, char **words, struct
     if (reads_settings(command, options) && !settings_apply(options, &before, &source, &error))
         return report_failure(&error, options);
     options->limits.files_inside |= options->limits.sandbox == SANDBOX_REQUIRE && !options->limits.allow_paths.count;
+    if ((command->groups & 1ull << GROUP_LIMITS || command == &command_table[COMMAND_journal]) &&
+        !sandbox_hold(options, words, operands, &error))
+        return report_failure(&error, options);
     int code = functions[command - command_table](operands, words, options);
     if (code == exit_code_of(LAM_BAD_ARGUMENT)->code && settings_are_used(options) && !options->report.quiet)
         say_plain("The settings of %s are in force; --no-config ignores them.\n", source.path);

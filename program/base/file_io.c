@@ -5,8 +5,9 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
+
+#include <lambent/path.h>
 
 enum { AT_ONCE = 1 << 30 }; // no system writes more than 2 GiB in one call
 
@@ -45,9 +46,9 @@ bool read_all(int file, void *bytes, size_t size)
 int open_regular(const char *path, uint64_t *size)
 {
     struct stat about;
-    if (stat(path, &about) != 0)
+    if (lam_path_stat(path, &about) != 0)
         return -1;
-    int file = S_ISREG(about.st_mode) ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY) : -1;
+    int file = S_ISREG(about.st_mode) ? lam_path_open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY) : -1;
     if (file >= 0 && fstat(file, &about) == 0 && !S_ISREG(about.st_mode)) { // the path now leads to another file
         close(file);
         file = -1;
@@ -57,23 +58,29 @@ int open_regular(const char *path, uint64_t *size)
     return file;
 }
 
-bool is_in_folder(const char *real, const char *folder)
-{
-    size_t length = strlen(folder);
-    return strncmp(real, folder, length) == 0 && (real[length] == '/' || !real[length] || folder[length - 1] == '/');
-}
-
-bool path_is_below(const char *path, const char *folder, bool missing)
-{
-    char *real = realpath(path, NULL), *top = realpath(folder, NULL);
-    bool below = real && top ? is_in_folder(real, top) : missing;
-    free(real);
-    free(top);
-    return below;
-}
-
 bool path_is_folder(const char *path)
 {
     struct stat found;
-    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+    return lam_path_stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+static void close_unless_kept(int file, const int *kept, int count)
+{
+    struct stat about;
+    bool closes = file > STDERR_FILENO && fstat(file, &about) == 0 && !S_ISDIR(about.st_mode);
+    for (int i = 0; i < count; i++)
+        closes &= file != kept[i];
+    if (closes)
+        close(file);
+}
+
+void close_files(const int *kept, int count)
+{
+    enum { USUAL = 4096 };
+    DIR *list = opendir("/proc/self/fd");
+    struct dirent *entry = NULL;
+    for (int i = 0; list ? (entry = readdir(list)) != NULL : i < USUAL; i++)
+        close_unless_kept(entry ? atoi(entry->d_name) : i, kept, count);
+    if (list)
+        closedir(list);
 }

@@ -20,12 +20,8 @@ int open_regular(const char *path, uint64_t *size);
 // Reads the rest of a file, but at most `size` bytes. Returns false and sets errno on failure.
 bool read_up_to(int file, char *bytes, size_t size, size_t *length);
 
-// Returns whether the path `real` is `folder` or lies below it. Both paths must be free of links.
-bool is_in_folder(const char *real, const char *folder);
-
-// Returns whether a path, after links are resolved, is the folder itself or lies below the folder. Returns `missing` if
-// the file or the folder cannot be found, or if memory runs out.
-bool path_is_below(const char *path, const char *folder, bool missing);
+// Closes all files but the standard streams, the handles of folders, and the files in `kept`.
+void close_files(const int *kept, int count);
 
 // Returns whether `path` is a folder or a link to a folder.
 bool path_is_folder(const char *path);

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include <lambent/path.h>
+
 #include "console.h"
 
 char *output_folder_of(const char *path)
@@ -26,10 +28,14 @@ bool output_make_folder(const char *path, lam_error *error)
         end += 1 + strcspn(end + 1, "/");
         char kept = *end;
         struct stat found;
+        const char *name;
         *end = 0;
-        if (stat(folder, &found) != 0 && mkdir(folder, 0777) != 0 && errno != EEXIST)
+        bool missing = lam_path_stat(folder, &found) != 0;
+        int parent = missing ? lam_path_parent(folder, &name) : -1;
+        if (missing && (parent == -1 || mkdirat(parent, name, 0777) != 0) && errno != EEXIST)
             ok =
                 complain(error, LAM_CANNOT_WRITE, "%s: cannot make the folder '%s': %s", path, folder, strerror(errno));
+        lam_path_close(parent);
         *end = kept;
     }
     free(folder);

@@ -4,6 +4,7 @@
 #include "file_io.h"
 #include "writer.h"
 
+#include <lambent/path.h>
 #include <lambent/scene.h>
 
 #include <errno.h>
@@ -46,7 +47,7 @@ static bool check_folder(const char *path, bool makes, lam_error *error)
 {
     char *folder = output_folder_of(path);
     struct stat found;
-    while (folder && makes && stat(folder, &found) != 0 && errno == ENOENT && strcmp(folder, ".") != 0) {
+    while (folder && makes && lam_path_stat(folder, &found) != 0 && errno == ENOENT && strcmp(folder, ".") != 0) {
         char *above = output_folder_of(folder);
         free(folder);
         folder = above;
@@ -54,7 +55,7 @@ static bool check_folder(const char *path, bool makes, lam_error *error)
     if (!folder)
         return complain(error, LAM_MACHINE, "out of memory");
     bool ok = true;
-    if (stat(folder, &found) != 0)
+    if (lam_path_stat(folder, &found) != 0)
         ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: the folder '%s': %s", path, folder, strerror(errno));
     else if (!S_ISDIR(found.st_mode))
         ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: '%s' is not a folder", path, folder);
@@ -73,10 +74,10 @@ bool output_check(const char *path, const char *model, enum output_given given, 
 {
     struct stat there, of_model;
     bool named = given != OUTPUT_BY_MODEL;
-    if (stat(path, &there) != 0)
+    if (lam_path_stat(path, &there) != 0)
         return check_folder(path, given != OUTPUT_NAMED, error);
     // If `path` is the model itself (such as koala.png), loading it will report that it is not a model file.
-    if (given != OUTPUT_NAMED && stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev &&
+    if (given != OUTPUT_NAMED && lam_path_stat(model, &of_model) == 0 && there.st_dev == of_model.st_dev &&
         there.st_ino == of_model.st_ino)
         return true;
     if (S_ISDIR(there.st_mode))
@@ -97,15 +98,15 @@ bool output_check(const char *path, const char *model, enum output_given given, 
 uint64_t output_size(const char *path)
 {
     struct stat found;
-    return stat(path, &found) == 0 && S_ISREG(found.st_mode) ? (uint64_t)found.st_size : 0;
+    return lam_path_stat(path, &found) == 0 && S_ISREG(found.st_mode) ? (uint64_t)found.st_size : 0;
 }
 
 bool output_is_stream(const char *path)
 {
     struct stat found;
     lam_pixel_format format;
-    return strcmp(path, "-") == 0 || (stat(path, &found) == 0 && !S_ISREG(found.st_mode) && !S_ISDIR(found.st_mode) &&
-                                      !lam_image_format_for(path, &format, NULL));
+    return strcmp(path, "-") == 0 || (lam_path_stat(path, &found) == 0 && !S_ISREG(found.st_mode) &&
+                                      !S_ISDIR(found.st_mode) && !lam_image_format_for(path, &format, NULL));
 }
 
 // File managers pass a thumbnailer a name without an extension, and expect a PNG.

@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <lambent/path.h>
+
 #include "console.h"
 
 void sandbox_add(struct sandbox_paths *paths, const char *path, int access)
@@ -85,6 +87,9 @@ enum {
     WRITE_FILE = 1 << 1,
     READ_FILE = 1 << 2,
     READ_DIR = 1 << 3,
+    REMOVE_FILE = 1 << 5,
+    MAKE_DIR = 1 << 7,
+    MAKE_REG = 1 << 8,
     VERSION_1 = (1 << 13) - 1,
     REFER = 1 << 13,    // since version 2
     TRUNCATE = 1 << 14, // since TRUNCATE_VERSION
@@ -142,34 +147,34 @@ static uint64_t rights_of(int version)
 // the path.
 static bool is_exhausted(int reason) { return reason == EMFILE || reason == ENFILE || reason == ENOMEM; }
 
-// Adds a rule for a path. Returns false if the kernel rejects the rule, or if file handles or memory run out. A path
-// that does not exist or cannot be opened needs no rule.
-static bool add_path(int rules, const struct sandbox_path *path, uint64_t handled)
+// Adds a rule for a path: access for this process, or for the writer. Returns false if the kernel rejects the rule, or if
+// file handles or memory run out. A path that does not exist or cannot be opened needs no rule.
+static bool add_path(int rules, const struct sandbox_path *path, uint64_t handled, bool is_writer)
 {
     struct stat about;
-    uint64_t allowed = 0;
-    if (!(path->access & (SANDBOX_READ | SANDBOX_WRITE)))
+    bool writes = path->access & (SANDBOX_MAKE | SANDBOX_REPLACE),
+         opens = path->access & (SANDBOX_READ | SANDBOX_WRITE);
+    if (is_writer ? !writes : !opens)
         return true;
-    int file = open(path->path, O_PATH | O_CLOEXEC);
+    int file = is_writer ? lam_path_held(path->path) : lam_path_open(path->path, O_PATH | O_CLOEXEC);
     if (file < 0)
-        return !is_exhausted(errno);
-    if (path->access & SANDBOX_READ)
-        allowed |= READ_FILE | READ_DIR;
-    if (path->access & SANDBOX_WRITE)
-        allowed |= WRITE_FILE;
+        return is_writer || !is_exhausted(errno);
+    uint64_t allowed =
+        (path->access & SANDBOX_READ ? READ_FILE | READ_DIR : 0) | (path->access & SANDBOX_WRITE ? WRITE_FILE : 0);
+    if (is_writer)
+        allowed = READ_FILE | READ_DIR | WRITE_FILE | TRUNCATE | REFER | MAKE_REG | MAKE_DIR | REMOVE_FILE;
     bool ok = fstat(file, &about) == 0;
     if (ok && !S_ISDIR(about.st_mode))
         allowed &= OF_FILES;
     struct path_beneath rule = {.allowed = allowed & handled, .folder = file};
     ok = ok && syscall(ADD_RULE, rules, PATH_BENEATH, &rule, 0) == 0;
-    int reason = errno;
-    close(file);
-    errno = reason;
+    if (!is_writer)
+        lam_path_close(file);
     return ok;
 }
 
 // Returns false and sets errno on failure.
-static bool enter_landlock(const struct sandbox_paths *paths, int version)
+static bool enter_landlock(const struct sandbox_paths *paths, bool is_writer, int version)
 {
     struct ruleset set = {.files = rights_of(version), .network = 3, .scoped = 3};
     size_t size = version >= 6 ? sizeof set : version >= 4 ? 2 * sizeof(uint64_t) : sizeof(uint64_t);
@@ -178,7 +183,7 @@ static bool enter_landlock(const struct sandbox_paths *paths, int version)
         return false;
     bool ok = true;
     for (int i = 0; ok && i < paths->count; i++)
-        ok = add_path(rules, &paths->items[i], set.files);
+        ok = add_path(rules, &paths->items[i], set.files, is_writer);
     ok = ok && syscall(RESTRICT_SELF, rules, 0) == 0;
     int reason = errno;
     close(rules);
@@ -215,7 +220,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
         return true;
     }
     drop_capabilities();
-    if (state->landlock && !enter_landlock(paths, state->landlock)) {
+    if (state->landlock && !enter_landlock(paths, false, state->landlock)) {
         if (is_exhausted(errno))
             return complain(error, LAM_MACHINE, "cannot start the sandbox: %s", strerror(errno));
         state->landlock = 0;
@@ -233,7 +238,16 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
     return true;
 }
 
+void sandbox_enter_writer(const struct sandbox_paths *paths)
+{
+    struct sandbox_state offered = sandbox_offered();
+    if (offered.landlock && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0)
+        enter_landlock(paths, true, offered.landlock);
+}
+
 #else
+
+void sandbox_enter_writer(const struct sandbox_paths *paths) { (void)paths; }
 
 struct sandbox_state sandbox_offered(void)
 {

@@ -10,7 +10,8 @@ enum {
     SANDBOX_READ = 1,  // a file, or all files in a folder and its subfolders
     SANDBOX_WRITE = 2, // a pipe or a device (for regular files, see writer.h)
     // SANDBOX_MAKE lets the writer create a file, and replace a file that Lambent wrote. SANDBOX_REPLACE lets the
-    // writer replace any file.
+    // writer replace any file. The writer can access only the held folders (lam_path_held) of these paths. With
+    // may_write, a path may also be a folder.
     SANDBOX_MAKE = 4,
     SANDBOX_REPLACE = 8,
 };
@@ -53,6 +54,9 @@ struct sandbox_state sandbox_offered(void);
 // to threads that this thread starts later. The filter applies to all threads. Skips protections that the kernel lacks
 // and reports them in `state`. Fails with LAM_LIMIT if memory runs out.
 bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *state, lam_error *error);
+
+// Lets this process, the writer, access only the folders in which it may write, if the kernel supports Landlock.
+void sandbox_enter_writer(const struct sandbox_paths *paths);
 
 // Writes one line such as "Landlock 7 and seccomp", "seccomp; Landlock is missing: …" or "off". Returns `out`.
 enum { SANDBOX_TEXT_SIZE = 160 };

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include <lambent/path.h>
+
 #include "console.h"
 #include "device_option.h"
 #include "limit_options.h"
@@ -47,7 +49,9 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model)
 {
     if (strcmp(model, "-") == 0 || lam_shape_find(model) >= 0)
         return;
-    sandbox_add(paths, model, SANDBOX_READ); // the path may be the user's link to a file in another folder
+    struct stat about;
+    if (lstat(model, &about) != 0 || S_ISLNK(about.st_mode))
+        sandbox_add(paths, model, SANDBOX_READ); // a link to a file in another folder
     add_folder_of(paths, model, SANDBOX_READ);
     paths->scene_files |= is_scene_file(model);
 }
@@ -57,7 +61,7 @@ void sandbox_add_file(struct sandbox_paths *paths, const char *file) { sandbox_a
 void sandbox_add_older(struct sandbox_paths *paths, const char *path)
 {
     struct stat about;
-    if (strcmp(path, "-") == 0 || stat(path, &about) != 0)
+    if (strcmp(path, "-") == 0 || lam_path_stat(path, &about) != 0)
         return;
     if (S_ISREG(about.st_mode))
         sandbox_add(paths, path, SANDBOX_READ); // reading the file shows whether Lambent wrote it
@@ -132,6 +136,31 @@ void sandbox_add_options(struct sandbox_paths *paths, const struct options *o)
         sandbox_add_output(paths, o->picture.save_scene, false);
 }
 
+bool sandbox_hold(const struct options *o, char **operands, int count, lam_error *error)
+{
+    const char *const named[] = {o->picture.output ? o->picture.output : ".",
+                                 o->picture.save_scene,
+                                 o->batch.journal,
+                                 o->batch.report_page,
+                                 o->hash.check,
+                                 o->hash.pictures};
+    const struct texts *allowed = &o->limits.allow_paths;
+    bool ok = true;
+    if (o->batch.isolate || o->batch.jobs || o->limits.sandbox == SANDBOX_REQUIRE)
+        lam_path_refuse_links();
+    for (int i = 0; ok && i < allowed->count; i++)
+        ok = lam_path_hold(allowed->items[i], true, error);
+    for (int i = 0; ok && i < count; i++)
+        ok = lam_path_hold(operands[i], false, error);
+    for (size_t i = 0; ok && i < sizeof named / sizeof *named; i++)
+        ok = !named[i] || lam_path_hold(named[i], false, error);
+    char *list = o->shading.environment ? strdup(o->shading.environment) : NULL, *rest = list;
+    for (char *file; ok && (file = strsep(&rest, ","));)
+        ok = lam_path_hold(file, false, error);
+    free(list);
+    return ok;
+}
+
 static bool check_required(const struct options *o, lam_error *error)
 {
     if (o->limits.sandbox != SANDBOX_REQUIRE || (active.landlock && active.filter))
@@ -153,7 +182,7 @@ static enum writer_right right_of(void *user, const char *path)
     for (int i = 0; i < paths->count; i++)
         if (strcmp(paths->items[i].path, path) == 0)
             right = paths->items[i].access & SANDBOX_REPLACE ? WRITER_ANY
-                    : paths->items[i].access & SANDBOX_MAKE  ? WRITER_NEW_OR_OURS | WRITER_IMPLIED
+                    : paths->items[i].access & SANDBOX_MAKE  ? WRITER_NEW_OR_OURS
                                                              : right;
     return right;
 }
@@ -166,9 +195,11 @@ static bool start_writer(const struct options *o, struct sandbox_paths *paths, l
         writes |= (paths->items[i].access & (SANDBOX_MAKE | SANDBOX_REPLACE)) != 0;
     if (!writes || writer_is_there() || paths->failed)
         return true;
-    writer_rule *rule = paths->may_write ? paths->may_write : right_of;
-    void *user = paths->may_write ? paths->user : paths;
-    return writer_start(rule, user, paths->may_write ? paths->writers : 1, limits_memory(o), error);
+    if (!paths->may_write) {
+        paths->may_write = right_of;
+        paths->user = paths;
+    }
+    return writer_start(paths, limits_memory(o), error);
 }
 
 bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_error *error)

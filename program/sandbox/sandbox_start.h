@@ -10,6 +10,11 @@
 #include "options.h"
 #include "sandbox.h"
 
+// Holds the folders that the user names: the folders of the operands, of --allow-path, and of the files that options name
+// (lam_path_hold). With --isolate, --jobs and --sandbox require, no link below these folders is followed. Must be called
+// before the command reads anything. Fails with LAM_MACHINE.
+bool sandbox_hold(const struct options *options, char **operands, int count, lam_error *error);
+
 // Allows reading a model and its folder with all subfolders. "-" and names of shapes need no permission.
 void sandbox_add_input(struct sandbox_paths *paths, const char *model);
 

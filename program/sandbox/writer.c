@@ -9,8 +9,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <lambent/path.h>
+
 #include "console.h"
 #include "file_io.h"
+#include "sandbox.h"
 
 #ifdef __linux__
 
@@ -67,8 +70,7 @@ struct own_file {
 };
 
 static struct {
-    writer_rule *rule;
-    void *user;
+    const struct sandbox_paths *paths;
     uint64_t largest;             // the largest size of the contents; 0 means unlimited
     pthread_mutex_t lock;         // protects the rule and the list
     struct own_file own[OWN_MAX]; // the most recent files; older files are treated like the files of other programs
@@ -78,7 +80,7 @@ static struct {
 static bool own_of(const char *path, struct own_file *own)
 {
     struct stat about;
-    bool found = stat(path, &about) == 0;
+    bool found = lam_path_stat(path, &about) == 0;
     *own = (struct own_file){about.st_dev, about.st_ino, about.st_ctim};
     return found;
 }
@@ -114,13 +116,12 @@ static void note_own(const char *path)
 // Returns whether the run may write the file. Called before the contents are received.
 static bool may_write(const struct request *request, const char *path, enum writer_right right, lam_error *error)
 {
-    enum writer_right given = right & ~WRITER_IMPLIED;
     struct stat there;
-    if (given != WRITER_NEW && given != WRITER_NEW_OR_OURS && given != WRITER_ANY)
+    if (right != WRITER_NEW && right != WRITER_NEW_OR_OURS && right != WRITER_ANY)
         return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: this run may not write the file", path);
     if (!writer_files_check(path, right, error))
         return false;
-    if (given == WRITER_NEW_OR_OURS && stat(path, &there) == 0 && !is_own(path))
+    if (right == WRITER_NEW_OR_OURS && lam_path_stat(path, &there) == 0 && !is_own(path))
         return complain(error, LAM_CANNOT_WRITE, "%.400s: cannot write: already exists, and lambent did not write it",
                         path);
     return !writing.largest || request->size <= writing.largest ||
@@ -134,7 +135,7 @@ static bool save(enum action action, const char *path, const lam_bytes *bytes, e
     if (action == STAGE)
         return writer_files_stage(path, bytes, error);
     bool ok = writer_files_save(path, bytes, action == SAVE_DURABLY, error);
-    if (ok && (right & ~WRITER_IMPLIED) == WRITER_NEW_OR_OURS && !lam_image_is_from_lambent(path))
+    if (ok && right == WRITER_NEW_OR_OURS && !lam_image_is_from_lambent(path))
         note_own(path);
     return ok;
 }
@@ -160,13 +161,13 @@ static bool act(int connection, const struct request *request, const char *path,
         return skip(connection, request->size);
     }
     pthread_mutex_lock(&writing.lock);
-    enum writer_right right = writing.rule(writing.user, path);
+    enum writer_right right = writing.paths->may_write(writing.paths->user, path);
     pthread_mutex_unlock(&writing.lock);
     if (request->action == REMOVE) {
         if (right != WRITER_REMOVES)
             complain(error, LAM_CANNOT_WRITE, "%.400s: cannot remove: this run may not remove the file", path);
         else
-            unlink(path);
+            writer_files_remove(path);
         return skip(connection, request->size);
     }
     if (!may_write(request, path, right, error))
@@ -217,37 +218,18 @@ static void *serve_one(void *user)
     return NULL;
 }
 
-// Closes every file except the connections and standard error, since locks, terminals and pipes belong to the other
-// process.
-static void close_others(const int *connections, int count)
-{
-    int next = STDERR_FILENO + 1;
-    close(STDIN_FILENO);
-    close(STDOUT_FILENO);
-    for (bool found = true; found;) {
-        int nearest = INT_MAX;
-        for (int i = 0; i < count; i++)
-            if (connections[i] >= next && connections[i] < nearest)
-                nearest = connections[i];
-        found = nearest != INT_MAX;
-#ifdef SYS_close_range
-        if (nearest > next && syscall(SYS_close_range, next, nearest - 1, 0) != 0)
-#endif
-            for (int file = next; file < (found ? nearest : 1024); file++)
-                close(file);
-        next = found ? nearest + 1 : next;
-    }
-}
-
 static _Noreturn void run(int *connections, int count)
 {
     sigset_t all;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, NULL);
     prctl(PR_SET_NAME, "lambent-writer");
-    close_others(connections, count);
+    close(STDIN_FILENO);
+    close(STDOUT_FILENO);
+    close_files(connections, count);                        // locks, terminals and pipes belong to the other process
     for (int stream = 0; stream <= STDERR_FILENO; stream++) // the writer needs no standard streams
         (void)!open("/dev/null", O_RDWR | O_CLOEXEC);
+    sandbox_enter_writer(writing.paths);
     pthread_attr_t small;
     pthread_attr_init(&small);
     pthread_attr_setstacksize(&small, STACK);
@@ -292,10 +274,10 @@ static bool make_pair(int *here, int *there)
     return false;
 }
 
-bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error)
+bool writer_start(const struct sandbox_paths *paths, uint64_t largest, lam_error *error)
 {
     int there[THREADS_MAX];
-    int made = 0;
+    int made = 0, count = paths->writers;
     count = count < 1 ? 1 : count < THREADS_MAX ? count : THREADS_MAX;
     while (made < count && make_pair(&writer.connections[made], &there[made]))
         made++; // with fewer connections than threads, the threads take turns
@@ -305,8 +287,7 @@ bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, la
         for (int i = 0; i < made; i++)
             close(writer.connections[i]);
         writer.count = 0;
-        writing.rule = rule;
-        writing.user = user;
+        writing.paths = paths;
         writing.largest = largest;
         run(there, made);
     }
@@ -395,7 +376,7 @@ bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_err
     struct stat there;
     // The process in the sandbox itself opens the pipes and devices that the user names. The writer cannot be
     // interrupted while it waits for the other end of a pipe.
-    if (!writer_is_there() || (stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
+    if (!writer_is_there() || (lam_path_stat(path, &there) == 0 && !S_ISREG(there.st_mode)))
         return writer_files_save(path, bytes, durable, error);
     return ask(durable ? SAVE_DURABLY : SAVE, path, bytes, error);
 }
@@ -415,7 +396,7 @@ bool writer_save_all(const struct writer_file *files, int count, lam_error *erro
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, &before); // protects the hidden files if there is no writer
     for (int i = 0; ok && i < count; i++)
-        if (!(files[i].right & WRITER_IMPLIED) && stat(files[i].path, &there) == 0 && !S_ISREG(there.st_mode))
+        if (files[i].is_named && lam_path_stat(files[i].path, &there) == 0 && !S_ISREG(there.st_mode))
             ok = writer_files_save(files[i].path, &files[i].bytes, false, error);
         else
             ok = stage(&files[i], error);
@@ -436,14 +417,14 @@ void writer_remove(const char *path)
     if (writer_is_there())
         ask(REMOVE, path, &(lam_bytes){0}, &error);
     else
-        unlink(path);
+        writer_files_remove(path);
 }
 
 #else
 
-bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error)
+bool writer_start(const struct sandbox_paths *paths, uint64_t largest, lam_error *error)
 {
-    (void)rule, (void)user, (void)count, (void)largest;
+    (void)paths, (void)largest;
     return complain(error, LAM_UNSUPPORTED, "this system cannot run the process that writes files");
 }
 
@@ -474,6 +455,6 @@ bool writer_save_all(const struct writer_file *files, int count, lam_error *erro
     return false;
 }
 
-void writer_remove(const char *path) { unlink(path); }
+void writer_remove(const char *path) { writer_files_remove(path); }
 
 #endif

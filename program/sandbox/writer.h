@@ -10,25 +10,24 @@
 #include <lambent/image.h>
 #include <sys/types.h>
 
-// The writer's access rights to a file. WRITER_IMPLIED is a flag that can be combined with WRITER_NEW,
-// WRITER_NEW_OR_OURS and WRITER_ANY.
+// The writer's access rights to a file. The file must be regular or missing. The writer follows a link only if the user
+// named the link when the program started (lam_path_hold).
 enum writer_right {
     WRITER_NONE,
     WRITER_NEW,         // a new file
     WRITER_NEW_OR_OURS, // a new file, or a file that this run wrote or that is marked as Lambent's
     WRITER_ANY,         // replaces any existing file
     WRITER_REMOVES,     // the file may only be removed
-    // Lambent derived the file's name from another name; the user did not type the file's name. The file must be
-    // regular or missing, and the writer follows no link.
-    WRITER_IMPLIED = 8,
 };
 
 // Returns the access right that the writer has for a path. Called in the writer, by one thread at a time.
 typedef enum writer_right writer_rule(void *user, const char *path);
 
-// Starts the writer with one connection for each of `count` threads. The writer writes files of at most `largest` bytes
-// (0 means unlimited). Must be called before threads start. Fails with LAM_LIMIT.
-bool writer_start(writer_rule *rule, void *user, int count, uint64_t largest, lam_error *error);
+// Starts the writer with paths->may_write as its rule, and with one connection for each of paths->writers threads. With
+// Landlock, it can access only the folders of `paths` in which it may write (sandbox.h). The writer writes files of at
+// most `largest` bytes (0 means unlimited). Must be called before threads start. Fails with LAM_LIMIT.
+struct sandbox_paths;
+bool writer_start(const struct sandbox_paths *paths, uint64_t largest, lam_error *error);
 
 // Returns whether this process or its parent has started the writer.
 bool writer_is_there(void);
@@ -52,11 +51,13 @@ void writer_end(void);
 // LAM_LIMIT.
 bool writer_save(const char *path, const lam_bytes *bytes, bool durable, lam_error *error);
 
-// A file of a set. Without a writer, `right` is checked; otherwise the writer's own rule decides.
+// A file of a set. Without a writer, `right` is checked; otherwise the writer's own rule decides. Only a file that the
+// user named may be a pipe or a device.
 struct writer_file {
     const char *path;
     lam_bytes bytes;
     enum writer_right right;
+    bool is_named;
 };
 
 // Writes all of the files or none. When all files are complete, the writer gives the files their names, in the given
@@ -64,17 +65,14 @@ struct writer_file {
 // Fails with LAM_CANNOT_WRITE or LAM_LIMIT.
 bool writer_save_all(const struct writer_file *files, int count, lam_error *error);
 
-// Returns whether the path contains no links after its first `named` bytes, which are the user's own path. Fails with
-// LAM_CANNOT_WRITE.
-bool writer_check_links(const char *path, size_t named, lam_error *error);
-
 // Removes a file whose right is WRITER_REMOVES. Failure is not reported.
 void writer_remove(const char *path);
 
 // --- checks paths before files are replaced, and replaces sets of files together. The writer calls these
 // functions. Without a sandbox, the program itself calls these functions.
 
-// Checks whether the access right allows this path. The caller checks WRITER_NEW_OR_OURS. Fails with LAM_CANNOT_WRITE.
+// Checks that the path is missing or a regular file, and not a link that the user did not name. The caller checks
+// WRITER_NEW_OR_OURS. Fails with LAM_CANNOT_WRITE.
 bool writer_files_check(const char *path, enum writer_right right, lam_error *error);
 
 // Writes a file completely or not at all. Creates the folder if it is missing.
@@ -90,5 +88,8 @@ bool writer_files_commit(lam_error *error);
 
 // Removes the hidden files.
 void writer_files_drop(void);
+
+// Removes a file. Failure is not reported.
+void writer_files_remove(const char *path);
 
 #endif

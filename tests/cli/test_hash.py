@@ -255,7 +255,7 @@ class Hash(Case):
         os.symlink("../elsewhere", self.folder / "pics" / "m")
         self.given.update(("pics", "elsewhere", "p.hash", "p-changes.png", "theirs.png"))
         for sandbox in ("auto", "off"):
-            self.bad(7, "hash", "m/a.stl", "-s", 16, "-o", "p.hash", "--pictures", "pics", "--sandbox", sandbox, says="pics/m is a link")
+            self.bad(7, "hash", "m/a.stl", "-s", 16, "-o", "p.hash", "--pictures", "pics", "--sandbox", sandbox, says="a link that leads out of the folder")
             self.assertEqual(os.listdir(self.folder / "elsewhere"), [])
         self.write("-q")
         self.grow()
@@ -263,7 +263,7 @@ class Hash(Case):
         before = (self.folder / "theirs.png").read_bytes()
         os.symlink("theirs.png", self.folder / "p-changes.png")
         for sandbox in ("auto", "off"):
-            self.bad(5, "hash", "-s", 64, "--check", "p.hash", "--update", "--sandbox", sandbox, says="p-changes.png is a link")
+            self.bad(5, "hash", "-s", 64, "--check", "p.hash", "--update", "--sandbox", sandbox, says=["p-changes.png: cannot write", "link"])
             self.assertEqual((self.folder / "theirs.png").read_bytes(), before)
 
     def test_printed_names(self):

@@ -451,7 +451,7 @@ NO_UNNAMED_FILES = r"""
 #include <unistd.h>
 
 // As on a file system without unnamed files.
-int open64(const char *path, int flags, ...)
+int openat64(int folder, const char *path, int flags, ...)
 {
     va_list more;
     va_start(more, flags);
@@ -463,7 +463,7 @@ int open64(const char *path, int flags, ...)
         errno = EOPNOTSUPP;
         return -1;
     }
-    return ((int (*)(const char *, int, mode_t))dlsym(RTLD_NEXT, "open64"))(path, flags, mode);
+    return ((int (*)(int, const char *, int, mode_t))dlsym(RTLD_NEXT, "openat64"))(folder, path, flags, mode);
 }
 """
 

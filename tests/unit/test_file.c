@@ -322,12 +322,12 @@ int __wrap_fsync(int file)
     return failing ? -1 : __real_fsync(file);
 }
 
-int __real_rename(const char *from, const char *to);
-int __wrap_rename(const char *from, const char *to);
-int __wrap_rename(const char *from, const char *to)
+int __real_renameat(int from_folder, const char *from, int to_folder, const char *to);
+int __wrap_renameat(int from_folder, const char *from, int to_folder, const char *to);
+int __wrap_renameat(int from_folder, const char *from, int to_folder, const char *to)
 {
     note("rename");
-    return __real_rename(from, to);
+    return __real_renameat(from_folder, from, to_folder, to);
 }
 
 int __real_linkat(int from_folder, const char *from, int to_folder, const char *to, int flags);

@@ -1,7 +1,7 @@
 // test_writer.c: the process that writes files for the sandboxed process: its rights, several threads at once, and the
 // end of either process.
 #include "test.h"
-#include "writer.h"
+#include "sandbox.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -10,6 +10,8 @@
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+
+#include <lambent/path.h>
 
 static char folder[] = "/tmp/lambent-writer-XXXXXX";
 
@@ -28,8 +30,8 @@ static enum writer_right rule(void *user, const char *path)
     assert_string_equal(user, "rule");
     return strncmp(name, "any", 3) == 0       ? WRITER_ANY
            : strncmp(name, "ours", 4) == 0    ? WRITER_NEW_OR_OURS
-           : strncmp(name, "implied", 7) == 0 ? WRITER_ANY | WRITER_IMPLIED
-           : strncmp(name, "new", 3) == 0     ? WRITER_NEW | WRITER_IMPLIED
+           : strncmp(name, "implied", 7) == 0 ? WRITER_ANY
+           : strncmp(name, "new", 3) == 0     ? WRITER_NEW
            : strcmp(name, "log") == 0         ? WRITER_REMOVES
                                               : WRITER_NONE;
 }
@@ -69,13 +71,22 @@ static int count_files(void)
     return count;
 }
 
+static bool start_writer(int threads, uint64_t largest)
+{
+    lam_error error;
+    struct sandbox_paths paths = {.may_write = rule, .user = "rule", .writers = threads};
+    sandbox_add(&paths, folder, SANDBOX_MAKE);
+    bool ok = lam_path_hold(folder, false, &error) && writer_start(&paths, largest, &error);
+    sandbox_paths_free(&paths);
+    return ok;
+}
+
 static int start(void **state)
 {
     (void)state;
     umask(022);
-    lam_error error;
     memcpy(strrchr(folder, '-') + 1, "XXXXXX", 6);
-    return !mkdtemp(folder) || !writer_start(rule, "rule", 2, 100 << 20, &error);
+    return !mkdtemp(folder) || !start_writer(2, 100 << 20);
 }
 
 static int end(void **state)
@@ -86,6 +97,18 @@ static int end(void **state)
     assert_false(writer_is_there());
     snprintf(command, sizeof command, "rm -rf %s", folder);
     return system(command);
+}
+
+// The user names a link: it is held before the writer starts.
+static int start_named(void **state)
+{
+    lam_error error;
+    if (start(state))
+        return 1;
+    writer_end();
+    put("precious", "of the user");
+    return symlink("precious", in_folder("any link")) || !lam_path_hold(in_folder("any link"), false, &error) ||
+           !start_writer(2, 100 << 20);
 }
 
 TEST(test_rights, .setup_func = start, .teardown_func = end)
@@ -127,13 +150,11 @@ TEST(test_rights, .setup_func = start, .teardown_func = end)
 }
 
 // A name that the user did not give is written only to a regular file or a new file, and not through a link.
-TEST(test_implied, .setup_func = start, .teardown_func = end)
+TEST(test_implied, .setup_func = start_named, .teardown_func = end)
 {
     lam_error error;
-    put("precious", "of the user");
     assert_int_equal(symlink("precious", in_folder("implied link")), 0);
     assert_int_equal(symlink("missing", in_folder("implied end")), 0);
-    assert_int_equal(symlink("precious", in_folder("any link")), 0);
     assert_false(save("implied link", "1", &error) || save("implied end", "1", &error));
     assert_non_null(strstr(error.text, "is a link"));
     assert_contains("precious", "of the user");
@@ -160,8 +181,8 @@ static bool save_set(const char *second, lam_error *error)
     char first[300];
     snprintf(first, sizeof first, "%s", in_folder("any first"));
     static char one[] = "one", two[] = "two";
-    const struct writer_file files[] = {{first, {one, 3}, WRITER_ANY},
-                                        {in_folder(second), {two, 3}, WRITER_ANY | WRITER_IMPLIED}};
+    const struct writer_file files[] = {{.path = first, .bytes = {one, 3}, .right = WRITER_ANY},
+                                        {.path = in_folder(second), .bytes = {two, 3}, .right = WRITER_ANY}};
     *error = (lam_error){0};
     return writer_save_all(files, 2, error);
 }
@@ -254,8 +275,7 @@ TEST(test_process_ends, .setup_func = start, .teardown_func = end)
         pid_t child = fork();
         if (child == 0) {
             writer_leave();
-            bool ok = writer_start(rule, "rule", 1, 0, &error) &&
-                      write(ready[1], &(pid_t){writer_process()}, sizeof(pid_t)) > 0;
+            bool ok = start_writer(1, 0) && write(ready[1], &(pid_t){writer_process()}, sizeof(pid_t)) > 0;
             for (int k = 0; ok && k < 1000; k++)
                 ok = writer_save(in_folder("any"), &(lam_bytes){text, LARGE}, false, &error);
             _exit(ok);
@@ -298,8 +318,7 @@ TEST(test_closed_streams, .setup_func = start, .teardown_func = end)
         close(STDIN_FILENO);
         close(STDOUT_FILENO);
         close(STDERR_FILENO);
-        bool ok =
-            writer_start(rule, "rule", 1, 0, &error) && write(STDERR_FILENO, "a", 1) < 0 && save("any", "1", &error);
+        bool ok = start_writer(1, 0) && write(STDERR_FILENO, "a", 1) < 0 && save("any", "1", &error);
         writer_end();
         _exit(!ok);
     }

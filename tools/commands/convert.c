@@ -119,7 +119,8 @@ static enum writer_right right_of(void *user, const char *path)
     const struct convert *c = user;
     return strcmp(path, c->output) == 0 ? WRITER_ANY
            : !is_beside(c, path)        ? WRITER_NONE
-                                        : (c->replaces ? WRITER_ANY : WRITER_NEW) | WRITER_IMPLIED;
+           : c->replaces                ? WRITER_ANY
+                                        : WRITER_NEW;
 }
 
 static bool check_beside(const struct convert *c, const char *path, lam_error *error)
@@ -145,7 +146,7 @@ static bool write_files(struct convert *c, lam_error *error)
         ok = path || complain(error, LAM_MACHINE, "out of memory");
         ok = ok && job_check_inputs(c->job.scene, path, false, error) && (i == 0 || check_beside(c, path, error));
         if (path)
-            files[filled++] = (struct writer_file){path, lam_export_file(c->result, i), right_of(c, path)};
+            files[filled++] = (struct writer_file){path, lam_export_file(c->result, i), right_of(c, path), i == 0};
     }
     ok = ok && writer_save_all(files, count, error);
     for (int i = 0; i < filled; i++)
@@ -242,6 +243,7 @@ int run_convert(int operand_count, char **operands, const struct options *option
     bool ok = check(&c, &error);
     if (ok) {
         sandbox_add_input(&paths, c.model);
+        sandbox_add(&paths, c.output, SANDBOX_MAKE);
         ok = sandbox_start(options, &paths, &error) && convert(&c, &progress, &error);
     }
     progress_end(&progress);

@@ -244,7 +244,7 @@ static enum writer_right right_of(void *user, const char *path)
 {
     const char *page = user;
     return strcmp(path, page) == 0               ? WRITER_ANY
-           : batch_page_is_thumbnail(page, path) ? WRITER_NEW_OR_OURS | WRITER_IMPLIED
+           : batch_page_is_thumbnail(page, path) ? WRITER_NEW_OR_OURS
                                                  : WRITER_NONE;
 }
 
@@ -252,6 +252,7 @@ static bool enter_sandbox(const struct options *o, lam_error *error)
 {
     struct sandbox_paths paths = {.may_write = right_of, .user = (void *)(uintptr_t)o->batch.report_page};
     sandbox_add(&paths, "/", SANDBOX_READ);
+    sandbox_add(&paths, o->batch.report_page, SANDBOX_MAKE);
     return sandbox_start(o, &paths, error);
 }
 

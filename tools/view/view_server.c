@@ -127,7 +127,6 @@ static bool start_daemon(struct view *view, lam_error *error)
 static bool find_operand(struct view *view, const char *operand, lam_error *error)
 {
     struct stat about;
-    view->files.folder = -1;
     if (strcmp(operand, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "view shows a file or a folder; standard input has no name");
     if (lam_shape_find(operand) >= 0)
@@ -145,7 +144,7 @@ static bool enter_sandbox(const struct view *view, lam_error *error)
 {
     struct sandbox_paths paths = {.serves = true};
     struct options options = *view->options;
-    if (view->files.folder >= 0)
+    if (view->files.prefix)
         sandbox_add(&paths, *view->files.prefix ? view->files.prefix : "/", SANDBOX_READ);
     if (view->files.model_path)
         sandbox_add(&paths, view->files.model_path, SANDBOX_READ); // the model may be a link

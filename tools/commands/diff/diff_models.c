@@ -43,7 +43,6 @@ static bool add_pair(struct model_diff *diff, const struct batch_model *old, con
     size_t at = diff->plan.count;
     if (!batch_plan_add(&diff->plan, shown->path, shown->root, error))
         return false;
-    diff->plan.models[at].leads_out = shown->leads_out || (old && old->leads_out);
     diff->pairs[at] = (struct model_pair){name_of(shown), old ? old->path : NULL, new ? new->path : NULL};
     return true;
 }
@@ -170,7 +169,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
 static void reach(void *user, size_t model, struct sandbox_paths *paths)
 {
     const struct model_pair *pair = &((struct model_diff *)user)->pairs[model];
-    if (pair->old && pair->new && !((struct model_diff *)user)->plan.models[model].leads_out)
+    if (pair->old && pair->new)
         sandbox_add_input(paths, pair->old);
 }
 
@@ -212,7 +211,7 @@ int diff_models(char **operands, bool folders, const struct options *options)
                               .new = operands[1],
                               .page = options->picture.output,
                               .folders = folders};
-    struct batch_use use = {diff_draw, reach, right_of, finish, &diff};
+    struct batch_use use = {diff_draw, reach, right_of, {diff.page}, finish, &diff};
     bool ok = check(&diff, &error) && batch_plan_start(&diff.plan, &drawn, &error) &&
               ((diff.rows = shared_count_make()) || complain(&error, LAM_MACHINE, "out of memory"));
     diff.olds.options = diff.news.options = &drawn;

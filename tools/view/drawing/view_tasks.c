@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "console.h"
@@ -19,20 +18,8 @@
 enum {
     GRACE_MS = 5000,
     CANCEL_MS = 2000,
-    FILES_MAX = 4096, // larger than any file handle of the server, because the server limits its number of connections
 };
 static const uint64_t data_max = (uint64_t)1 << 33; // the maximum size of an answer
-
-// Closes all other handles. A network connection would otherwise stay open until this process ends.
-static void close_others(int first, int second)
-{
-    for (int file = 3; file < FILES_MAX; file++) {
-        struct stat about;
-        if (file != first && file != second && fstat(file, &about) == 0 &&
-            !S_ISDIR(about.st_mode)) // the handle of the files' folder stays open
-            close(file);
-    }
-}
 
 struct start {
     const struct view_files *files;
@@ -42,7 +29,8 @@ struct start {
 static void draw(void *user, int from, int to)
 {
     const struct start *start = user;
-    close_others(from, to);
+    // A network connection would otherwise stay open until this process ends.
+    close_files((int[]){from, to}, 2);
     // The server's filter allows connections and new processes. A drawing process needs neither, so it installs a
     // stricter filter. Landlock already restricts the folders of the server and of the drawing process.
     if (sandbox_active()->filter && !sandbox_filter_install(SANDBOX_DRAWS))

@@ -26,7 +26,7 @@ help:
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
 	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
 	@echo 'make fuzz       fuzzes every reader and the drawing, a minute each (time=1200 targets="obj ply")'
-	@echo 'make lint       cppcheck and clang-tidy over src, classroom and tools'
+	@echo 'make lint       cppcheck and clang-tidy over src, program, classroom and tools'
 	@echo 'make bench      measures against other programs, into bench/results and docs/speed.md (BENCH=full: everything;'
 	@echo '                BENCH=large: a file of 5 GB; LAMBENT_MODELS=FOLDER: rows of its models too)'
 	@echo 'make bench-check         counts instructions, beside the recorded ones (part of make test-more)'

@@ -8,6 +8,7 @@
 // Unlike the other programs in this folder, this program uses internal headers of the library.
 #define LANES 8
 #include "ray_lanes.h"
+#include "rays.h"
 
 #include <lambent/lambent.h>
 

@@ -57,7 +57,7 @@ def build(folder):
     if not (made / "build.ninja").exists():
         shutil.rmtree(made, ignore_errors=True)
         call("meson", "setup", str(made), str(ROOT), "--cross-file", str(places), "--cross-file", str(ROOT / "packaging/windows.ini"),
-             "--buildtype=release", "-Dtests=false", "-Dclassroom=false", "-Dstatic_program=true")
+             "--buildtype=release", "-Dtests=false", "-Dstatic_program=true")
     output = call("ninja", "-C", str(made))
     if "warning:" in output:
         sys.exit("windows: the compiler warns:\n" + output[-4000:])

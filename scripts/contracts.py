@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""contracts.py LAMBENT [--check]: writes docs/check/contracts.md: for each built-in contract, its names, a correct program (tests/check), and the
-reports of `lambent check` for the course's own programs (tests/check/lectures). Without OpenGL the page does not change.
+"""contracts.py LAMBENT [--check]: writes docs/check/contracts.md: for each built-in contract, its names, a correct program (classroom/tests/check), and the
+reports of `lambent check` for the course's own programs (classroom/tests/check/lectures). Without OpenGL the page does not change.
 
 --check compares the page with the generated page, except for the reports, and fails if they differ."""
 import json
@@ -11,7 +11,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE = os.path.join(ROOT, "docs", "check", "contracts.md")
-SHADERS = os.path.join("tests", "check")
+SHADERS = os.path.join("classroom", "tests", "check")
 sys.path.insert(0, os.path.join(ROOT, SHADERS))
 from lectures import LECTURES  # noqa: E402
 
@@ -33,7 +33,7 @@ def indented(text):
 
 
 def report(program, name, options):
-    """The report of a program of tests/check, without the driver's name."""
+    """The report of a program of classroom/tests/check, without the driver's name."""
     done = subprocess.run([program, "check", name + ".frag", "--vertex", name + ".vert", *options.split()], cwd=os.path.join(ROOT, SHADERS),
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if done.returncode == 3:
@@ -99,7 +99,7 @@ def value(x):
 
 
 def files(name):
-    return ", ".join("[%s.%s](../../tests/check/%s.%s)" % (os.path.basename(name), ending, name, ending) for ending in ("vert", "frag"))
+    return ", ".join("[%s.%s](../../classroom/tests/check/%s.%s)" % (os.path.basename(name), ending, name, ending) for ending in ("vert", "frag"))
 
 
 def section(program, contract, meaning):

@@ -8,8 +8,9 @@ import re
 import subprocess
 import sys
 
-PRODUCT = ["src", "include", "tools", "web", "classroom", "python", "scripts", "packaging"]
-TESTS = ["tests", "bench"]
+PRODUCT = ["src", "include", "program", "tools", "web", "classroom", "python", "scripts", "packaging"]
+TESTS = ("tests/", "bench/", "classroom/tests/", "packaging/debian/tests/")
+CLASSROOM = ("classroom/", "include/lambent/check.h", "web/check/") # the last in older revisions
 DRAWING = ("src/core/cpu/", "src/gpu/gl/", "src/gpu/glsl/", "src/core/lighting/")
 C_LIKE = ("c", "h", "cpp", "inc", "glsl", "js", "mjs", "ts")
 # Strings, template literals and the slashes of regular expressions are not comments; the first match wins.
@@ -40,20 +41,22 @@ def kind_of(name, first_line):
 
 
 def count(revision):
-    """The lines of each folder, and of the four sums."""
+    """The lines of each folder, and the sums: of the product, of the part of it that is the classroom, of tests, and of the code that draws."""
     listed = git("ls-tree", "-r", "--name-only", revision) if revision else git("ls-files")
     folders, sums = collections.Counter(), collections.Counter()
     for name in listed.decode().split("\n"):
         top = name.split("/")[0]
-        if top not in PRODUCT + TESTS or (not revision and not os.path.exists(name)):
+        if not (top in PRODUCT or name.startswith(TESTS)) or (not revision and not os.path.exists(name)):
             continue
         data = git("show", "%s:%s" % (revision, name)) if revision else open(name, "rb").read()
         kind = kind_of(name, data[:80].decode("utf-8", "replace"))
         if not kind:
             continue
         lines = code_lines(data.decode("utf-8", "replace"), kind)
-        folders["/".join(name.split("/")[:-1][:2 if name.startswith(("src/", "tools/", "tests/")) else 1])] += lines
-        sums["tests and bench" if top in TESTS or name.startswith("packaging/debian/tests/") else "product"] += lines
+        folders["/".join(name.split("/")[:-1][:2 if name.startswith(("src/", "program/", "tools/", "tests/", "classroom/")) else 1])] += lines
+        is_test = name.startswith(TESTS)
+        sums["tests and bench" if is_test else "product"] += lines
+        sums["product: classroom"] += lines if not is_test and name.startswith(CLASSROOM) else 0
         sums["cpu + gl + glsl + lighting"] += lines if name.startswith(DRAWING) else 0
     return folders, sums
 

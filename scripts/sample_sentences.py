@@ -50,7 +50,7 @@ def cells(path):
 
 def main():
     chance = random.Random(int(sys.argv[1]) if len(sys.argv) > 1 else 1)
-    files = subprocess.run(["git", "ls-files", "docs/*.md", "docs/*/*.md", "src/*.c", "src/*.h", "classroom/*.c", "classroom/*.h", "tools/*.c", "tools/*.h"], cwd=ROOT, stdout=subprocess.PIPE,
+    files = subprocess.run(["git", "ls-files", "docs/*.md", "docs/*/*.md", "src/*.c", "src/*.h", "program/*.c", "program/*.h", "classroom/*.c", "classroom/*.h", "tools/*.c", "tools/*.h"], cwd=ROOT, stdout=subprocess.PIPE,
                            check=True).stdout.decode().split()
     pages = [path for path in files if path.endswith(".md") and path not in ("docs/check/contracts.md", "docs/command-line.md")]
     code = [path for path in files if not path.endswith(".md") and len(list(sentences_of(path))) >= 3]

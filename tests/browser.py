@@ -21,7 +21,7 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-web")
-sys.path[:0] = [os.path.join(ROOT, "web"), os.path.join(ROOT, "tests"), os.path.join(ROOT, "tests", "check")]
+sys.path[:0] = [os.path.join(ROOT, "web"), os.path.join(ROOT, "tests"), os.path.join(ROOT, "classroom", "tests", "check")]
 import build  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
 from web import Results, make_models  # noqa: E402
@@ -57,9 +57,9 @@ SOME_MISTAKES = [("pittsburgh", "phong-lobe"), ("oregon", "no-gate"), ("pittsbur
 
 
 def shader_tasks(long):
-    """Checks of tests/check for the browser: correct programs and known mistakes (with `long` all), one that does not compile."""
+    """Checks of classroom/tests/check for the browser: correct programs and known mistakes (with `long` all), one that does not compile."""
     def text(name, ending):
-        path = os.path.join(ROOT, "tests", "check", "%s.%s" % (name, ending))
+        path = os.path.join(ROOT, "classroom", "tests", "check", "%s.%s" % (name, ending))
         return open(path).read() if os.path.exists(path) else ""
 
     tasks = []

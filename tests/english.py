@@ -162,7 +162,7 @@ def files():
             yield from (os.path.relpath(os.path.join(path, name), ROOT) for name in sorted(names) if name.endswith(endings))
     pages = [path for path in ["README.md", "CONTRIBUTING.md", "SECURITY.md", *below("docs", ".md")] if path not in MADE]
     yield "pages", pages
-    for folder in ("include", "src", "classroom", "tools"):
+    for folder in ("include", "src", "program", "classroom", "tools"):
         yield folder, [path for path in below(folder, (".c", ".h", ".inc"))]
 
 

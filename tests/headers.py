@@ -172,7 +172,7 @@ def check_library(folder, environment):
     check("example check compiles", built.returncode == 0, built.stdout)
     if built.returncode:
         return
-    shader = os.path.join(ROOT, "tests", "check", "oregon-no-gate.frag")
+    shader = os.path.join(ROOT, "classroom", "tests", "check", "oregon-no-gate.frag")
     ran = run([program, shader, picture], env=environment)
     if ran.returncode == 3 and "OpenGL" in ran.stdout:
         print("ok %d - example check # SKIP %s" % (len(results) + 1, ran.stdout.strip()))

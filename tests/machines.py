@@ -33,13 +33,16 @@ def sources(machine, long):
         files += sorted(glob.glob(os.path.join(ROOT, "src", room, "**", "*.c"), recursive=True))
     files = [path for path in files if long or PROCESSOR.search(open(path).read())]
     files = [path for path in files if "/windows/" not in path]
-    skipped = LEFT_OUT + machine["without"] + ["kernels.c", "environment_kernels.c", "corner_fan_simd.c", "position_simd.c", "tangent_kernels.c",
-                                                  "edge_rays.c"]
-    for_each = [("src/core/cpu/kernels.c", kernel) for kernel in machine["kernels"]]
-    for_each += [("src/effects/environment/environment_kernels.c", ("scalar", 4))]
-    for_each += [("src/core/geometry/normals/%s_simd.c" % name, ("scalar", 1)) for name in ("corner_fan", "positions/position")]
-    for_each += [("src/core/geometry/tangents/tangent_kernels.c", ("scalar", 1))]
-    for_each += [("src/effects/edges/edge_rays.c", ("scalar", 1))]
+    # Files that are compiled once for each instruction set.
+    of_isa = {"src/core/cpu/%s/%s.c" % (name, name): machine["kernels"] for name in ("raster", "shade", "lights")}
+    of_isa.update({"src/effects/" + name: machine["kernels"] for name in
+                   ("environment/environment_lookups.c", "occlusion/occlusion_kernels.c", "rays/ray_kernels.c")})
+    of_isa["src/effects/environment/environment_kernels.c"] = [("scalar", 4)]
+    of_isa.update({path: [("scalar", 1)] for path in (
+        "src/core/geometry/normals/corner_fan_simd.c", "src/core/geometry/normals/positions/position_simd.c",
+        "src/formats/prepare/tangent_kernels.c", "src/effects/edges/edge_rays.c")})
+    skipped = LEFT_OUT + machine["without"] + [os.path.basename(path) for path in of_isa]
+    for_each = [(path, isa) for path, isas in of_isa.items() for isa in isas]
     return [(f, []) for f in files if os.path.basename(f) not in skipped] + [
         (os.path.join(ROOT, path), ["-DISA=" + isa, "-DLANES=%d" % lanes]) for path, (isa, lanes) in for_each]
 

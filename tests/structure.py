@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """structure.py BUILD: the dependencies between source files, read from the symbols of the objects in the build folder.
 
-Two rules order the folders (docs/architecture.md). Files never depend on one another in a circle, in the library or in the program; and a folder of
-the library or of the program uses none below it in the list. The include paths of the build keep the library's headers to that order; this
-test checks function calls, and the program's headers (a fifth rule). A sixth: no C file outside src/system asks for Windows. A seventh: no folder of the library, the program or the web page has more than 25 files. The third rule: every file that a page or a comment names exists.
+Two rules order the folders (docs/architecture.md). Files never depend on one another in a circle, in the library or in the programs; and a folder of
+the library or of a program uses none below it in the list, and none of the other program. The include paths of the build keep the library's headers to
+that order; this test checks function calls, and the programs' headers (a fifth rule). A sixth: no C file outside src/system asks for Windows. A seventh: no folder of the library, the program or the web page has more than 25 files. The third rule: every file that a page or a comment names exists.
 The fourth keeps reflection models replaceable: only a lobe's row in src/core/lighting/lobes.h describes it. The ninth orders the scripts of the web page: they import
 only from their own folder and folders before it in the list FOLDERS of web/bundle.py, and never in a circle. The tenth: only public functions have more
-than 8 parameters."""
+than 8 parameters. The eleventh holds the wings of src: the core uses only itself, src/system and the entry headers of the effects, apart from CORE_USES, and the other
+wings also enter the effects by these headers only."""
 import collections
 import functools
 import glob
@@ -19,63 +20,77 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def library_folders():
-    """The folders in their order: the base's own, the subdir() lines of src/meson.build with their wings, and the classroom's library."""
+    """The folders in their order: the base's own, and the subdir() lines of src/meson.build with their wings."""
     text = open(os.path.join(ROOT, "src", "meson.build")).read()
     inner = re.findall(r"'(\w+)'", re.search(r"^base_folders = \[(.*)\]", text, re.M)[1])
-    names = re.findall(r"^(?:subdir\('([\w/]+)'\)|folders .*'lambent-(lecture)')", text, re.M)
-    return ["core/base/" + name for name in inner] + [name or "classroom/" + part for name, part in names if name != "core/base"] + ["classroom/check"]
+    names = re.findall(r"^ *subdir\('([\w/]+)'\)", text, re.M)
+    return ["core/base/" + name for name in inner] + [name for name in names if name != "core/base"]
 
 
-def floors():
-    """The folders of the program in their order: the list in tools/meson.build. main.c may use all of them."""
-    text = open(os.path.join(ROOT, "tools", "meson.build")).read()
-    folders = re.findall(r"'([\w/.]+)'", re.search(r"^floors = \[(.*?)\]", text, re.M | re.S)[1])
-    return [os.path.normpath("tools/" + name) for name in folders] + ["tools"]
+def floors(folder, name):
+    """The folders of a program or of the program library in their order: the list NAME in FOLDER/meson.build."""
+    text = open(os.path.join(ROOT, folder, "meson.build")).read()
+    folders = re.findall(r"'([\w/.]+)'", re.search(r"^%s = \[(.*?)\]" % name, text, re.M | re.S)[1])
+    return ["%s/%s" % (folder, inner) for inner in folders]
+
+
+class Order:
+    """src → program → tools, and src → program → classroom: neither program knows the other. A program's main.c may use all of its folders."""
+
+    def __init__(self):
+        self.trunk = library_folders() + floors("program", "program_folders")
+        self.programs = [floors("tools", "floors") + ["tools"], ["classroom/check"] + floors("classroom", "classroom_floors") + ["classroom"]]
+
+    def allows(self, user, used):
+        """Whether a file of the folder USER may use one of the folder USED."""
+        for folders in [self.trunk] + [self.trunk + program for program in self.programs]:
+            if user in folders:
+                return used in folders and folders.index(used) <= folders.index(user)
+        raise ValueError("%s is in no list of folders" % user)
 
 
 def folder_of(file):
     """core/base/text/number -> core/base/text; gpu/gl/loader -> gpu/gl; formats/import/obj/obj -> formats/import; system/files/file -> system;
     tools/many/jobs/job_words -> tools/many/jobs."""
-    if file.startswith(("tools/", "classroom/commands/", "gpu/glsl/")):
+    if file.startswith(("tools/", "program/", "classroom/commands/", "classroom/main", "gpu/glsl/")):
         return os.path.dirname(file)
     return "/".join(file.split("/")[:1 if file.startswith("system/") else 3 if file.startswith("core/base/") else 2])
 
 
 @functools.cache
 def program_files():
-    """The C files and headers of the program, as paths from the root."""
-    return sorted(os.path.relpath(os.path.join(path, name), ROOT) for top in ("tools", "classroom/commands")
-                  for path, _, names in os.walk(os.path.join(ROOT, top)) for name in names if name.endswith((".c", ".h")))
+    """The C files and headers of the programs and of the program library, as paths from the root."""
+    return ["classroom/main.c"] + sorted(os.path.relpath(os.path.join(path, name), ROOT) for top in ("program", "tools", "classroom/commands")
+                                         for path, _, names in os.walk(os.path.join(ROOT, top)) for name in names if name.endswith((".c", ".h")))
 
 
 def headers_back(order):
-    """(file, header) for each header that a file of the program includes from a folder after its own."""
+    """(file, header) for each header that a file of a program includes from a folder that it may not use. The header of the check is the classroom's."""
     place = {os.path.basename(file): file for file in program_files() if file.endswith(".h")}
     for file in program_files():
-        for name in re.findall(r'^#include "([^"]+)"', open(os.path.join(ROOT, file), encoding="utf-8").read(), re.M):
-            header = place.get(name)
-            if header and order.index(folder_of(header)) > order.index(folder_of(file)):
+        for name in re.findall(r'^#include ["<]([^">]+)[">]', open(os.path.join(ROOT, file), encoding="utf-8").read(), re.M):
+            header = "classroom/check/check.h" if name == "lambent/check.h" else place.get(name)
+            if header and not order.allows(folder_of(file), folder_of(header)):
                 yield file, header
 
 
 def objects(build):
-    for top in ("src", "classroom", "lambent.p"):
+    for top in ("src", "program", "classroom/check", "lambent.p", "lambent-classroom.p"):
         for path, _, names in os.walk(os.path.join(build, top)):
-            yield from (os.path.join(path, name) for name in names if name.endswith(".o"))
+            # without_effects.c defines the same functions as the effects.
+            yield from (os.path.join(path, name) for name in names if name.endswith(".o") and "without-effects" not in path)
 
 
 def source_of(build, path):
     """src/gpu/gl/liblambent-gl.a.p/loader.c.o -> gl/loader; sub-folders are in the object's name, joined by _.
-    lambent.p/tools_job_job_scene.c.o -> tools/job/job_scene; src/liblambent-lecture.a.p/.._classroom_lecture_lecture.c.o -> classroom/lecture/lecture."""
-    if "_classroom_lecture_" in path:
-        return "classroom/lecture/" + path.partition("_classroom_lecture_")[2][:-4]
-    if os.path.dirname(path) == os.path.join(build, "lambent.p"):
+    lambent.p/tools_job_job_scene.c.o -> tools/job/job_scene."""
+    if os.path.basename(os.path.dirname(path)) in ("lambent.p", "lambent-classroom.p"):
         name = os.path.basename(path)[:-2]
         return next(file[:-2] for file in program_files() if file.replace("/", "_") == name)
     top, *folders = os.path.relpath(path, build).split(os.sep)[:-2]
     folder = "/".join(folders)
     name, inside = re.sub(r"\.c\.o$", "", os.path.basename(path)), os.path.join(ROOT, top, folder)
-    folder = folder if top == "src" else "%s/%s" % (top, folder)
+    folder = folder if top == "src" else os.path.normpath("%s/%s" % (top, folder))
     for inner in sorted(os.listdir(inside)):
         if name.startswith(inner + "_") and os.path.exists(os.path.join(inside, inner, name[len(inner) + 1:] + ".c")):
             return "%s/%s/%s" % (folder, inner, name[len(inner) + 1:])
@@ -132,7 +147,48 @@ def circles(edges):
     return found
 
 
-TOPS = "src|classroom|tools|tests|include|web|scripts|bench|examples|docs"
+# The only headers of src/effects that other wings include. They call only functions that these headers or include/lambent declare.
+ENTRIES = ["environment/environment.h", "rays/rays.h", "edges/edges.h", "occlusion/occlusion.h"]
+# What the core uses outside core, system and these headers: the reader of scene files reads JSON, and adds the shapes and model files that a scene names.
+CORE_USES = {"core/description": ("formats/json", "formats/import", "formats/prepare", "formats/shapes")}
+WING = re.compile(r"core|effects|formats|gpu|system")
+
+
+def leaves_wing(edges):
+    """(file, complaint) for each include or call that leaves a wing of src where it must not."""
+    src = os.path.join(ROOT, "src")
+    read = lambda path: open(os.path.join(ROOT, path), encoding="utf-8").read()  # noqa: E731
+    place = collections.defaultdict(set)
+    files = [os.path.relpath(os.path.join(path, name), src) for path, _, names in os.walk(src) for name in names if name.endswith((".c", ".h", ".inc"))]
+    for file in files:
+        place[os.path.basename(file)].add(file)
+    declared = "".join(read("src/effects/" + name) for name in ENTRIES)
+    declared += "".join(read(name) for name in glob.glob("include/lambent/*.h", root_dir=ROOT))
+
+    def allowed(file, wing, folder):
+        return wing in ("core", "system") or folder in CORE_USES.get("/".join(file.split("/")[:2]), ())
+
+    for file in sorted(files):
+        own = file.split("/")[0]
+        for name in re.findall(r'^#include "([^"]+)"', read("src/" + file), re.M):
+            for header in place[name] if len(place[name]) == 1 else ():
+                wing, folder = header.split("/")[0], "/".join(header.split("/")[:2])
+                if own != "effects" and wing == "effects" and header[len("effects/"):] not in ENTRIES:
+                    yield file, "includes %s, which is no entry of the effects" % header
+                elif own == "core" and wing != "effects" and not allowed(file, wing, folder):
+                    yield file, "includes " + header
+    for file in sorted(edges):
+        own = file.split("/")[0]
+        for other in sorted(edges[file]) if WING.fullmatch(own) else ():
+            wing, folder = other.split("/")[0], "/".join(other.split("/")[:2])
+            if own != "effects" and wing == "effects":
+                inner = [name for name in edges[file][other] if not re.search(r"\b%s\(" % name, declared)]
+                yield from ((file, "calls %s of %s" % (name, other)) for name in sorted(inner))
+            elif own == "core" and not allowed(file, wing, folder):
+                yield file, "calls %s of %s" % (", ".join(sorted(edges[file][other])), other)
+
+
+TOPS = "src|program|classroom|tools|tests|include|web|scripts|bench|examples|docs"
 # What is asked of the system that a program is compiled for, outside the one folder that knows Windows.
 WINDOWS = re.compile(r"\b_WIN\w*\b|\b__MINGW\w*|<windows\.h>")
 NAMED = re.compile(r"(?<![\w./-])((?:%s)/[\w./-]*\w)" % TOPS)  # a path from the root
@@ -154,7 +210,7 @@ def missing_files():
                 if not (os.path.exists(os.path.join(ROOT, name)) or glob.glob(os.path.join(ROOT, name) + "*") or
                         "DATE" in name or name in ELSEWHERE):
                     yield file, name
-            if file.startswith(("src/", "classroom/")) and not file.endswith(".md") and "//" in line:
+            if file.startswith(("src/", "program/", "classroom/")) and not file.endswith(".md") and "//" in line:
                 yield from ((file, name) for name in BARE.findall(line.split("//", 1)[1]) if name not in known | ELSEWHERE)
 
 
@@ -163,7 +219,7 @@ NAMED_LOBE = re.compile(r"[!=]= *LAM_REFLECTION_(?!NONE\b|AUTO\b)\w+")
 
 def windows_elsewhere():
     """Files of C that ask for Windows outside src/system."""
-    for top in ("src", "tools", "classroom", "include"):
+    for top in ("src", "program", "tools", "classroom", "include"):
         for path, folders, names in os.walk(os.path.join(ROOT, top)):
             folders[:] = [f for f in folders if os.path.relpath(os.path.join(path, f), ROOT) != os.path.join("src", "system")]
             for name in sorted(names):
@@ -173,9 +229,9 @@ def windows_elsewhere():
 
 def large_folders():
     """Folders of the library, the program and the page with more than 25 files: nobody finds one at a glance."""
-    for top in ("src", "tools", "classroom", "web"):
+    for top in ("src", "program", "tools", "classroom", "web"):
         for path, folders, names in os.walk(os.path.join(ROOT, top)):
-            folders[:] = [name for name in folders if name != "node_modules"]
+            folders[:] = [name for name in folders if name not in ("node_modules", "tests")]
             if len(names) > 25:
                 yield os.path.relpath(path, ROOT), len(names)
 
@@ -187,13 +243,13 @@ def page_folders():
     """The folders of the page in their order: the list in web/bundle.py. Scripts outside web/page come before them: they know nothing of the page."""
     text = open(os.path.join(ROOT, "web", "bundle.py"), encoding="utf-8").read()
     names = re.findall(r'"([\w.]+)"', re.search(r"^FOLDERS = \[(.*)\]", text, re.M)[1])
-    return ["web", "web/check", *(os.path.normpath("web/page/" + name) for name in names)]
+    return ["web", "classroom/web", *(os.path.normpath("web/page/" + name) for name in names)]
 
 
 def script_imports():
     """{file: {imported file: [the text of the import]}} of the scripts of web/, with what is imported when it is first used."""
     edges = {}
-    for pattern in ("web/*.js", "web/check/*.js", "web/page/**/*.js"):
+    for pattern in ("web/*.js", "classroom/web/*.js", "web/page/**/*.js"):
         for file in glob.glob(pattern, root_dir=ROOT, recursive=True):
             edges[file] = collections.defaultdict(list)
             for name in IMPORT.findall(open(os.path.join(ROOT, file), encoding="utf-8").read()):
@@ -217,12 +273,12 @@ def imports_back():
 
 
 def lobes_asked_by_name():
-    """(file, comparison) for each reflection model that the library compares by its name."""
+    """(file, comparison) for each reflection model that the library compares by its name. The lecture style spells out the equations of a few models."""
     src = os.path.join(ROOT, "src")
     for path, _, names in os.walk(src):
         for name in sorted(names):
             file = os.path.relpath(os.path.join(path, name), src)
-            if file.endswith((".c", ".h", ".inc")):
+            if file.endswith((".c", ".h", ".inc")) and not file.startswith("gpu/glsl/lecture/"):
                 yield from ((file, found) for found in NAMED_LOBE.findall(open(os.path.join(src, file), encoding="utf-8").read()))
 
 
@@ -231,7 +287,7 @@ FUNCTION = re.compile(r"^[a-z_][\w *]*?\b(\w+)\(((?:[^()]|\([^()]*\))*)\)\s*[{;]
 
 def long_parameter_lists():
     """(file, function, count) for each function with more than 8 parameters that is not public."""
-    for top in ("src", "tools", "classroom", "web"):
+    for top in ("src", "program", "tools", "classroom", "web"):
         for path, _, names in os.walk(os.path.join(ROOT, top)):
             for name in sorted(names):
                 if name.endswith((".c", ".h", ".inc", ".cpp")):
@@ -251,12 +307,12 @@ def options_in_messages():
     which no header has. The library of checks (classroom/check) belongs to the command `check`: its hints name its options."""
     def read(path):
         return open(os.path.join(ROOT, path), encoding="utf-8").read()
-    known = set(re.findall(r'\{"(lam_\w+(?:\.\w+)?)", "--', read("tools/base/option_names.c")))
+    known = set(re.findall(r'\{"(lam_\w+(?:\.\w+)?)", "--', read("program/base/option_names.c")))
     known |= {"lam_draw_params." + member for member in re.findall(r"MEMBER\(\w+, (\w+)\)", read("src/core/scene/fields/settings.c"))}
     headers = "".join(read("include/lambent/" + name) for name in os.listdir(os.path.join(ROOT, "include/lambent")))
     for field in sorted(known):
         if not re.search(r"\b%s\b" % field.split(".")[-1], headers):
-            yield "tools/base/option_names.c", field + " is in no header"
+            yield "program/base/option_names.c", field + " is in no header"
     for path, _, names in os.walk(os.path.join(ROOT, "src")):
         for name in sorted(names):
             file = os.path.relpath(os.path.join(path, name), ROOT)
@@ -268,20 +324,22 @@ def options_in_messages():
 
 
 def main():
-    edges, order = graph(sys.argv[1]), library_folders() + floors()
+    edges, order = graph(sys.argv[1]), Order()
     used = lambda a, b: "%s uses %s: %s" % (a, b, ", ".join(sorted(edges[a][b])[:6]))  # noqa: E731
-    back = sorted((a, b) for a in edges for b in edges[a] if order.index(folder_of(b)) > order.index(folder_of(a)))
+    enters = lambda a, b: a.startswith("core/") and b.startswith("effects/")  # noqa: E731  the eleventh rule
+    back = sorted((a, b) for a in edges for b in edges[a] if not order.allows(folder_of(a), folder_of(b)) and not enters(a, b))
     rules = [
         ("no circle between files", [used(a, b) for part in circles(edges) for a in part for b in part if b in edges[a]]),
         ("no folder uses one below it", [used(a, b) for a, b in back]),
         ("files that pages and comments name are there", ["%s names %s" % one for one in sorted(set(missing_files()))]),
         ("what is asked of a lobe is asked of its row", ["src/%s: %s" % one for one in lobes_asked_by_name()]),
-        ("no folder of the program includes a header from one below it", ["%s includes %s" % one for one in headers_back(order)]),
+        ("no folder of a program includes a header from one below it, or from the other program", ["%s includes %s" % one for one in headers_back(order)]),
         ("no text of the library names an option of the program", ["%s: %s" % one for one in options_in_messages()]),
         ("Windows is known to src/system alone", ["%s asks for it" % file for file in sorted(windows_elsewhere())]),
         ("no folder has more than 25 files", ["%s has %d" % one for one in sorted(large_folders())]),
         ("no script of the page imports from a folder after its own", ["%s %s" % one for one in imports_back()]),
-        ("no internal function has more than 8 parameters", ["%s: %s has %d" % one for one in long_parameter_lists()])]
+        ("no internal function has more than 8 parameters", ["%s: %s has %d" % one for one in long_parameter_lists()]),
+        ("the wings of src use one another only as listed", ["%s %s" % one for one in leaves_wing(edges)])]
     print("1..%d" % len(rules))
     for number, (rule, complaints) in enumerate(rules, 1):
         print("%s %d - %s" % ("not ok" if complaints else "ok", number, rule))

@@ -19,7 +19,7 @@ import english
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FORMATTER = "clang-format-19"
 REMEMBERED = os.path.join(ROOT, "build-test", "style.json")
-FOLDERS = ("include", "src", "classroom", "tools", "examples", "bench", "docs", "tests", "web")
+FOLDERS = ("include", "src", "program", "classroom", "tools", "examples", "bench", "docs", "tests", "web")
 
 
 def sources(folder):

@@ -62,7 +62,7 @@ CURVES = [(["sphere", "--light", LAMP], {"light": 0, "farthest": 8, "shininess":
            [("attenuation", "attenuation", "1/0/0", 0, 4), ("spot", "spot", "cutoff=30,exponent=8", 0, 90), ("highlight", "highlight", "50", 1, 90)])]
 EXPLAINED = [["cube.obj", "--size", "96"], ["torus-knot", "--size", "96", "--reflection", "phong"]]
 
-# Checks: a program of tests/check, a contract ("" means recognised), whether its vertex shader is given, and an edit of the fragment
+# Checks: a program of classroom/tests/check, a contract ("" means recognised), whether its vertex shader is given, and an edit of the fragment
 # shader.
 CHECKS = [("angel", "", True, None), ("oregon-no-gate", "", True, None), ("nyu-direction", "nyu", False, None), ("pittsburgh-vertex", "", True, None),
           ("pittsburgh", "pittsburgh", True, ("max(dot(n, h), 0.0)", "max(dot(reflect(-l, n), v), 0.0)")), ("threejs-pbr", "", True, None),
@@ -187,11 +187,11 @@ def check_module(results, program):
                    str(sorted(set(options) - listed)))
 
 def check_checks(results, recorder):
-    module = os.path.join(OUT, "wasm", "web", "check.wasm")
+    module = os.path.join(OUT, "wasm", "classroom", "web", "check.wasm")
     with tempfile.TemporaryDirectory() as folder:
         files, asked = [], []
         for name, contract, has_vertex, edit in CHECKS:
-            shaders = os.path.join(ROOT, "tests", "check", name)
+            shaders = os.path.join(ROOT, "classroom", "tests", "check", name)
             vertex = open(shaders.replace("-no-gate", "") + ".vert").read() if has_vertex else ""
             fragment = open(shaders + ".frag").read()
             if edit:
@@ -204,7 +204,7 @@ def check_checks(results, recorder):
                 print("# no OpenGL: checks are not compared")
                 return
             results.ok(done.returncode == 0, "recorded: " + name, done.stderr)
-        done = subprocess.run(["node", os.path.join(ROOT, "tests", "web", "check.mjs"), module, *files], stdout=subprocess.PIPE,
+        done = subprocess.run(["node", os.path.join(ROOT, "classroom", "tests", "web", "check.mjs"), module, *files], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True, input="".join(json.dumps(one) + "\n" for one in asked))
         lines = done.stdout.splitlines()
         for line in lines:

@@ -103,6 +103,7 @@ def make_offline(served, bundles):
 
 
 OFFLINE, DECODERS = "offline_worker.js", "lambent-decoders.wasm"
+CHECK = "wasm/classroom/web/check.wasm" # built by classroom/web/meson.build
 ALONE = "alone.html" # lambent.html next to the served page, from which pages with a model are made
 PACKED = (".js", ".css", ".html", ".wasm")
 PACKER = """
@@ -134,7 +135,7 @@ def make_page(folder):
     for name in ("lambent.d.ts", "threads.d.ts"):
         files[name] = open(os.path.join(HERE, name)).read()
     files[DECODERS] = open(os.path.join(folder, "decoders.wasm"), "rb").read()
-    files["check.wasm"] = open(os.path.join(modules, "check.wasm"), "rb").read()
+    files["check.wasm"] = open(os.path.join(folder, CHECK), "rb").read()
     editor = bundle.codemirror(folder, packages(folder))
     if editor:
         files[bundle.CODEMIRROR] = editor
@@ -165,8 +166,8 @@ def make_one_file(folder, bundles, editor):
     page = page.replace('<link rel="stylesheet" href="page.css">', "<style>%s</style>" % style)
     page = page.replace(SCRIPT, "")
     texts = {name[:-3].replace("_", "-"): bundles.inside[name] for name in (bundle.WORKER, bundle.THREAD, bundle.CHECK_WORKER)}
-    for name, file in (("wasm", "lambent.wasm"), ("check-wasm", "check.wasm")):
-        texts[name] = packed_text(open(os.path.join(folder, "wasm", "web", file), "rb").read())
+    for name, file in (("wasm", "wasm/web/lambent.wasm"), ("check-wasm", CHECK)):
+        texts[name] = packed_text(open(os.path.join(folder, file), "rb").read())
     texts["decoders"] = packed_text(open(os.path.join(folder, "decoders.wasm"), "rb").read())
     if editor:
         texts["codemirror"] = packed_text(editor)

@@ -13,7 +13,7 @@ ROOT = os.path.dirname(HERE)
 
 PAGE = "page.js"
 WORKER, THREAD, CHECK_WORKER = "worker.js", "thread.js", "check_worker.js" # each runs in a thread of its own
-SOURCES = {PAGE: "page/page.js", WORKER: "page/worker/worker.js", THREAD: "thread.js", CHECK_WORKER: "check/check_worker.js"}
+SOURCES = {PAGE: "web/page/page.js", WORKER: "web/page/worker/worker.js", THREAD: "web/thread.js", CHECK_WORKER: "classroom/web/check_worker.js"}
 # The folders of page/ in their order: a file imports only from its own folder and from folders before it (tests/structure.py). "." is page/ itself.
 FOLDERS = ["base", "words", "worker", "shared", "controls", "picture", "files", "explain", "lights", "tabs", "shaders", "."]
 CODEMIRROR = "codemirror.js" # made from npm packages
@@ -30,8 +30,8 @@ def write(path, content):
 
 
 def correct_programs():
-    """The correct programs of the contracts (tests/check) that WebGL 2 can draw. GLSL ES 3.00 has no blocks of varyings."""
-    return sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "tests", "check")) if name.endswith(".vert") and name != "pittsburgh-blocks.vert")
+    """The correct programs of the contracts (classroom/tests/check) that WebGL 2 can draw. GLSL ES 3.00 has no blocks of varyings."""
+    return sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "classroom", "tests", "check")) if name.endswith(".vert") and name != "pittsburgh-blocks.vert")
 
 
 def programs():
@@ -40,7 +40,7 @@ def programs():
     rows = []
     for name in correct_programs():
         mine = max((contract for contract in contracts if name == contract or name.startswith(contract + "-")), key=len)
-        texts = {part: open(os.path.join(ROOT, "tests", "check", name + ending)).read() for part, ending in (("vertex", ".vert"), ("fragment", ".frag"))}
+        texts = {part: open(os.path.join(ROOT, "classroom", "tests", "check", name + ending)).read() for part, ending in (("vertex", ".vert"), ("fragment", ".frag"))}
         rows.append({"name": name, "contract": mine, **texts})
     return "export const PROGRAMS = %s;\n" % json.dumps(rows)
 
@@ -59,7 +59,7 @@ def codemirror(folder, modules):
         print("web: npm cannot install CodeMirror: shaders are edited in a plain field", flush=True)
         return None
     facts, made = os.path.join(folder, "npm", "codemirror.json"), os.path.join(folder, "npm", CODEMIRROR)
-    esbuild(os.path.join(HERE, "check", "codemirror.src.js"), *COMMON, "--format=esm", "--metafile=" + facts, "--outfile=" + made,
+    esbuild(os.path.join(ROOT, "classroom", "web", "codemirror.src.js"), *COMMON, "--format=esm", "--metafile=" + facts, "--outfile=" + made,
             env={**os.environ, "NODE_PATH": modules})
     used = sorted({re.search(r"node_modules/((?:@[^/]+/)?[^/]+)/", name)[1] for name in json.load(open(facts))["inputs"] if "node_modules/" in name})
     licences = {}
@@ -72,9 +72,9 @@ def codemirror(folder, modules):
 def gather(folder):
     """Copies all scripts to FOLDER/scripts, in the same folders, and adds the correct programs, so that their imports work."""
     place = os.path.join(folder, "scripts")
-    names = [name for pattern in ("*.js", "check/*.js", "page/**/*.js") for name in glob.glob(pattern, root_dir=HERE, recursive=True)]
-    texts = {name: open(os.path.join(HERE, name)).read() for name in names}
-    texts["page/shaders/programs.js"] = programs()
+    names = [name for pattern in ("web/*.js", "classroom/web/*.js", "web/page/**/*.js") for name in glob.glob(pattern, root_dir=ROOT, recursive=True)]
+    texts = {name: open(os.path.join(ROOT, name)).read() for name in names}
+    texts["web/page/shaders/programs.js"] = programs()
     for name, text in texts.items():
         path = os.path.join(place, name)
         os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -98,7 +98,7 @@ class Bundles:
         outputs = {os.path.basename(path): facts for path, facts in json.load(open(facts))["outputs"].items()}
         self.first = self._with_imports(outputs, [PAGE])
         self.worker = self._with_imports(outputs, [WORKER])
-        shaders = [name for name, facts in outputs.items() if facts.get("entryPoint") == "page/shaders/shaders.js"]
+        shaders = [name for name, facts in outputs.items() if facts.get("entryPoint") == "web/page/shaders/shaders.js"]
         self.later = [name for name in outputs if name not in self.first + self.worker]
         self.shaders = shaders + [CHECK_WORKER]
         for name in (THREAD, CHECK_WORKER):

@@ -14,7 +14,7 @@ import module_parts  # noqa: E402
 # Parts of the module: title, and a pattern for a symbol's object in the map. The first match
 # counts.
 PARTS = [
-    ("drawing: the kernels with SIMD", r"cpu-wasm\.a\.p"),
+    ("drawing: the kernels with SIMD", r"-wasm\.a\.p"),
     ("explaining: the shading that keeps its numbers", r"cpu-recording\.a\.p"),
     ("JPEG", r"libjpeg"),
     ("PNG", r"libspng|libz\.a|lambent-image\.a\.p/png_"),

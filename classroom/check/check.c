@@ -1,13 +1,10 @@
 // check.c: runs a check: parses the shaders, draws the scenes, and compares the pictures.
 #include "check_run.h"
-#include "check_draw.h"
-#include "compiler_hints.h"
-#include "default_vertex_shader.h"
-#include "gl_painter.h"
-#include "infer.h"
-#include "own_texts.h"
+#include "draw_request.h"
+#include "diagnostics.h"
+#include "shader_dialect.h"
 #include "recognise.h"
-#include "shader_diagnostics.h"
+#include "own_texts.h"
 
 #include <stddef.h>
 #include <stdio.h>

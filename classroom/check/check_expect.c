@@ -7,7 +7,7 @@
 #include "expectation.h"
 #include "fail.h"
 #include "render_cache.h"
-#include "shader_constants.h"
+#include "shader_interface.h"
 
 // Returns x^(1/2.2) for x from 0 to 1. Newton's method solves y^11 = x^5 for y, starting at 1.
 static double gamma_encoded(double x)

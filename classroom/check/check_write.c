@@ -8,9 +8,8 @@
 
 #include "check_run.h"
 #include "fail.h"
-#include "fixed_state.h"
-#include "infer.h"
 #include "own_texts.h"
+#include "recognise.h"
 #include "json_parse.h"
 
 // The advice on how to correct an entry with this role. The advice is "" if only the role can be wrong.

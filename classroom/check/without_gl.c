@@ -1,6 +1,6 @@
 // without_gl.c: replaces the OpenGL painter in builds without the headers of EGL and OpenGL. In such builds, the caller
 // must provide a painter.
-#include "gl_painter.h"
+#include "draw_request.h"
 
 #include <stddef.h>
 

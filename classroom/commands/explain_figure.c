@@ -1,17 +1,28 @@
 // explain_figure.c: draws the figure of `explain -o`. The figure shows the vectors n, l, v, r and h as arrows on the
 // surface, and the same vectors from the side. For threads, the figure shows t instead of r and h. Tables list the
 // point's coordinates, the vectors, the angles and the terms.
-#include "explain_figure.h"
+#include "commands.h"
 
+#include <jansson.h>
+#include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include <lambent/camera.h>
+
+#include "child.h"
 #include "console.h"
+#include "drawing.h"
+#include "run.h"
+#include "sandbox_start.h"
 #include "vectors.h"
 
 enum { INK = 0x222222, GREY = 0x707070, RULE = 0xd8d8d8, WHITE = 0xffffff };
 // the number of arrows, and the panel's size in units
-enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190 };
+enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190, SIDE_MAX = 65535 };
 
 // Colours that remain distinct for colour-blind readers (Okabe and Ito, https://jfly.uni-koeln.de/color/).
 static const struct {
@@ -21,13 +32,21 @@ static const struct {
                     {"v", "to the eye", 0x007a59},      {"r", "mirrored light", 0xb0558a},
                     {"h", "between l and v", 0xd55e00}, {"t", "tangent", 0x4d4dff}};
 
+struct figure {
+    const json_t *explanation; // the line of `lambent explain --json`
+    int x, y, width, height;   // the explained pixel, and the size of the picture
+    bool threads;              // the reflection model shades threads
+    lam_camera camera;         // the camera that rendered the picture; only its projection is set
+    lam_image picture;
+};
+
 // The subject of the figure: the pixel's nearest surface, its shaded point, and the light that contributes most.
 struct subject {
-    const lam_explained_fragment *fragment; // NULL if there is only the background
-    const lam_explained_point *point;
-    const lam_explained_light *light; // NULL if no light contributes
-    bool threads;                     // shaded by the tangent t (Kajiya-Kay), which does not use r and h
-    lam_vec3 vectors[ARROWS];         // unit vectors; zero if a vector is missing or unused
+    const json_t *fragment;   // NULL if there is only the background
+    const json_t *point;      // NULL if nothing is shaded
+    const json_t *light;      // NULL if no light contributes
+    bool threads;             // shaded by the tangent t (Kajiya-Kay), which does not use r and h
+    lam_vec3 vectors[ARROWS]; // unit vectors; zero if a vector is missing or unused
 };
 
 struct sheet_layout {
@@ -36,39 +55,61 @@ struct sheet_layout {
     double y; // the position of the next line
 };
 
-static double sum_of(lam_rgb c) { return (double)c.r + (double)c.g + (double)c.b; }
+// --- the members of the explanation
 
-static struct subject find_subject(const lam_explanation *e)
+static const json_t *member(const json_t *o, const char *key) { return json_object_get(o, key); }
+static const json_t *element(const json_t *list, size_t i) { return json_array_get(list, i); }
+
+// Returns a number, or NaN if it is missing.
+static double number_of(const json_t *number)
 {
-    struct subject s = {0};
-    if (!e->fragment_count)
-        return s;
-    s.fragment = &e->fragments[0];
-    int corner = 0;
-    for (int i = 1; i < s.fragment->point_count; i++)
-        corner = s.fragment->weights[i] > s.fragment->weights[corner] ? i : corner;
-    s.point = s.fragment->point_count ? &s.fragment->points[corner] : NULL;
+    return json_is_number(number) ? json_number_value(number) : (double)NAN;
+}
+static double number(const json_t *o, const char *key) { return number_of(member(o, key)); }
+static int whole(const json_t *o, const char *key) { return (int)json_integer_value(member(o, key)); }
+static const char *text_of(const json_t *o, const char *key) { return json_string_value(member(o, key)); }
+
+// Returns a vector or a colour; zero if it is missing.
+static lam_vec3 vector(const json_t *o, const char *key)
+{
+    const json_t *list = member(o, key);
+    return (lam_vec3){json_number_value(element(list, 0)), json_number_value(element(list, 1)),
+                      json_number_value(element(list, 2))};
+}
+
+static double sum_of(const json_t *o, const char *key)
+{
+    lam_vec3 c = vector(o, key);
+    return c.x + c.y + c.z;
+}
+
+static struct subject find_subject(const struct figure *f)
+{
+    struct subject s = {.fragment = element(member(f->explanation, "triangles"), 0)};
+    const json_t *points = member(s.fragment, "points"), *weights = member(s.fragment, "weights");
+    size_t corner = 0;
+    for (size_t i = 1; i < json_array_size(points); i++)
+        corner = number_of(element(weights, i)) > number_of(element(weights, corner)) ? i : corner;
+    s.point = element(points, corner);
     double most = 0;
-    for (int i = 0; s.point && i < s.point->light_count; i++) {
-        const lam_explained_light *l = &s.point->lights[i];
-        double here = sum_of(l->diffuse_term) + sum_of(l->specular_term) + sum_of(l->ambient_term);
+    const json_t *lights = member(s.point, "lights");
+    for (size_t i = 0; i < json_array_size(lights); i++) {
+        const json_t *l = element(lights, i);
+        double here = sum_of(l, "diffuse_term") + sum_of(l, "specular_term") + sum_of(l, "ambient_term");
         if (here > most) {
             most = here;
             s.light = l;
         }
     }
-    if (s.point) {
-        s.vectors[0] = s.point->n;
-        s.vectors[2] = s.point->v;
-    }
-    s.threads = s.point && !is_zero(s.point->t) && lam_reflection_describe(s.fragment->reflection)->tangents;
+    s.vectors[0] = vector(s.point, "n");
+    s.vectors[2] = vector(s.point, "v");
+    s.threads = f->threads && !is_zero(vector(s.point, "t"));
     if (s.threads)
-        s.vectors[5] = s.point->t;
-    if (s.light)
-        s.vectors[1] = s.light->l;
-    if (s.light && !s.threads) {
-        s.vectors[3] = s.light->r;
-        s.vectors[4] = s.light->h;
+        s.vectors[5] = vector(s.point, "t");
+    s.vectors[1] = vector(s.light, "l");
+    if (!s.threads) {
+        s.vectors[3] = vector(s.light, "r");
+        s.vectors[4] = vector(s.light, "h");
     }
     return s;
 }
@@ -179,35 +220,33 @@ static bool draw_diagram(const struct diagram *g, struct drawing *d, lam_error *
 
 // Computes the positions of the arrows' tips in the picture. Each arrow starts at the shaded point and has the length
 // `length` in the scene. Returns false if a tip is outside the picture.
-static bool find_tips(const struct explain_figure *f, const struct subject *s, double length, double margin,
+static bool find_tips(const struct figure *f, const struct subject *s, double length, double margin,
                       struct point tips[ARROWS])
 {
     bool inside = true;
     for (int i = 0; i < ARROWS; i++) {
-        lam_vec3 from = s->point->position, v = s->vectors[i];
+        lam_vec3 from = vector(s->point, "position"), v = s->vectors[i];
         lam_vec3 to = {from.x + length * v.x, from.y + length * v.y, from.z + length * v.z};
-        int width = f->explanation->width, height = f->explanation->height;
         if (is_zero(v))
             continue;
-        inside = lam_camera_project(f->camera, width, height, to, &tips[i].x, &tips[i].y) && inside;
-        inside = inside && tips[i].x > margin && tips[i].y > margin && tips[i].x < width - margin &&
-                 tips[i].y < height - margin;
+        inside = lam_camera_project(&f->camera, f->width, f->height, to, &tips[i].x, &tips[i].y) && inside;
+        inside = inside && tips[i].x > margin && tips[i].y > margin && tips[i].x < f->width - margin &&
+                 tips[i].y < f->height - margin;
     }
     return inside;
 }
 
 // Draws the arrows on the picture, with a dot at the point. The arrows are shortened until all of them fit.
-static bool draw_vectors(const struct explain_figure *f, const struct subject *s, struct point corner, double unit,
+static bool draw_vectors(const struct figure *f, const struct subject *s, struct point corner, double unit,
                          struct drawing *d, lam_error *error)
 {
-    const lam_explanation *e = f->explanation;
     struct point from, tips[ARROWS] = {{0, 0}}, beside;
-    lam_vec3 p = s->point->position;
-    if (!lam_camera_project(f->camera, e->width, e->height, p, &from.x, &from.y) ||
-        !lam_camera_project(f->camera, e->width, e->height, (lam_vec3){p.x + 1, p.y, p.z}, &beside.x, &beside.y))
+    lam_vec3 p = vector(s->point, "position");
+    if (!lam_camera_project(&f->camera, f->width, f->height, p, &from.x, &from.y) ||
+        !lam_camera_project(&f->camera, f->width, f->height, (lam_vec3){p.x + 1, p.y, p.z}, &beside.x, &beside.y))
         return true;
-    double shorter = e->width < e->height ? e->width : e->height, length = 0.34 * shorter / (beside.x - from.x);
-    if (!(f->camera->ortho_half_height > 0) && length > -0.5 * p.z)
+    double shorter = f->width < f->height ? f->width : f->height, length = 0.34 * shorter / (beside.x - from.x);
+    if (!(f->camera.ortho_half_height > 0) && length > -0.5 * p.z)
         length = -0.5 * p.z;
     double least = length / 4;
     while (!find_tips(f, s, length, 24 * unit, tips) && length > least)
@@ -230,8 +269,9 @@ static bool draw_from_the_side(const struct subject *s, const struct sheet_layou
     struct point foot = {(at->left + at->right) / 2, at->y + 148 * u};
     lam_vec3 n = s->vectors[0], other = is_zero(s->vectors[1]) ? s->vectors[2] : s->vectors[1];
     if (s->threads) {
-        double along = dot(other, s->point->t);
-        lam_vec3 t = s->point->t, across = {other.x - along * t.x, other.y - along * t.y, other.z - along * t.z};
+        lam_vec3 t = s->vectors[5];
+        double along = dot(other, t);
+        lam_vec3 across = {other.x - along * t.x, other.y - along * t.y, other.z - along * t.z};
         double length_across = __builtin_sqrt(dot(across, across));
         if (length_across > 1e-4)
             n = (lam_vec3){across.x / length_across, across.y / length_across, across.z / length_across};
@@ -294,37 +334,44 @@ static void put_row(struct drawing *d, struct sheet_layout *at, uint32_t color, 
     }
 }
 
-static void put_color(struct drawing *d, struct sheet_layout *at, const char *name, lam_rgb c)
-{
-    put_row(d, at, GREY, name, (double[3]){(double)c.r, (double)c.g, (double)c.b}, 3);
-}
-
 static void put_vector(struct drawing *d, struct sheet_layout *at, uint32_t color, const char *name, lam_vec3 v)
 {
     put_row(d, at, color, name, (double[3]){v.x, v.y, v.z}, 3);
 }
 
+// Prints the numbers of a member of an object.
+static void put_member(struct drawing *d, struct sheet_layout *at, const char *name, const json_t *o, const char *key)
+{
+    double numbers[4] = {0};
+    const json_t *list = member(o, key);
+    int count = json_array_size(list) < 4 ? (int)json_array_size(list) : 4;
+    for (int i = 0; i < count; i++)
+        numbers[i] = number_of(element(list, (size_t)i));
+    put_row(d, at, GREY, name, numbers, count);
+}
+
 // Prints the point's coordinates in each space, from the mesh to the window.
-static bool put_places(const lam_explained_fragment *f, struct drawing *d, struct sheet_layout *at, lam_error *error)
+static bool put_places(const json_t *fragment, struct drawing *d, struct sheet_layout *at, lam_error *error)
 {
     static const char *const columns[] = {"x", "y", "z", "w", NULL};
-    const lam_explained_place *p = f->places ? &f->places[3] : NULL;
+    const json_t *p = element(member(fragment, "places"), 3);
     if (!p)
         return true;
     if (!begin_table(d, at, "The point", columns, error))
         return false;
-    put_vector(d, at, GREY, "object", p->mesh_position);
-    put_vector(d, at, GREY, "eye", p->eye_position);
-    put_row(d, at, GREY, "clip", p->clip, 4);
-    put_row(d, at, GREY, "NDC", p->ndc, 3);
-    put_row(d, at, GREY, "window", p->window, 3);
+    put_member(d, at, "object", p, "object");
+    put_member(d, at, "eye", p, "eye");
+    put_member(d, at, "clip", p, "clip");
+    put_member(d, at, "NDC", p, "ndc");
+    put_member(d, at, "window", p, "window");
     char text[100];
-    if (f->winding - f->winding != 0)
+    double winding = number(fragment, "winding");
+    if (winding - winding != 0)
         return true;
     at->y += 18 * at->unit;
     put(d, at, 0, ALIGN_LEFT, GREY, "winding");
-    snprintf(text, sizeof text, "%s, the %s; 2 · area = %.5g pixels",
-             f->winding > 0 ? "counter-clockwise" : "clockwise", f->back ? "back" : "front", f->winding);
+    snprintf(text, sizeof text, "%s, the %s; 2 · area = %.5g pixels", winding > 0 ? "counter-clockwise" : "clockwise",
+             text_of(fragment, "side"), winding);
     put(d, at, 100, ALIGN_LEFT, INK, text);
     return true;
 }
@@ -345,12 +392,12 @@ static bool put_vectors(const struct subject *s, struct drawing *d, struct sheet
     if (!s->light)
         return true;
     char text[160];
-    double angles[3] = {in_degrees(s->light->theta_rad), in_degrees(s->light->phi_rad), in_degrees(s->light->psi_rad)};
+    const double angles[3] = {number(s->light, "theta_deg"), number(s->light, "phi_deg"), number(s->light, "psi_deg")};
     static const char *const names[3] = {"θ(n, l)", "φ(r, v)", "ψ(n, h)"};
     text[0] = 0;
     if (s->threads)
-        snprintf(text, sizeof text, "cos(t, l) = %.5g, cos(t, v) = %.5g", dot(s->point->t, s->light->l),
-                 dot(s->point->t, s->point->v));
+        snprintf(text, sizeof text, "cos(t, l) = %.5g, cos(t, v) = %.5g", dot(s->vectors[5], s->vectors[1]),
+                 dot(s->vectors[5], s->vectors[2]));
     for (int i = 0; !s->threads && i < 3; i++)
         if (angles[i] - angles[i] == 0)
             snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s = %.4g°", *text ? ", " : "", names[i],
@@ -361,115 +408,113 @@ static bool put_vectors(const struct subject *s, struct drawing *d, struct sheet
 }
 
 // Prints the factors of the drawn light and the terms of the sum.
-static bool put_terms(const lam_explanation *e, const struct subject *s, struct drawing *d, struct sheet_layout *at,
+static bool put_terms(const json_t *e, const struct subject *s, struct drawing *d, struct sheet_layout *at,
                       lam_error *error)
 {
     static const char *const columns[] = {"red", "green", "blue", NULL};
-    const lam_explained_point *p = s->point;
-    if (!begin_table(d, at, p->corner >= 0 ? "Terms at the corner" : "Terms", columns, error))
+    static const char *const keys[] = {"emission", "ambient", "diffuse", "specular", "reflection"};
+    const json_t *terms = member(s->point, "terms"), *bytes = member(e, "bytes");
+    if (!begin_table(d, at, json_is_integer(member(s->point, "corner")) ? "Terms at the corner" : "Terms", columns,
+                     error))
         return false;
-    if (sum_of(p->emission) != 0)
-        put_color(d, at, "emission", p->emission);
-    put_color(d, at, "ambient", p->ambient);
-    put_color(d, at, "diffuse", p->diffuse);
-    put_color(d, at, "specular", p->specular);
-    if (e->has_environment)
-        put_color(d, at, "reflection", p->reflection);
-    put_color(d, at, "sum", p->sum);
+    for (int i = 0; i < 5; i++)
+        if ((i != 0 || sum_of(terms, keys[i]) != 0) && (i != 4 || json_is_object(member(s->point, "environment"))))
+            put_member(d, at, keys[i], terms, keys[i]);
+    put_member(d, at, "sum", s->point, "sum");
     char text[160];
     if (s->light) {
         at->y += 20 * at->unit;
         snprintf(text, sizeof text, "light: n·l = %.4g, attenuation %.4g, spot %.4g, D = %.4g, S = %.4g",
-                 (double)s->light->n_dot_l, (double)s->light->attenuation, (double)s->light->spot, (double)s->light->D,
-                 (double)s->light->S);
+                 number(s->light, "n_dot_l"), number(s->light, "attenuation"), number(s->light, "spot"),
+                 number(s->light, "D"), number(s->light, "S"));
         put(d, at, 0, ALIGN_LEFT, INK, text);
     }
     at->y += 18 * at->unit;
-    snprintf(text, sizeof text, "the pixel: %u %u %u, alpha %u", e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]);
+    snprintf(text, sizeof text, "the pixel: %g %g %g, alpha %g", number_of(element(bytes, 0)),
+             number_of(element(bytes, 1)), number_of(element(bytes, 2)), number_of(element(bytes, 3)));
     put(d, at, 0, ALIGN_LEFT, INK, text);
     return true;
 }
 
 // Prints the heading of the panel: the surface, the methods, and the light for which the arrows are drawn.
-static void put_words(const struct explain_figure *f, const struct subject *s, struct drawing *d,
-                      struct sheet_layout *at)
+static void put_words(const json_t *e, const struct subject *s, struct drawing *d, struct sheet_layout *at)
 {
-    const lam_explanation *e = f->explanation;
     char text[200];
     if (!s->fragment) {
         put(d, at, 0, ALIGN_LEFT, INK, "Only the background is visible here.");
         return;
     }
-    const char *item = s->fragment->corners == 3 ? "triangle" : s->fragment->corners == 2 ? "line" : "point";
-    snprintf(text, sizeof text, "%s %u%s%.60s, %s shading, %s reflection", item, s->fragment->triangle,
-             s->fragment->object_name ? " of " : "", s->fragment->object_name ? s->fragment->object_name : "",
-             e->shading == LAM_SHADING_PHONG     ? "Phong"
-             : e->shading == LAM_SHADING_GOURAUD ? "Gouraud"
-                                                 : "flat",
-             lam_reflection_describe(s->fragment->reflection)->word);
+    static const char *const items[] = {"triangle", "line", "point"};
+    const char *object = text_of(s->fragment, "object_name"), *shading = text_of(e, "shading");
+    int item = 0;
+    while (item < 2 && !member(s->fragment, items[item]))
+        item++;
+    snprintf(text, sizeof text, "%s %u%s%.60s, %s shading, %s reflection", items[item],
+             (unsigned)whole(s->fragment, items[item]), object ? " of " : "", object ? object : "",
+             strcmp(shading, "phong") == 0     ? "Phong"
+             : strcmp(shading, "gouraud") == 0 ? "Gouraud"
+                                               : "flat",
+             text_of(s->fragment, "model"));
     put(d, at, 0, ALIGN_LEFT, INK, text);
     at->y += 18 * at->unit;
     if (!s->point)
         return;
     int adding = 0;
-    for (int i = 0; i < s->point->light_count; i++)
-        adding += sum_of(s->point->lights[i].diffuse_term) + sum_of(s->point->lights[i].specular_term) > 0;
-    const char *name = s->light ? s->light->name : NULL;
+    const json_t *lights = member(s->point, "lights");
+    for (size_t i = 0; i < json_array_size(lights); i++)
+        adding += sum_of(element(lights, i), "diffuse_term") + sum_of(element(lights, i), "specular_term") > 0;
+    const char *name = text_of(s->light, "name");
     if (!s->light)
         snprintf(text, sizeof text, "no light adds anything here");
     else
         snprintf(text, sizeof text, "%s: %s light%s%.60s%s%s", s->threads ? "l" : "l, r and h",
-                 lam_light_type_describe(s->light->type)->word, name ? " '" : "", name ? name : "", name ? "'" : "",
+                 text_of(s->light, "type"), name ? " '" : "", name ? name : "", name ? "'" : "",
                  adding > 1 ? ", the strongest here" : "");
-    if (s->point->corner >= 0)
-        snprintf(text + strlen(text), sizeof text - strlen(text), "; at corner %d, which is lit", s->point->corner);
+    if (json_is_integer(member(s->point, "corner")))
+        snprintf(text + strlen(text), sizeof text - strlen(text), "; at corner %d, which is lit",
+                 whole(s->point, "corner"));
     put(d, at, 0, ALIGN_LEFT, GREY, text);
 }
 
 // --- the page
 
-static double unit_of(const lam_explanation *e)
+static double unit_of(const struct figure *f)
 {
-    double shorter = e->width < e->height ? e->width : e->height, unit = shorter / 640;
+    double shorter = f->width < f->height ? f->width : f->height, unit = shorter / 640;
     return unit > 0.75 ? unit : 0.75;
 }
 
 static double head_of(double unit) { return 52 * unit; }
 
-void explain_figure_size(const struct explain_figure *f, int *width, int *height)
+// Adds to a text. Omits what does not fit.
+__attribute__((format(printf, 2, 3))) static void add(char text[700], const char *format, ...)
 {
-    const lam_explanation *e = f->explanation;
-    double unit = unit_of(e), rows = PANEL_HEIGHT * unit;
-    *width = e->width + (int)((PANEL + 72) * unit);
-    *height = (int)(head_of(unit) + (rows > e->height ? rows : e->height) + 24 * unit);
+    size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, 700 - used, format, arguments);
+    va_end(arguments);
 }
 
 // Describes the figure in words for readers who cannot see it.
-static bool describe(const struct explain_figure *f, const struct subject *s, const char *title, struct drawing *d,
+static bool describe(const struct figure *f, const struct subject *s, const char *title, struct drawing *d,
                      lam_error *error)
 {
-    const lam_explanation *e = f->explanation;
-    char text[700];
-    int used = snprintf(text, sizeof text, "A picture of %d by %d pixels; the pixel %d,%d is explained.", e->width,
-                        e->height, e->x, e->y);
+    char text[700] = "";
+    add(text, "A picture of %d by %d pixels; the pixel %d,%d is explained.", f->width, f->height, f->x, f->y);
     if (!s->point)
         return drawing_describe(d, title, text, error);
-    lam_vec3 n = s->vectors[0], v = s->vectors[2], l = s->vectors[1];
-    used +=
-        snprintf(text + used, sizeof text - (size_t)used,
-                 " In eye space the normal n is (%.3g, %.3g, %.3g), the direction to the eye v is (%.3g, %.3g, %.3g)",
-                 n.x, n.y, n.z, v.x, v.y, v.z);
+    lam_vec3 n = s->vectors[0], v = s->vectors[2], l = s->vectors[1], t = s->vectors[5], sum = vector(s->point, "sum");
+    add(text, " In eye space the normal n is (%.3g, %.3g, %.3g), the direction to the eye v is (%.3g, %.3g, %.3g)", n.x,
+        n.y, n.z, v.x, v.y, v.z);
     if (s->light)
-        used += snprintf(text + used, sizeof text - (size_t)used,
-                         ", and the direction to the light l is (%.3g, %.3g, %.3g)", l.x, l.y, l.z);
+        add(text, ", and the direction to the light l is (%.3g, %.3g, %.3g)", l.x, l.y, l.z);
     if (s->threads)
-        used +=
-            snprintf(text + used, sizeof text - (size_t)used, ", and the tangent t of the thread is (%.3g, %.3g, %.3g)",
-                     s->vectors[5].x, s->vectors[5].y, s->vectors[5].z);
-    lam_rgb sum = s->point->sum;
-    snprintf(text + used, sizeof text - (size_t)used,
-             ". The terms' sum is (%.3g, %.3g, %.3g), and the pixel is %u %u %u with alpha %u.", (double)sum.r,
-             (double)sum.g, (double)sum.b, e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]);
+        add(text, ", and the tangent t of the thread is (%.3g, %.3g, %.3g)", t.x, t.y, t.z);
+    const json_t *bytes = member(f->explanation, "bytes");
+    add(text, ". The terms' sum is (%.3g, %.3g, %.3g), and the pixel is %g %g %g with alpha %g.", sum.x, sum.y, sum.z,
+        number_of(element(bytes, 0)), number_of(element(bytes, 1)), number_of(element(bytes, 2)),
+        number_of(element(bytes, 3)));
     return drawing_describe(d, title, text, error);
 }
 
@@ -494,30 +539,108 @@ static bool draw_ring(struct drawing *d, struct point middle, double unit, lam_e
     return draw_line(d, round, 33, 2 * unit, arrows[4].color, 0, error);
 }
 
-bool explain_figure_draw(const struct explain_figure *f, struct drawing *d, lam_error *error)
+static bool draw(const struct figure *f, const char *own_title, struct drawing *d, lam_error *error)
 {
-    const lam_explanation *e = f->explanation;
-    struct subject s = find_subject(e);
-    double unit = unit_of(e);
+    const json_t *e = f->explanation;
+    struct subject s = find_subject(f);
+    double unit = unit_of(f);
     char title[256];
-    const char *slash = strrchr(f->model, '/');
-    snprintf(title, sizeof title, "%.180s, pixel %d,%d", slash && slash[1] ? slash + 1 : f->model, e->x, e->y);
-    const char *words = f->title ? f->title : title;
-    struct point corner = {24 * unit, head_of(unit)};
-    struct sheet_layout at = {.unit = unit, .left = corner.x + e->width + 28 * unit, .y = head_of(unit) + 10 * unit};
+    const char *model = text_of(e, "model"), *slash = model ? strrchr(model, '/') : NULL;
+    snprintf(title, sizeof title, "%.180s, pixel %d,%d",
+             slash && slash[1] ? slash + 1
+             : model           ? model
+                               : "",
+             f->x, f->y);
+    const char *words = own_title ? own_title : title;
+    struct point corner = {(int)(24 * unit), (int)head_of(unit)};
+    struct sheet_layout at = {.unit = unit, .left = 24 * unit + f->width + 28 * unit, .y = head_of(unit) + 10 * unit};
     at.right = at.left + (PANEL - 4) * unit;
     if (!describe(f, &s, words, d, error))
         return false;
-    draw_text(d, (struct point){corner.x, 34 * unit}, 20 * unit, ALIGN_LEFT, INK, words);
-    if (!draw_image(d, f->picture, (int)corner.x, (int)corner.y, words, error))
+    draw_text(d, (struct point){24 * unit, 34 * unit}, 20 * unit, ALIGN_LEFT, INK, words);
+    if (!draw_image(d, &f->picture, (int)corner.x, (int)corner.y, words, error))
         return false;
-    put_words(f, &s, d, &at);
+    put_words(e, &s, d, &at);
     if (!s.point)
-        return draw_ring(d, (struct point){(int)corner.x + e->x + 0.5, (int)corner.y + e->y + 0.5}, unit, error);
+        return draw_ring(d, (struct point){corner.x + f->x + 0.5, corner.y + f->y + 0.5}, unit, error);
     at.y += 8 * unit;
-    corner = (struct point){(int)corner.x, (int)corner.y};
     bool ok = draw_vectors(f, &s, corner, unit, d, error) && draw_from_the_side(&s, &at, d, error);
     at.y += SIDE_HEIGHT * unit;
     return ok && put_places(s.fragment, d, &at, error) && put_vectors(&s, d, &at, error) &&
            put_terms(e, &s, d, &at, error);
 }
+
+// --- the request: a line of JSON about the page, the line of `lambent explain --json`, and the picture's pixels
+
+// Reads the request. The explanation belongs to the caller, even on failure.
+static bool read_request(const lam_bytes *request, struct figure *f, bool *svg, json_t **read, lam_error *error)
+{
+    const char *at = request->data, *end = at + request->size;
+    for (int i = 0; i < 2; i++) {
+        const char *line = at, *stop = at < end ? memchr(at, '\n', (size_t)(end - at)) : NULL;
+        at = stop ? stop + 1 : end;
+        read[i] = json_loadb(line, (size_t)(at - line), 0, NULL);
+    }
+    f->explanation = read[1];
+    f->width = whole(read[1], "width");
+    f->height = whole(read[1], "height");
+    f->x = whole(read[1], "x");
+    f->y = whole(read[1], "y");
+    f->camera.fovy_rad = number(read[0], "fovy_rad");
+    f->camera.ortho_half_height = number(read[0], "ortho_half_height");
+    f->threads = json_is_true(member(read[0], "threads"));
+    *svg = json_is_true(member(read[0], "svg"));
+    // The picture is not changed.
+    f->picture =
+        (lam_image){.width = f->width, .height = f->height, .format = LAM_RGBA8, .pixels = (void *)(uintptr_t)at};
+    bool fits = f->width > 0 && f->height > 0 && f->width <= SIDE_MAX && f->height <= SIDE_MAX;
+    return (fits && text_of(read[1], "shading") && 4 * (size_t)f->width * (size_t)f->height == (size_t)(end - at)) ||
+           complain(
+               error, LAM_BAD_ARGUMENT,
+               "lambent-classroom explain reads a request of `lambent explain MODEL X,Y -o FILE` of the same version");
+}
+
+bool classroom_figure(const struct options *o, const lam_bytes *request, lam_bytes *answer, lam_error *error)
+{
+    struct figure f = {0};
+    struct drawing drawing;
+    json_t *read[2];
+    bool svg, ok = read_request(request, &f, &svg, read, error);
+    double unit = unit_of(&f), rows = PANEL_HEIGHT * unit;
+    int width = f.width + (int)((PANEL + 72) * unit);
+    int height = (int)(head_of(unit) + (rows > f.height ? rows : f.height) + 24 * unit);
+    if (ok && (ok = drawing_open(&drawing, width, height, svg, !o->captions.no_captions, o->captions.font, error))) {
+        ok = draw(&f, o->captions.title, &drawing, error) && drawing_pack(&drawing, answer, error);
+        drawing_free(&drawing);
+    }
+    json_decref(read[0]);
+    json_decref(read[1]);
+    return ok;
+}
+
+#ifndef CLASSROOM_INSIDE // a static program calls classroom_figure
+// Answers with the page and exit code 0, or with the text of an error and its code. Without a request, lambent has
+// reported an error, and expects no answer.
+int run_figure(int operand_count, char **operands, const struct options *o)
+{
+    (void)operand_count, (void)operands;
+    struct sandbox_paths paths = {0};
+    struct child_bytes read = {0};
+    enum child_read state = CHILD_READ;
+    lam_bytes answer = {0};
+    lam_error error = {0};
+    bool ok = sandbox_start(o, &paths, &error);
+    while (ok && state == CHILD_READ)
+        state = child_read(STDIN_FILENO, &read, 1 << 16);
+    ok = ok && (state == CHILD_CLOSED || complain(&error, LAM_MACHINE, "out of memory"));
+    if (ok && read.size)
+        ok = classroom_figure(o, &(lam_bytes){read.data, read.size}, &answer, &error);
+    if (!ok)
+        fputs(error.text, stdout);
+    else if (answer.size)
+        fwrite(answer.data, 1, answer.size, stdout);
+    free(read.data);
+    lam_bytes_free(&answer);
+    return ok ? 0 : (int)error.code;
+}
+#endif

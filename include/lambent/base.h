@@ -1,7 +1,7 @@
 // lambent/base.h: errors, control of long calls, small vectors, and the rules of the whole interface.
 //
 // The headers are C11, and C++17 programs can include them too. Every call works on any thread with 256 kB of stack.
-// The library prints nothing, never exits, and keeps no global state.
+// The library prints nothing, never exits, and keeps no global state except the folders of lambent/path.h.
 //
 // Names: functions are lam_<thing>_<verb>, types lam_<thing>, constants LAM_<KIND>_<VALUE>. Names end with their unit:
 // _rad, _deg, _ms, _s, _px, _bytes. Lengths without a unit are in model units.

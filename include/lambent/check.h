@@ -7,6 +7,7 @@
 #define LAMBENT_CHECK_H
 
 #include "device.h"
+#include "light.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -92,7 +93,7 @@ typedef lam_check_draw_status lam_check_draw_fn(void *user, const lam_bytes *req
 // --- drawing for a check
 
 // A check draws the shaders under test, and its own shaders with known mistakes. The check draws with OpenGL, which is
-// loaded at run time, or with a painter that the caller provides: a web page draws with WebGL 2 (web/check/painter.js).
+// loaded at run time, or with a painter that the caller provides: a web page draws with WebGL 2 (classroom/web/painter.js).
 // The check alone chooses the meshes and their inputs and compares the pictures, so that the verdict is the same with
 // every painter.
 

@@ -6,6 +6,7 @@
 #define LAMBENT_EXPLAIN_H
 
 #include "device.h"
+#include "light.h"
 #include "material.h"
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// lambent/light.h: light sources and rigs (predefined sets of lights).
+// lambent/light.h: light sources.
 //
 // docs/lighting.md lists the equations. ⊙ multiplies channel by channel.
 #ifndef LAMBENT_LIGHT_H
@@ -106,35 +106,6 @@ LAM_API lam_light lam_light_default(lam_light_type type);
 
 // Checks a light's numbers against the ranges above. Fails with LAM_BAD_ARGUMENT, and the sentence names the field.
 LAM_API bool lam_light_check(const lam_light *light, lam_error *error);
-
-// Predefined sets of lights.
-typedef enum lam_rig {
-    // The scene's own lights. If there are none: the studio for classic materials, and for physical materials only the
-    // scene's environment, or the built-in environment "studio" if the scene has no environment.
-    LAM_RIG_AUTO = 0,
-    LAM_RIG_NONE, // only the scene's own lights, even if there are none
-    // The default look: a near key light, a fill and a rim light that move with the camera, and a hemisphere light,
-    // which classic materials reflect with kd, because many exporters write a black ka.
-    // Ambient occlusion applies in full to the fill light, and at 60 % to the key light and the rim light. In
-    // lam_scene_rig_lights without a ground, it applies in full to all of them, and curved models and terrains have a
-    // key light next to the eye, and no rim light.
-    LAM_RIG_STUDIO,
-    LAM_RIG_HEADLIGHT, // one directional light from the eye
-    // Directional key, fill and back lights as in portrait photography, fixed to the camera: diffuse and specular 0.8
-    // from (−1, 1, 1), 0.4 from (1, 0.25, 1), 0.6 from (0.5, 1, −1); ambient 0.05.
-    LAM_RIG_THREE_POINT,
-    // One point light in the direction (1, 2, 3) from the centre of the scene's sphere (lam_scene_sphere), rotated to
-    // the scene's up axis and scaled by the radius: ambient 0.1, diffuse and specular 1, attenuation 1, 0, 0.
-    LAM_RIG_LECTURE,
-} lam_rig;
-
-// The largest number of lights in a rig.
-enum { LAM_RIG_LIGHTS_MAX = 8 };
-
-// Writes the lights of a rig and returns their number, which is 0 for AUTO and NONE. Positions and attenuation are for
-// a scene whose sphere has its centre at the origin and radius 1; for LAM_FRAME_VIEW, half the diagonal of the box is
-// used as the radius. lam_scene_rig_lights places them in a scene.
-LAM_API int lam_rig_lights(lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX]);
 
 #ifdef __cplusplus
 }

@@ -3,7 +3,6 @@
 #define LAMBENT_SCENE_H
 
 #include "environment.h"
-#include "light.h"
 #include "mesh.h"
 #include "texture.h"
 
@@ -16,6 +15,36 @@ extern "C" {
 typedef struct lam_scene lam_scene;
 
 typedef struct lam_material lam_material; // material.h
+typedef struct lam_light lam_light;       // light.h
+
+// Predefined sets of lights.
+typedef enum lam_rig {
+    // The scene's own lights. If there are none: the studio for classic materials, and for physical materials only the
+    // scene's environment, or the built-in environment "studio" if the scene has no environment.
+    LAM_RIG_AUTO = 0,
+    LAM_RIG_NONE, // only the scene's own lights, even if there are none
+    // The default look: a near key light, a fill and a rim light that move with the camera, and a hemisphere light,
+    // which classic materials reflect with kd, because many exporters write a black ka.
+    // Ambient occlusion applies in full to the fill light, and at 60 % to the key light and the rim light. In
+    // lam_scene_rig_lights without a ground, it applies in full to all of them, and curved models and terrains have a
+    // key light next to the eye, and no rim light.
+    LAM_RIG_STUDIO,
+    LAM_RIG_HEADLIGHT, // one directional light from the eye
+    // Directional key, fill and back lights as in portrait photography, fixed to the camera: diffuse and specular 0.8
+    // from (−1, 1, 1), 0.4 from (1, 0.25, 1), 0.6 from (0.5, 1, −1); ambient 0.05.
+    LAM_RIG_THREE_POINT,
+    // One point light in the direction (1, 2, 3) from the centre of the scene's sphere (lam_scene_sphere), rotated to
+    // the scene's up axis and scaled by the radius: ambient 0.1, diffuse and specular 1, attenuation 1, 0, 0.
+    LAM_RIG_LECTURE,
+} lam_rig;
+
+// The largest number of lights in a rig.
+enum { LAM_RIG_LIGHTS_MAX = 8 };
+
+// Writes the lights of a rig, at most LAM_RIG_LIGHTS_MAX, and returns their number, which is 0 for AUTO and NONE. Positions and attenuation are for
+// a scene whose sphere has its centre at the origin and radius 1; for LAM_FRAME_VIEW, half the diagonal of the box is
+// used as the radius. lam_scene_rig_lights places them in a scene.
+LAM_API int lam_rig_lights(lam_rig rig, lam_light *lights);
 
 // The axis that points up.
 typedef enum lam_up {
@@ -371,8 +400,7 @@ LAM_API bool lam_scene_rotate(lam_scene *scene, lam_vec3 centre, lam_vec3 axis, 
 // Writes the lights that a rig adds to this scene, at their positions, and returns their number. The call works like
 // lam_rig_lights, but resolves LAM_RIG_AUTO. The lights of LAM_RIG_STUDIO differ for curved models and terrains, unless
 // the picture has a ground (`ground`).
-LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground,
-                                 lam_light lights[LAM_RIG_LIGHTS_MAX]);
+LAM_API int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light *lights);
 
 // Makes tangents for every mesh that has texture coordinates and no tangents, with MikkTSpace, which is the basis of
 // baked normal maps (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). At each corner, ∂p/∂s is

@@ -7,6 +7,7 @@
 
 #include "camera.h"
 #include "device.h"
+#include "light.h"
 #include "material.h"
 
 #ifdef __cplusplus

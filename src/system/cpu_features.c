@@ -16,7 +16,7 @@ unsigned cpu_features(void)
 #elif defined(__aarch64__)
     features |= CPU_NEON; // part of every 64-bit Arm processor
 #elif defined(__wasm_simd128__)
-    features |= CPU_WASM_SIMD; // a module with SIMD can be loaded only if the host supports it
+    features |= CPU_WASM; // a module with SIMD can be loaded only if the host supports it
 #endif
     return features;
 }

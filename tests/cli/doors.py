@@ -106,9 +106,9 @@ def values(about):
     describe the type that they expect in their own spelling."""
     if "anyOf" in about:
         return COLORS
-    if "enum" in about:
-        return {**{str(word): word for word in about["enum"]}, "unknown": "nonsense"}
-    kind = about["type"]
+    if "enum" in about or "examples" in about:
+        return {**{str(word): word for word in about.get("enum", about.get("examples"))}, "unknown": "nonsense"}
+    kind = about["type"] if isinstance(about["type"], str) else about["type"][0]  # a number, or a text with a unit
     if kind in ("number", "integer"):
         return number_values(about)
     if kind == "boolean":
@@ -168,7 +168,7 @@ MORE = {
                "near negative": {"near": -1, "far": 9}, "near negative in parallel": {"near": -1, "far": 9, "ortho_half_height": 2}, "fovy 180": {"fovy": 180},
                "ortho": {"ortho": 2}, "unknown": {"fov": 30}, "angle": {"fovy": "40deg"}},
     "environment": {"rotation": {"rotation": 40}, "none": {"builtin": None}, "rotation alone": {"builtin": None, "rotation": 40}},
-    "image": {"unknown": {"sice": [16, 16]}, "samples 3": {"samples": 3}},
+    "image": {"unknown": {"sice": [16, 16]}, "samples 3": {"samples": 3}, "both modes": {"color": "raw", "color_mode": "raw"}, "size 2.5": {"size": [2.5, 2]}},
     "setting": {"stage and shading": {"stage": "fragment", "shading": "gouraud"}, "stage and phong": {"stage": "vertex", "shading": "phong"}, "unknown": {"shadow": True},
                 "ground and colour": {"ground": "color", "ground_color": "#446688"}, "angle": {"edge_angle": "40deg", "edges": ["crease"]}},
 }
@@ -300,6 +300,8 @@ def rows(schema):
             for b in middles:
                 if a < b and not {a, b} & {"faces", "equirectangular"}:
                     add(subject, f"{a} and {b}", {**base, a: middles[a], b: middles[b]})
+        for key in sorted(set().union(*(properties(schema, other) for other in LIGHTS)) - set(known)) if subject in LIGHTS else ():
+            add(subject, f"{key} foreign", {**base, key: 1})
         for name, keys in MORE.get(subject, {}).items():
             add(subject, "more: " + name, keys if isinstance(keys, str) else {key: value for key, value in {**base, **keys}.items() if value is not None})
     return found
@@ -307,8 +309,8 @@ def rows(schema):
 
 def middle_of(about):
     """An allowed value that is not the default."""
-    if "enum" in about:
-        return next(word for word in reversed(about["enum"]) if word != about.get("default"))
+    if "enum" in about or "examples" in about:
+        return next(word for word in reversed(about.get("enum", about.get("examples"))) if word != about.get("default"))
     return next(value for value in values(about).values() if value != about.get("default"))
 
 

@@ -1,31 +1,34 @@
 #!/usr/bin/env python3
 # run.py: runs tests of the program. run.py PROGRAM [unittest's arguments; without them, all tests except `check` and `known`]
-# run.py --modules prints the names of those test files; tests/meson.build makes a test of each, and the tests run in parallel.
-# run.py --modules-without-classroom prints the test files that apply to a program built with -Dclassroom=false.
+# run.py --modules prints the names of the test files of this folder; tests/meson.build makes a test of each, and the tests run in parallel.
+# run.py --modules-without-classroom prints those that apply without the program lambent-classroom.
 # run.py --long prints the test files that contain tests marked with harness.long. These run if LAMBENT_LONG is set: only these
 # tests with "only", or all tests with "all". A test given by name always runs.
+# The tests of the commands of lambent-classroom are in classroom/tests/cli.
 import os
 import pathlib
 import sys
 import unittest
 
-suite = sorted(path.stem for path in pathlib.Path(__file__).parent.glob("test_*.py")
-               if path.stem not in ("test_check", "test_check_class", "test_check_teaching", "test_known"))
+HERE = pathlib.Path(__file__).parent
+CLASSROOM = HERE.parents[1] / "classroom" / "tests" / "cli"
+paths = {path.stem: path for folder in (HERE, CLASSROOM) for path in sorted(folder.glob("test_*.py"))}
+suite = sorted(name for name in paths if name not in ("test_check", "test_check_class", "test_check_teaching", "test_known"))
+own = [name for name in suite if paths[name].parent == HERE]
 if sys.argv[1:] == ["--modules"]:
-    print("\n".join(suite))
+    print("\n".join(own))
     sys.exit()
-NEED_CLASSROOM = ("test_attack", "test_completion", "test_docs", "test_explain", "test_limits", "test_numbers", "test_output", "test_plot", "test_release",
-                  "test_resources", "test_terminal")
+NEED_CLASSROOM = ("test_attack", "test_docs", "test_limits", "test_numbers", "test_output", "test_release", "test_resources", "test_shader", "test_terminal")
 if sys.argv[1:] == ["--modules-without-classroom"]:
-    print("\n".join(name for name in suite if name not in NEED_CLASSROOM))
+    print("\n".join(name for name in own if name not in NEED_CLASSROOM))
     sys.exit()
 if sys.argv[1:] == ["--long"]:
-    print("\n".join(name for name in suite if "    @long\n" in (pathlib.Path(__file__).parent / f"{name}.py").read_text()))
+    print("\n".join(name for name in suite if "    @long\n" in paths[name].read_text()))
     sys.exit()
 if len(sys.argv) < 2:
     sys.exit("run.py: the program to test is missing: run.py build/lambent")
 os.environ["LAMBENT"] = str(pathlib.Path(sys.argv.pop(1)).resolve())
-sys.path.insert(0, str(pathlib.Path(__file__).parent))
+sys.path[:0] = [str(HERE), str(CLASSROOM)]
 
 
 class Loader(unittest.TestLoader):

@@ -254,7 +254,3 @@ class Attack(Case):
         with open(self.folder / "log", "ab") as log:
             log.write(b"".join(line for line in said.splitlines(True) if line.startswith(b"drawing ")))
         self.check(before, "view", ("main", "thread"), ("serves", "drawing"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import time
-import unittest
 import urllib.parse
 
 from harness import PROGRAM, Case, read_png, write_png, writers_and_others
@@ -116,7 +115,7 @@ class Sources(Batch):
                 done = self.run_program("batch", "in", "-s", 8, "--sandbox", sandbox, *several, "-o", "o/{stem}-{view}.png" if several else "o/")
                 said = done.stderr.decode()
                 self.assertEqual(done.returncode, 7, said)
-                self.assertIn("in/out.obj: a link that leads out of the folder that was given; name the file, or allow its folder (--allow-path)", said)
+                self.assertIn("in/out.obj: cannot open: a link that leads out of the folder that was given; name the file, or allow its folder (--allow-path", said)
                 for name, why in (("gone", "No such file"), ("circle", "Too many levels"), ("pipe", "is a pipe, expected a regular file")):
                     self.assertRegex(said, f"in/{name}.obj: .*{why}")
                 self.assertEqual(sorted({p.name.split("-")[0].split(".")[0] for p in (self.folder / "o").glob("*.png")}), ["a", "inside"])
@@ -404,7 +403,3 @@ class Terminal(Batch):
             else:
                 self.assertTrue(progress, text)
                 self.assertIn(b"30 of 30 pictures written", text)
-
-
-if __name__ == "__main__":
-    unittest.main()

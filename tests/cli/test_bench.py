@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-import unittest
 
 from harness import PROGRAM, ROOT, Case
 
@@ -44,7 +43,3 @@ class Bench(Case):
         self.assertRegex(said, r"(?m)^ *\d+  three.js spot +not measured: three.js: chromium is not installed")
         said = self.python("gltf_rows.environment = lambda: '/nowhere.hdr'\nsys.argv = ['run.py', 'prefilter']\nprint(run.main())")
         self.assertRegex(said, r"NOT +not measured: .*nowhere.hdr(.|\n)*\n1\n$")  # a row that fails counts as a failure
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -320,7 +320,6 @@ class Compare(Case):
                              (["normals", "shading=flat,phong"], "Rows: sources of the normals; columns: shading methods")):
             self.good("compare", "cube.obj", "-s", 16, "-o", "t.svg", *(word for one in words for word in ("--across", one)))
             self.assertEqual(xml.fromstring((self.folder / "t.svg").read_bytes())[0].text, f"{title} — cube.obj")
-        self.given |= {"t.svg"}
 
     def test_svg(self):
         """A sheet as SVG contains the pictures drawn with the options in --json, and text in any language as text."""

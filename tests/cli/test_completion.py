@@ -145,7 +145,3 @@ class Shells(Case):
                                   env=self.environment, capture_output=True, check=True)
             found = [answer.split("\t")[0] for answer in done.stdout.decode().splitlines()]
             self.assertEqual(found, [wanted.split(" ", 1)[1].strip().replace("\\", "") if " " in wanted.strip() else wanted.strip()], line)
-
-
-if __name__ == "__main__":
-    unittest.main()

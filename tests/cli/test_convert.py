@@ -175,7 +175,6 @@ end_header
 3 0 1 2
 3 0 2 3
 """)
-        self.given.add("c.ply")
         self.same("c.ply", "d.ply")
         self.same("c.ply", "d.obj")
         self.convert("c.ply", "d.glb")
@@ -217,7 +216,6 @@ end_header
                  "lights": [{"type": "point", "position": [2, 3, 4], "diffuse": [9, 8, 7], "specular": [9, 8, 7], "attenuation": [0, 0, 1]},
                             {"type": "ambient", "ambient": [0.1, 0.1, 0.1]}]}
         (self.folder / "s.json").write_text(json.dumps(scene))
-        self.given.add("s.json")
         report = self.convert("s.json", "s.glb")
         root, _ = self.check_glb("s.glb")
         light = root["extensions"]["KHR_lights_punctual"]["lights"][0]
@@ -303,7 +301,6 @@ end_header
     def test_files_beside(self):
         """A file of another program does not change; converting again replaces Lambent's own file. Odd names do not lead out of the folder."""
         (self.folder / "mine.mtl").write_text("precious")
-        self.given.add("mine.mtl")
         self.bad(5, "convert", "cube.obj", "mine.obj", says=("mine.mtl would be overwritten", "mine.obj does not exist"))
         self.assertEqual((self.folder / "mine.mtl").read_text(), "precious")
         self.good("convert", "cube.obj", "o.obj", "-q")
@@ -381,7 +378,6 @@ end_header
                                   (["cube.obj", "x.glb", "--samples", "4"], 1, "does not apply")):
             self.bad(code, "convert", *words, says=says)
         (self.folder / "bad.obj").write_text("nonsense")
-        self.given.add("bad.obj")
         self.bad(2, "convert", "bad.obj", "x.glb", says="bad.obj")
 
     def test_endings_in_capitals(self):

@@ -179,7 +179,3 @@ class Tumbler(Case):
             data = path.read_bytes()
             self.assertEqual(data[:4], b"\x89PNG")
             self.assertIn(b"Thumb::URI", data)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -42,7 +42,7 @@ class Docs(Case):
                 self.assertIn(f"\n## `{link[1:]}`\n", page)
             else:
                 self.assertTrue((ROOT / "docs" / "check" / link).exists(), link)
-        for lecture in (ROOT / "tests" / "check" / "lectures").iterdir():
+        for lecture in (ROOT / "classroom" / "tests" / "check" / "lectures").iterdir():
             self.assertIn(f"lectures/{lecture.stem}.", page)
 
     def test_brief_help(self):
@@ -303,7 +303,3 @@ class Docs(Case):
         for isa in re.search(r"The instruction set: (.*)", self.help()).group(1).split(" [")[0].rstrip(".").replace(" or ", ", ").split(", "):
             if isa and isa != "auto":
                 self.assertIn(f'"{isa}"', schema)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 # test_edges.py: --wireframe, --edges and related options.
 import json
 import math
-import unittest
 
 from harness import Case, pixel
 
@@ -12,7 +11,6 @@ FRONT = ("-s", "64", "-b", "white", "--azimuth", "0", "--elevation", "0")
 class Edges(Case):
     def model(self, name="quad.obj", text=QUAD):
         (self.folder / name).write_text(text)
-        self.given.add(name)
         return name
 
     def test_polygons_have_no_diagonals(self):
@@ -57,7 +55,6 @@ class Edges(Case):
                  "surfaces": False}
         scene = {"lambent": 1, "image": {"size": [96, 96]}, **edges, "objects": [{"file": self.model()}, {"shape": "cube"}]}
         (self.folder / "a.json").write_text(json.dumps(scene))
-        self.given.add("a.json")
         first = self.png("a.json", "--save-scene", "saved.json")
         saved = json.loads((self.folder / "saved.json").read_text())
         self.assertEqual({key: saved.get(key) for key in edges}, edges)
@@ -66,7 +63,6 @@ class Edges(Case):
         self.assertNotEqual(self.png("a.json", "--surfaces", "on"), first)
         for key, value, says in (("edges", ["corner"], "crease"), ("edges", "crease", "crease"), ("hidden_lines", "dots", "dash"), ("edge_width", 0, "edge_width")):
             (self.folder / "b.json").write_text(json.dumps({**scene, key: value}))
-            self.given.add("b.json")
             self.bad(2, "b.json", says=says, leaves=["saved.json"])
 
     def test_reported(self):
@@ -137,7 +133,3 @@ class Edges(Case):
             self.skipTest("no OpenGL here")
         words = ("teapot", "--segments", "16", "-s", "96", "-b", "white", "--wireframe", "--edges", "all", "--hidden-lines", "dash", "--surfaces", "off")
         self.assertEqual(self.png(*words, "--device", "gl"), self.png(*words, "--device", "cpu"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 # test_environment.py: --environment in each of its forms, its rotation and its errors; and --opacity.
 import json
 import struct
-import unittest
 
 from harness import Case, pixel, read_png
 
@@ -14,7 +13,6 @@ class EnvironmentOption(Case):
         """A picture of the colours that color_at(x, y) gives."""
         data = bytes(part for y in range(height) for x in range(width) for part in color_at(x, y))
         (self.folder / name).write_bytes(b"P6\n%d %d\n255\n" % (width, height) + data)
-        self.given.add(name)
         return name
 
     def draw(self, environment, *more, model=MIRROR):
@@ -72,7 +70,6 @@ class EnvironmentOption(Case):
         ball = {"lambent": 1, "image": {"size": [40, 40]}, "objects": [{"shape": "sphere", "material": {"reflectivity": [1, 1, 1]}}], "lights": []}
         for name, more in (("ball.json", {}), ("sky.json", {"environment": {"builtin": "sky"}})):
             (self.folder / name).write_text(json.dumps({**ball, **more}))
-            self.given.add(name)
         plain, sky = (self.good(name, "-q", "-o", "-").stdout for name in ("ball.json", "sky.json"))
         self.assertNotEqual(plain, sky)
         self.assertEqual(self.good("sky.json", "-q", "--environment", "none", "--save-scene", "copy.json", "-o", "-").stdout, plain)
@@ -107,7 +104,6 @@ class EnvironmentOption(Case):
         self.bad(1, *MIRROR, "--environment", ",".join([good] * 5), "-o", "x.png", says=("found 5 names", "px,nx,py,ny,pz,nz"))
         self.bad(1, *MIRROR, "--environment", ",".join([good] * 5) + ",", "-o", "x.png", says="one of them empty")
         (self.folder / "text.png").write_text("not a picture")
-        self.given.add("text.png")
         self.bad(2, *MIRROR, "--environment", "text.png", "-o", "x.png", says=("text.png", "byte 0"))
         self.bad(1, *MIRROR, "--reflectivity", "-1", "-o", "x.png", says="0 to 1000")
 
@@ -123,7 +119,3 @@ class Opacity(Case):
         plain, half = (pixel(self.png(*words, "--cull", "back", "--color-mode", "raw", "-b", "white", "--opacity", opacity), 10, 10) for opacity in (1, 0.5))
         for c in range(3):
             self.assertLessEqual(abs(half[c] - (plain[c] + 255) / 2), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -92,7 +92,6 @@ class Mutations(Case):
         for number, model in enumerate(models):
             folder = self.folder / f"m{number}"
             folder.mkdir()
-            self.given.add(folder.name)
             value = unpacked(model, folder)
             cases = [case for i, case in enumerate(mutations(value)) if (i + number) % every == 0]
             (code, usual), *answers = self.draw(folder, [value] + [replaced(value, *case) for case in cases])

@@ -106,7 +106,6 @@ class Hash(Case):
     def test_options_of_the_file(self):
         """Without picture options, --check uses only the file's picture options."""
         self.good("hash", "m", "teapot", "-o", "p.hash", "-s", 64, "-b", "#fff", "--light", "point:position=1/2/3", "-q")
-        self.given.add("p.hash")
         text = (self.folder / "p.hash").read_text()
         self.assertIn("--background '#fff'", text)
         self.assertEqual(self.check("--check", "p.hash", code=0), ["3 equal"])
@@ -174,17 +173,14 @@ class Hash(Case):
     def test_folder_of_pictures(self):
         """If a folder cannot be created, one error message appears before anything is drawn."""
         (self.folder / "file").write_text("")
-        self.given.add("file")
         for folder, says in (("file", "found the file 'file', expected a folder"), ("file/x", "cannot make the folder 'file/x': Not a directory")):
             done = self.bad(5, "hash", "m", "-s", 8, "-o", "p.hash", "--pictures", folder, says=says)
             self.assertNotIn(b"failed", done.stderr)
         user = self.plain_user()
         if user:
             os.mkdir(self.folder / "theirs", 0o755)
-            self.given.add("theirs")
             self.bad(5, "hash", "m", "-s", 8, "-o", "-", "--pictures", "theirs", says="theirs: cannot write to the folder: Permission denied", user=user)
         self.write()
-        self.given.add("p.hash")
         self.check("--check", "p.hash", "--pictures", "file", code=0)  # which writes no pictures
 
     def test_report_beside_the_file(self):
@@ -259,7 +255,7 @@ class Hash(Case):
         os.symlink("../elsewhere", self.folder / "pics" / "m")
         self.given.update(("pics", "elsewhere", "p.hash", "p-changes.png", "theirs.png"))
         for sandbox in ("auto", "off"):
-            self.bad(7, "hash", "m/a.stl", "-s", 16, "-o", "p.hash", "--pictures", "pics", "--sandbox", sandbox, says="pics/m is a link")
+            self.bad(7, "hash", "m/a.stl", "-s", 16, "-o", "p.hash", "--pictures", "pics", "--sandbox", sandbox, says="a link that leads out of the folder")
             self.assertEqual(os.listdir(self.folder / "elsewhere"), [])
         self.write("-q")
         self.grow()
@@ -267,7 +263,7 @@ class Hash(Case):
         before = (self.folder / "theirs.png").read_bytes()
         os.symlink("theirs.png", self.folder / "p-changes.png")
         for sandbox in ("auto", "off"):
-            self.bad(5, "hash", "-s", 64, "--check", "p.hash", "--update", "--sandbox", sandbox, says="p-changes.png is a link")
+            self.bad(5, "hash", "-s", 64, "--check", "p.hash", "--update", "--sandbox", sandbox, says=["p-changes.png: cannot write", "link"])
             self.assertEqual((self.folder / "theirs.png").read_bytes(), before)
 
     def test_printed_names(self):

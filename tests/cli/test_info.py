@@ -95,9 +95,7 @@ class Info(GltfCase):
             (self.folder / f"{name}.obj").write_text(text)
             self.assertEqual(self.info(f"{name}.obj")[0]["up"], up, name)
             self.assertEqual(b"z is assumed to be up" in self.good(f"{name}.obj", "-s", "32", "-o", "a.png").stderr, up == "z", name)
-            self.given.add(f"{name}.obj")
         self.assertNotIn(b"z is assumed", self.good("hills.obj", "--up", "y", "-s", "32", "-o", "a.png").stderr)
-        self.given.add("a.png")
 
     def test_drawing_memory(self):
         """The memory for drawing in addition to the model: at least the picture, more with more threads; no estimate if it exceeds the limit."""
@@ -148,7 +146,6 @@ class Info(GltfCase):
     def test_other_formats(self):
         (self.folder / "two.mtl").write_text("newmtl shiny\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 40\nmap_Kd wood.jpg\n")
         (self.folder / "two.obj").write_text("mtllib two.mtl\nv 0 0 0\nv 2 0 0\nv 0 3 0\ng a\nusemtl shiny\nf 1 2 3\ng b\nf 1 3 2\n")
-        self.given |= {"two.mtl", "two.obj"}
         row, teapot = self.info("two.obj", "teapot")
         self.assertEqual((row["format"], row["unit"], row["generator"], row["size"]), ("obj", None, None, [2, 3, 0]))
         self.assertEqual((row["counts"]["parts"], row["counts"]["triangles"]), (2, 2))
@@ -169,7 +166,6 @@ class Info(GltfCase):
                     "occlusionTexture": {"index": 0}, "emissiveTexture": {"index": 1}}
         model = self.model(materials=[material] * 3, textures=[{"source": 0}, {"source": 1}],
                            images=[{"uri": "map.png", "name": "skin"}, {"uri": inside}, {"uri": "gone.jpg"}])
-        self.given.add("map.png")
         row = self.info(model)[0]
         color, numbers, glow, unread = row["textures"]
         self.assertEqual([t["color_space"] for t in row["textures"]], ["srgb", "linear", "srgb", None])
@@ -187,7 +183,6 @@ class Info(GltfCase):
         (self.folder / "two.mtl").write_text("newmtl a\nmap_Kd map.png\nnewmtl b\nmap_Kd map.png\nmap_Bump map.png\n")
         (self.folder / "two.obj").write_text("mtllib two.mtl\nv 0 0 0\nv 2 0 0\nv 0 3 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n"
                                              "usemtl b\nf 1/1 3/3 2/2\n")
-        self.given |= {"two.mtl", "two.obj"}
         textures = self.info("two.obj")[0]["textures"]
         self.assertEqual([(t["file"], t["color_space"], t["slots"], t["format"]) for t in textures],
                          [("map.png", "srgb", ["diffuse"], "png"), ("map.png", "linear", ["bump"], "png")])

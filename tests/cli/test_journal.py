@@ -9,7 +9,6 @@ import signal
 import socket
 import subprocess
 import time
-import unittest
 
 from harness import PROGRAM, long, wait_until_caught, writers_and_others
 from test_batch import Batch, default_interrupt, xxh64
@@ -349,7 +348,3 @@ class Kills(Batch):
                 self.assertRegex(text, r"interrupted: \d+ of 40 pictures written")
                 self.assertEqual({n for n in self.files() if not n.endswith(".png")}, {"lambent.jsonl", "lambent.jsonl.running"})
                 shutil.rmtree(self.folder / "out")
-
-
-if __name__ == "__main__":
-    unittest.main()

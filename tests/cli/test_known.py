@@ -3,7 +3,6 @@ import copy
 import json
 import math
 import struct
-import unittest
 
 from harness import Case
 from reference import Reference, add, dot, scale, unit
@@ -211,7 +210,3 @@ class Known(Case):
             for coarse, fine in zip(errors, errors[1:]):
                 self.assertGreater(coarse / fine, 0.85 * factor, (shading, errors))
                 self.assertLess(coarse / fine, 1.2 * factor, (shading, errors))
-
-
-if __name__ == "__main__":
-    unittest.main()

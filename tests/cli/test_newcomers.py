@@ -79,10 +79,8 @@ class Sentences(Case):
 class Works(Case):
     def test_lists_without_batch(self):
         (self.folder / "list.txt").write_text("cube.obj\n\ncube.stl\n")
-        self.given.add("list.txt")
         self.good("--files-from", "list.txt", "-s", 8, "-o", "out/{stem}-{ext}.png")
         self.assertEqual(set(os.listdir(self.folder / "out")), {"cube-obj.png", "cube-stl.png"})
-        self.given.add("out")
         self.bad(1, "--files-from", "list.txt", "--save-scene", "a.json", says="a list of models")
         self.bad(1, says="no model given")
         self.bad(1, "compare", "--files-from", "list.txt", says="does not apply")

@@ -5,7 +5,6 @@ import json
 import math
 import re
 import subprocess
-import unittest
 
 from harness import PROGRAM, ROOT, Case, write_png
 
@@ -98,7 +97,7 @@ ROWS = [
     ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/core/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "uses {} samples in pictures of up to {}² pixels, {} samples up to {}² pixels, and {} samples in larger pictures", *SAMPLES),
     ("docs/scene-file.md", "| `samples` | {} up to {}² pixels, {} up to {}², {} above |", *SAMPLES),
-    ("tools/options/option_table.c", "\"{} up to {}x256 pixels, {} up to {}x512, {} above\"", *SAMPLES),
+    ("program/options/option_table.c", "\"{} up to {}x256 pixels, {} up to {}x512, {} above\"", *SAMPLES),
     ("include/lambent/device.h", "for a picture of this size: {} up to {}² pixels, so that thin wires do not break into dashes, {} up to {}², and {} above", *SAMPLES),
     ("docs/view.md", "more than {} triangles, lines and points", constant("tools/view/drawing/view_draw.h", "VIEW_TRIANGLES_MAX")),
     ("docs/view.md", "files of more than {} MB", counted("megabytes of PAGE_FILES_MAX", lambda: constant("tools/page/page.h", "PAGE_FILES_MAX").look_up() / 1e6)),
@@ -130,7 +129,7 @@ ROWS = [
     ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("classroom/check/contracts/nyu.json", r'"shininess": (\d+)'),
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, ([\d.]+),'),
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, [\d.]+, ([\d.]+)\]')),
-    ("tools/options/option_table.c", "c/(c + {}) for a pixel that c triangles cover", OVERDRAW),
+    ("program/options/option_table.c", "c/(c + {}) for a pixel that c triangles cover", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
     ("docs/opengl.md", "in tiles of {}×{} pixels", *2 * [constant("src/gpu/gl/gl_device.h", "PART_SIZE_MAX")]),
     ("docs/opengl.md", "the teapot ({} triangles)", TEAPOT),
@@ -145,10 +144,10 @@ ROWS = [
         len((ROOT / "src/core/lighting" / name).read_text().splitlines()) for name in ("lobes.h", "lights.h", "sum.h")) / 100))),
     ("tools/help/topics.c", "`--tolerance` (default {}) applies to each channel of a pixel. At most one pixel in {} may exceed",
      TOLERANCE, PIXELS_OVER_CHECK),
-    ("tools/options/option_table.c", "fills {} % of the picture's width or height", PERCENT_FILL),
-    ("tools/options/option_table.c", "a vertical field of view of {} degrees", FOVY),
-    ("tools/options/option_table.c", "`fovy` is the full vertical angle in degrees (default: {})", FOVY),
-    ("tools/options/option_table.c", "With more than {} lights, Lambent skips the weakest", FEW_LIGHTS),
+    ("program/options/option_table.c", "fills {} % of the picture's width or height", PERCENT_FILL),
+    ("program/options/option_table.c", "a vertical field of view of {} degrees", FOVY),
+    ("program/options/option_table.c", "`fovy` is the full vertical angle in degrees (default: {})", FOVY),
+    ("program/options/option_table.c", "With more than {} lights, Lambent skips the weakest", FEW_LIGHTS),
     ("include/lambent/camera.h", "in (0, π); 0: {}°", FOVY),
     ("include/lambent/camera.h", "in (0, 1]. 0: {}.", FILL),
     ("include/lambent/camera.h", "fovy=degrees default: {};", FOVY),
@@ -342,7 +341,3 @@ class Defaults(Case):
                             self.assertEqual(found.group(1), stated if isinstance(stated, str) else json.dumps(stated))
                         checked += 1
         self.assertGreater(checked, 15)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 # test_occlusion.py: --ao rays and related options.
 import json
-import unittest
 
 from harness import Case, pixel
 
@@ -12,7 +11,6 @@ SCENE = {"lambent": 1, "image": {"size": [48, 48], "samples": 1}, "ambient": [1,
 class Occlusion(Case):
     def scene(self, name="rays.json", **more):
         (self.folder / name).write_text(json.dumps({**SCENE, **more}))
-        self.given.add(name)
         return name
 
     def test_scene_and_options(self):
@@ -54,7 +52,3 @@ class Occlusion(Case):
         self.bad(1, self.scene(), "--shading", "flat", says="Phong shading")
         self.bad(2, self.scene("bad.json", ao_samples=2000), says="ao_samples")
         self.bad(3, self.scene(), "--device", "gl", says=("OpenGL",))
-
-
-if __name__ == "__main__":
-    unittest.main()

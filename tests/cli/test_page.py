@@ -36,7 +36,6 @@ class Page(Case):
         super().setUp()
         self.page = self.folder / "lambent.html"
         self.page.write_text(PAGE)
-        self.given.add("lambent.html")
         self.env = {"LAMBENT_PAGE": str(self.page)}
 
     def make(self, *words, output="out.html"):
@@ -51,7 +50,6 @@ class Page(Case):
         (place / "a b.mtl").write_text("newmtl a\nKd 1 1 1\nmap_Kd pictures/x&y.png\n")
         (place / "pictures" / "x&y.png").write_bytes(write_png(1, 1, b"\xff\x40\x20\xff"))
         (place / "not-named.txt").write_text("secret")
-        self.given.add(folder)
         return place
 
     def test_the_page_stays_as_it_is_around_what_is_put_in(self):
@@ -108,7 +106,6 @@ class Page(Case):
 
     def test_an_environment_comes_with_it(self):
         (self.folder / "elsewhere").mkdir()
-        self.given.add("elsewhere")
         sky = write_png(4, 2, b"\x20\x40\x80\xff" * 8)
         (self.folder / "elsewhere" / "sky.png").write_bytes(sky)
         page, _ = self.make("cube.obj", "--size", "32", "--environment", "elsewhere/sky.png", "--reflectivity", "0.5")
@@ -118,7 +115,6 @@ class Page(Case):
     def test_names_and_words_cannot_end_their_texts(self):
         name = "a\"'<b>&.obj"
         shutil.copy(OWN_MODELS / "cube.obj", self.folder / name)
-        self.given.add(name)
         page, _ = self.make(name, "--size", "32", "--material", "brass")
         self.assertIn("/" + name, files_in(page))
         self.assertEqual(words_in(page)[0], "/" + name)
@@ -126,24 +122,20 @@ class Page(Case):
 
     def test_a_scene_file_may_name_files_beside_it_alone(self):
         (self.folder / "deep").mkdir()
-        self.given.add("deep")
         (self.folder / "deep" / "scene.json").write_text(self.scene_text("../cube.obj"))
         self.bad(3, "deep/scene.json", "-o", "out.html", env=self.env, says=["outside the folder", "cube."])
         (self.folder / "scene.json").write_text(self.scene_text("cube.obj"))
-        self.given.add("scene.json")
         page, _ = self.make("scene.json", "--size", "32")
         self.assertTrue({"/scene.json", "/cube.obj"} <= set(files_in(page)))
 
     def test_a_link_does_not_lead_out_of_the_folder(self):
         place = self.model()
         (self.folder / "secret.txt").write_text("newmtl a\n# secret\n")
-        self.given.add("secret.txt")
         (place / "a b.mtl").unlink()
         (place / "a b.mtl").symlink_to("../secret.txt")
         for mode in ("auto", "off"):
             self.bad(3, "m/quad.obj", "-s", "32", "-q", "--sandbox", mode, "-o", "out.html", env=self.env, says=["a b.mtl", "outside the folder"])
         (self.folder / "link.obj").symlink_to("m/quad.obj")  # the user names the model itself
-        self.given.add("link.obj")
         page, _ = self.make("link.obj", "-s", "32", "-q")
         self.assertIn("/link.obj", files_in(page))
         self.assertNotIn(base64.b64encode(b"# secret").decode()[:8], page)
@@ -186,7 +178,6 @@ class Page(Case):
         with open(self.folder / "large.obj", "w") as out:
             out.write((OWN_MODELS / "cube.obj").read_text())
             out.write(("#" * 999 + "\n") * 100000)
-        self.given.add("large.obj")
         self.bad(4, "large.obj", "-s", "16", "-o", "out.html", env=self.env, says=["large.obj", "100 MB"])
 
     def test_reports(self):

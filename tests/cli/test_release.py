@@ -64,7 +64,3 @@ class Release(Case):
         write("0.3.0", "# Changelog\n")
         with self.assertRaises(SystemExit):
             release.section(root)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -90,12 +90,12 @@ class Resources(Case):
     def test_full_disk_at_the_start(self):
         (self.folder / "out").mkdir()
         (self.folder / "out" / "lambent.jsonl").symlink_to("/dev/full")
-        self.bad(5, "batch", "cube.obj", "-s", 16, "--resume", "-o", "out/{stem}.png", says="lambent.jsonl: cannot write: No space left on device", leaves={"out"})
+        self.bad(5, "batch", "cube.obj", "-s", 16, "--resume", "-o", "out/{stem}.png", "--journal", "out/lambent.jsonl", says="lambent.jsonl: cannot write: No space left on device", leaves={"out"})
         self.assertEqual(self.files(), {"lambent.jsonl"})
         # Models that a killed run was drawing are recorded until the next run begins.
         running = self.folder / "out" / "lambent.jsonl.running"
         running.write_bytes(bytes(8192))
-        self.bad(5, "batch", "cube.obj", "-s", 16, "--resume", "-o", "out/{stem}.png", says="No space left on device", leaves={"out"})
+        self.bad(5, "batch", "cube.obj", "-s", 16, "--resume", "-o", "out/{stem}.png", "--journal", "out/lambent.jsonl", says="No space left on device", leaves={"out"})
         self.assertEqual(running.read_bytes(), bytes(8192))
 
     def test_full_disk_later(self):

@@ -1,7 +1,6 @@
 # test_shadows.py: --shadows and related options.
 import json
 import struct
-import unittest
 
 from harness import Case, pixel
 
@@ -16,7 +15,6 @@ SHADOW, LIT = (44, 32), (10, 32)  # beside the box, inside and outside its shado
 class Shadows(Case):
     def scene(self, name="shadows.json", **more):
         (self.folder / name).write_text(json.dumps({**SCENE, **more}))
-        self.given.add(name)
         return name
 
     def test_scene_and_option(self):
@@ -119,11 +117,9 @@ class Shadows(Case):
         r, g, b, a = pixel(red, 2, 60)
         self.assertTrue(r > 100 and g == b == 0 and a == 255)
         # A saved scene file, drawn again.
-        self.given.add("a.png")
         name = self.scene("ground.json", ground="color", ground_color=[0, 0.5, 0], objects=[{"name": "box", "shape": "cube"}])
         self.assertEqual(self.png(name), self.png(self.scene("other.json", objects=[{"name": "box", "shape": "cube"}]), "--ground", "0/0.5/0"))
         self.good(name, "--ground", "checker", "-q", "-o", "a.png", "--save-scene", "saved.json")
-        self.given.add("saved.json")
         self.assertEqual(json.loads((self.folder / "saved.json").read_text())["ground"], "checker")
         report = json.loads(self.good("cube", "--ground", "checker", "-s", "16", "-o", "a.png", "--json").stdout)["image"]
         self.assertAlmostEqual(report["ground_height"], -1, 3)
@@ -159,7 +155,3 @@ class Shadows(Case):
         self.bad(1, "teapot", "--light", "ambient:radius=1", says="no 'radius'")
         self.bad(2, self.scene("bad.json", shadows=1), says="shadows")
         self.bad(2, self.scene("bad.json", lights=[{"type": "point", "radius": -1}]), says="radius")
-
-
-if __name__ == "__main__":
-    unittest.main()

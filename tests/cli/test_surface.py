@@ -144,7 +144,3 @@ class BlackAmbient(Case):
         self.assertIn("mul3(m.diffuse.rgb, hemispheres[i].sky.rgb)", self.good("shader", model).stdout.decode())
         self.assertIn("mul3((i < 1 ? m.ambient.rgb : m.diffuse.rgb), hemispheres[i].sky.rgb)",
                       self.good("shader", model, "--light", "+hemisphere:sky=0.3").stdout.decode())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -234,7 +234,3 @@ class Terminal(Case):
                 self.assertRegex(text, color)
                 self.assertEqual(re.search(rb"[34]8;2;", text) is not None, "COLORTERM" in env)
                 self.assertRegex(text.decode(), "[▀▄▌▐▖▗▘▝▚▞▁-█]")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -391,7 +391,6 @@ class View(ViewCase):
 
     def test_errors(self):
         env = {"LAMBENT_PAGE": str(self.page)}
-        self.given.add("page.html")
         self.bad(2, "view", "nothing.obj", says="nothing.obj: cannot read", env=env)
         self.bad(1, "view", "-", says="standard input", env=env)
         self.bad(1, "view", says="missing argument", env=env)

@@ -141,6 +141,33 @@ class Requests(ViewCase):
         (self.folder / "cube.obj").write_text("v 0 0 0\n")
         events.until(b'data: "/cube.obj"')  # an open page stays connected
 
+    def test_readers_that_never_read(self):
+        """Clients that do not read their answers, and many pages that wait for events, do not delay other clients."""
+        server, host = self.serve("cube.obj"), b" HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n"
+        self.assertEqual(server.task("model", "/cube.obj")[0], 200)
+        (self.folder / "large.bin").write_bytes(bytes(8 << 20))
+        for path, count in ((b"files/large.bin", 300), (b"events", 400)):
+            for _ in range(count):
+                connection = socket.create_connection(("127.0.0.1", server.port), timeout=WAIT)
+                self.addCleanup(connection.close)
+                connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+                connection.sendall(b"GET /%s/%s" % (server.token.encode(), path) + host % server.port)
+        times = []
+        for _ in range(5):
+            begin = time.monotonic()
+            self.assertEqual(server.task("draw", "/cube.obj", "--size=8")[0], 200)
+            times.append(time.monotonic() - begin)
+        print("# seconds of the requests:", *(f"{t:.3f}" for t in times))
+        self.assertLess(max(times), 2)  # 0.3 s on an idle machine
+
+    def test_many_words(self):
+        """A request with too many words has an answer."""
+        server = self.serve("cube.obj")
+        for count, status in ((100, 422), (2000, 414), (20000, 414)):
+            answer = server.task("draw", *["/cube.obj"], *["a"] * count)
+            self.assertEqual(answer[0], status, count)
+        self.assertEqual(server.task("draw", "/cube.obj", "--size=8")[0], 200)
+
     def is_closed(self, connection, wait=WAIT):
         connection.settimeout(wait)
         try:

@@ -654,7 +654,3 @@ class Examples(Jobs):
     @unittest.skipUnless(shutil.which("node"), "needs node")
     def test_node(self):
         self.check_example("node", ROOT / "examples/worker.mjs")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -30,7 +30,7 @@ SEEDS = {
     "gltf": [("MODELS/gltf-tests", ".gltf"), ("MODELS/gltf", ".gltf")],
     "glb": [("MODELS/glb", ".glb"), ("MODELS/gltf-tests", ".glb")],
     "scene": [("tests/models", ".json"), ("tools/help", ".json"), ("examples", ".json")],
-    "settings": [], "hash": [], "journal": [], "request": [], "shader": [("tests/check", ".frag")],
+    "settings": [], "hash": [], "journal": [], "request": [], "shader": [("classroom/tests/check", ".frag")],
 }
 # These inputs begin with 24 bytes of options. Every model and scene file is also an input, after zeros.
 WITH_OPTIONS = ("render", "library", "file")
@@ -42,10 +42,10 @@ WORDS = {
     "obj": ["src/formats/import/obj"], "mtl": ["src/formats/import/obj/mtl.c", "src/formats/import/obj/mtl_maps.c"], "gltf": ["src/formats/import/gltf"], "glb": ["src/formats/import/gltf"],
     "3mf": ["src/formats/import/threemf"],
     "scene": ["src/core/description", "src/core/scene"],
-    "render": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "job": ["tools/many/jobs", "tools/options", "src/core/description"], "formula": ["src/formats/shapes/formula_parse.c"],
+    "render": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "job": ["tools/many/jobs", "program/options", "src/core/description"], "formula": ["src/formats/shapes/formula_parse.c"],
     "library": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "file": ["src/formats/import"],
-    "settings": ["tools/options", "src/core/scene/fields", "src/core/description"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal", "tools/many/unit"],
-    "request": ["tools/view", "tools/options"], "shader": ["classroom/check/text", "classroom/check/contract"],
+    "settings": ["tools/options", "program/options", "src/core/scene/fields", "src/core/description"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal", "tools/many/unit"],
+    "request": ["tools/view", "program/options"], "shader": ["classroom/check/text", "classroom/check/contract"],
 }
 NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", "library", "file", "job", "formula", "settings", "shader")
 

@@ -6,6 +6,8 @@
 #include "small_files.h"
 #include "target.h"
 
+#include <lambent/light.h>
+
 #include <string.h>
 
 enum { OPTIONS = 24, SIDE_MAX = 48 };

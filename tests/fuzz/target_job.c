@@ -5,22 +5,24 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/path.h>
+
 #include "batch_job.h"
 
 static char root[] = "/tmp/lambent-fuzz-job-XXXXXX";
 
 static void leave(void) { rmdir(root); }
 
-static struct options *worker(struct job_roots *roots)
+static struct options *worker(void)
 {
     static struct options options;
-    static char *paths[] = {root};
-    if (!roots->count) {
+    static const char *paths[] = {root};
+    if (!options.limits.allow_paths.count) {
         option_table_fill();
         options = option_defaults();
-        if (!mkdtemp(root) || atexit(leave) != 0)
+        if (!mkdtemp(root) || atexit(leave) != 0 || !lam_path_hold(root, true, NULL))
             abort();
-        *roots = (struct job_roots){paths, 1};
+        options.limits.allow_paths = (struct texts){.items = paths, .count = 1};
     }
     return &options;
 }
@@ -28,9 +30,7 @@ static struct options *worker(struct job_roots *roots)
 // Invariant for every line: a valid job, the id of a job to cancel, or an error message.
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static struct job_roots roots;
-    struct batch_job_rules rules = {
-        .options = worker(&roots), .threads = 1, .in_flight = 1, .roots = &roots, .has_keys = true};
+    struct batch_job_rules rules = {.options = worker(), .threads = 1, .in_flight = 1, .has_keys = true};
     lam_error error = {0};
     json_t *id;
     struct batch_job *job;

@@ -6,6 +6,8 @@
 #include "scenes.h"
 #include "share.h"
 
+#include <lambent/light.h>
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -18,6 +18,8 @@
 #include "scenes.h"
 #include "share.h"
 
+#include <lambent/light.h>
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,6 +3,8 @@
 #include "device_or_skip.h"
 #include "scenes.h"
 
+#include <lambent/light.h>
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

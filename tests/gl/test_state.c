@@ -7,6 +7,8 @@
 #include "scenes.h"
 #include "texture_levels.h"
 
+#include <lambent/light.h>
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,11 +1,9 @@
 // test_undersides.c: under the default lights, no side of a model is black: all shared models from six sides.
+#include "test.h"
 #include "../unit/loading.h"
 #include "share.h"
 
-#include <lambent/lambent.h>
-
 #include <dirent.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 enum { SIDE = 96, DARK = 12 };
@@ -109,9 +107,8 @@ static void walk(const char *folder)
         free(names);
 }
 
-static void no_side_is_black(void **state)
+TEST(no_side_is_black)
 {
-    (void)state;
     const char *models = getenv("LAMBENT_MODELS");
     device = lam_device_cpu(NULL, NULL);
     assert_non_null(device);
@@ -123,10 +120,4 @@ static void no_side_is_black(void **state)
     }
     print_message("%d sides of %d files\n", drawn, (int)seen);
     assert_int_equal(failed, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_side_is_black)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,18 +3,8 @@
 //
 // The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
 // itself.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
+#include "test.h"
 #include "exact_cover.h"
 
 enum { SIZE = 128 };
@@ -75,7 +65,7 @@ static lam_scene *scene_of(const struct soup *soup, lam_cull cull)
 static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZE * SIZE])
 {
     lam_error error = {0};
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
+    AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
     lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100},
                          .target = {SIZE / 2, SIZE / 2, 0},
                          .up = {0, 1, 0},
@@ -83,14 +73,12 @@ static void draw(const lam_scene *scene, lam_isa isa, int samples, float out[SIZ
                          .near_plane = 1,
                          .far_plane = 199};
     lam_draw_params params = {.samples = samples, .reflection = LAM_REFLECTION_NONE};
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     if (!device || !lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error) ||
         !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
         fail_msg("%s", error.text);
     for (int i = 0; i < SIZE * SIZE; i++)
         out[i] = ((float *)image.pixels)[4 * i];
-    lam_image_free(&image);
-    lam_device_free(device);
 }
 
 // The expected pixel: a triangle's number, 0 for none, and whether the second triangle is too close to decide in
@@ -145,13 +133,12 @@ static void check(struct soup *soup, bool exact)
     refer(soup, &reference);
     if (exact)
         memset(reference.close, 0, sizeof reference.close);
-    lam_scene *scene = scene_of(soup, LAM_CULL_NONE);
+    AUTO_SCENE scene = scene_of(soup, LAM_CULL_NONE);
     for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
         if (lam_isa_usable((lam_isa)isa)) {
             draw(scene, (lam_isa)isa, 1, drawn);
             compare(&reference, (lam_isa)isa, drawn);
         }
-    lam_scene_free(scene);
     free(soup->corners);
 }
 
@@ -170,42 +157,37 @@ static struct soup random_soup(int count, double size)
     return soup;
 }
 
-static void test_small(void **state)
+TEST(test_small)
 {
-    (void)state;
     seed = 1;
     struct soup soup = random_soup(2000, 2);
     check(&soup, false);
 }
 
-static void test_medium(void **state)
+TEST(test_medium)
 {
-    (void)state;
     seed = 2;
     struct soup soup = random_soup(300, 25);
     check(&soup, false);
 }
 
-static void test_large(void **state)
+TEST(test_large)
 {
-    (void)state;
     seed = 3;
     struct soup soup = random_soup(60, 300);
     check(&soup, false);
 }
 
-static void test_huge(void **state)
+TEST(test_huge)
 {
-    (void)state;
     seed = 4;
     struct soup soup = random_soup(40, 8000); // still within the guard band, so exact
     check(&soup, false);
 }
 
 // Corners on pixel centres and edges through them: the rule decides every pixel.
-static void test_on_centres(void **state)
+TEST(test_on_centres)
 {
-    (void)state;
     seed = 5;
     struct soup soup = random_soup(400, 12);
     for (int i = 0; i < soup.count * 9; i++)
@@ -216,9 +198,8 @@ static void test_on_centres(void **state)
 
 // Back faces of all sizes in front of, inside and behind a wall of front faces with holes. Those behind it are dropped
 // early, and only those. At equal depths the lower number is visible, with either side.
-static void test_backs(void **state)
+TEST(test_backs)
 {
-    (void)state;
     seed = 8;
     enum { CELL = 4, ACROSS = SIZE / CELL, BACKS = 3000 };
     static const double halves[2][3][2] = {{{0, 0}, {0, 1}, {1, 1}}, {{0, 0}, {1, 1}, {1, 0}}};
@@ -249,9 +230,8 @@ static void test_backs(void **state)
 }
 
 // A jittered grid of triangles covers every sample exactly once: alpha shows no holes at 1, 4 and 16 samples.
-static void test_watertight(void **state)
+TEST(test_watertight)
 {
-    (void)state;
     seed = 6;
     enum { CELLS = 37 };
     static double grid[CELLS + 1][CELLS + 1][2];
@@ -273,11 +253,11 @@ static void test_watertight(void **state)
                 *c++ = 0;
             }
         }
-    lam_scene *scene = scene_of(&soup, LAM_CULL_NONE);
+    AUTO_SCENE scene = scene_of(&soup, LAM_CULL_NONE);
     static const int samples[] = {1, 4, 16};
     for (int s = 0; s < 3; s++) {
         lam_error error = {0};
-        lam_device *device = lam_device_cpu(NULL, &error);
+        AUTO_DEVICE device = lam_device_cpu(NULL, &error);
         lam_camera camera = {.eye = {SIZE / 2, SIZE / 2, 100},
                              .target = {SIZE / 2, SIZE / 2, 0},
                              .up = {0, 1, 0},
@@ -285,33 +265,28 @@ static void test_watertight(void **state)
                              .near_plane = 1,
                              .far_plane = 199};
         lam_draw_params params = {.samples = samples[s], .reflection = LAM_REFLECTION_NONE};
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
         assert_true(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
         // Inside the jittered border, everything is covered.
         for (int y = 8; y < SIZE - 8; y++)
             for (int x = 8; x < SIZE - 8; x++)
                 assert_true(((float *)image.pixels)[4 * (y * SIZE + x) + 3] == 1.0f);
-        lam_image_free(&image);
-        lam_device_free(device);
     }
-    lam_scene_free(scene);
     free(soup.corners);
 }
 
 // The winding (y up) distinguishes front and back; each culling mode keeps the other side.
-static void test_culling(void **state)
+TEST(test_culling)
 {
-    (void)state;
     seed = 7;
     struct soup soup = random_soup(200, 30);
     static float all[SIZE * SIZE], front[SIZE * SIZE], back[SIZE * SIZE];
     const lam_cull culls[] = {LAM_CULL_NONE, LAM_CULL_BACK, LAM_CULL_FRONT};
     float *out[] = {all, front, back};
     for (int i = 0; i < 3; i++) {
-        lam_scene *scene = scene_of(&soup, culls[i]);
+        AUTO_SCENE scene = scene_of(&soup, culls[i]);
         draw(scene, LAM_ISA_AUTO, 1, out[i]);
-        lam_scene_free(scene);
     }
     for (int i = 0; i < SIZE * SIZE; i++) {
         for (int s = 1; s < 3; s++) {
@@ -331,9 +306,8 @@ static void test_culling(void **state)
 // A tetrahedron of any size up to the largest floats, fitted into a picture of odd size: every instruction set draws
 // the same coverage, and up to 1e33 the coverage of size 1. (Beyond, products of coordinates leave the range of
 // floats.)
-static void test_sizes(void **state)
+TEST(test_sizes)
 {
-    (void)state;
     enum { WIDTH = 33, HEIGHT = 31 };
     static const float corners[4][3] = {{-1, -1, -1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
     static const uint32_t indices[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
@@ -345,7 +319,7 @@ static void test_sizes(void **state)
             for (int i = 0; i < 12; i++)
                 positions[i / 3][i % 3] = corners[i / 3][i % 3] * (float)pow(10, power);
             lam_mesh mesh = {.positions = positions[0], .indices = indices, .vertex_count = 4, .triangle_count = 4};
-            lam_scene *scene = lam_scene_make(NULL);
+            AUTO_SCENE scene = lam_scene_make(NULL);
             lam_object object = lam_object_default();
             object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
             if (object.mesh < 0 || lam_scene_add_object(scene, &object, &error) < 0)
@@ -355,7 +329,7 @@ static void test_sizes(void **state)
             for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
                 if (!lam_isa_usable((lam_isa)isa))
                     continue;
-                lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = (lam_isa)isa}, &error);
+                AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = (lam_isa)isa}, &error);
                 lam_image image = {.width = WIDTH, .height = HEIGHT, .format = LAM_RGBA8, .pixels = pixels};
                 if (!device || !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
                     fail_msg("%s", error.text);
@@ -366,22 +340,10 @@ static void test_sizes(void **state)
                 assert_memory_equal(pixels, scalar, sizeof scalar);
                 if (power <= 33)
                     assert_memory_equal(pixels, first, sizeof first);
-                lam_device_free(device);
             }
-            lam_scene_free(scene);
         }
     int covered = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         covered += first[4 * i] > 0;
     assert_in_range(covered, 200, 900);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),      cmocka_unit_test(test_medium),     cmocka_unit_test(test_large),
-        cmocka_unit_test(test_huge),       cmocka_unit_test(test_on_centres), cmocka_unit_test(test_backs),
-        cmocka_unit_test(test_watertight), cmocka_unit_test(test_culling),    cmocka_unit_test(test_sizes),
-    };
-    return cmocka_run_group_tests_name("cover", tests, NULL, NULL);
 }

@@ -1,20 +1,12 @@
 // test_fragment_store.c: stored fragments of a tile are loaded unchanged, by the kernels of every instruction set, for
 // every number of samples, with triangle numbers near one another and far apart.
+#include "test.h"
 #include "arena.h"
 #include "fragment_store.h"
 #include "fragments.h"
 #include "isa.h"
 #include "kernels.h"
 #include "samples.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { MAX = TILE * TILE * SAMPLES_MAX };
 
@@ -61,9 +53,8 @@ static void comes_back(const struct kernels *kernels, int samples, int count, ui
     free(out);
 }
 
-static void fragments_come_back(void **state)
+TEST(fragments_come_back)
 {
-    (void)state;
     const int numbers[] = {1, 2, 4, 8, 16}, counts[] = {1, 2, 3, 63, 4097};
     const uint32_t last = 0x7FFFFFFF;
     for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++) {
@@ -78,10 +69,4 @@ static void fragments_come_back(void **state)
                 comes_back(kernels, numbers[s], counts[c], last - 3, last);
             }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(fragments_come_back)};
-    return cmocka_run_group_tests_name("fragment_store", tests, NULL, NULL);
 }

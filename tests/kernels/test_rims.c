@@ -3,19 +3,9 @@
 // Every back face of a closed surface is behind a front face. At the outline, the two meet in an edge, and a sample
 // near it shows the back face if the depth planes of the two disagree about which is nearer. A sample exactly on the
 // edge has the same depth on both, and rounding decides: one pixel in some forty frames, none of these at 1 sample.
-#include <lambent/lambent.h>
 
+#include "test.h"
 #include "share.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 512, VIEWS = 6, VISIBLE = 16 };
 
@@ -105,20 +95,6 @@ static double mean_off(int samples)
     return (double)count / frames;
 }
 
-static void test_one_sample(void **state)
-{
-    (void)state;
-    assert_true(mean_off(1) == 0);
-}
+TEST(test_one_sample) { assert_true(mean_off(1) == 0); }
 
-static void test_four_samples(void **state)
-{
-    (void)state;
-    assert_true(mean_off(4) <= 0.25);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_one_sample), cmocka_unit_test(test_four_samples)};
-    return cmocka_run_group_tests_name("rims", tests, NULL, NULL);
-}
+TEST(test_four_samples) { assert_true(mean_off(4) <= 0.25); }

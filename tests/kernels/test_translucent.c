@@ -4,18 +4,8 @@
 // The camera is orthographic and maps one unit to one pixel, so that a corner at a multiple of 1/256 is snapped to
 // itself. Colours are painted unlit. The reference follows only docs/lighting.md. The file has more than 600 lines
 // because it contains the reference in double and every path that is compared with it.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
+#include "test.h"
 #include "exact_cover.h"
 
 enum { SIZE = 96, SAMPLES_MAX = 16 };
@@ -291,9 +281,8 @@ static struct soup random_soup(int count, double opaque_share)
     return soup;
 }
 
-static void test_random(void **state)
+TEST(test_random)
 {
-    (void)state;
     static const lam_rgba backgrounds[] = {{0, 0, 0, 0}, {0.2f, 0.4f, 0.8f, 1}, {1, 0.5f, 0.25f, 0.5f}};
     static const int samples[] = {1, 4, 1, 4, 2, 4, 8, 16};
     for (int i = 0; i < 8; i++) {
@@ -306,13 +295,12 @@ static void test_random(void **state)
 
 // Triangles of one colour look the same under every shading method, even if a tile has more points to light than fit at
 // once.
-static void test_methods(void **state)
+TEST(test_methods)
 {
-    (void)state;
     static float drawn[3][SIZE * SIZE * 4];
     seed = 10;
     struct soup soup = random_soup(300, 0.02);
-    lam_scene *scene = scene_of(&soup, NULL);
+    AUTO_SCENE scene = scene_of(&soup, NULL);
     uint64_t lit = 0;
     for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
         struct way way = {.threads = 2,
@@ -325,14 +313,12 @@ static void test_methods(void **state)
             assert_true(fabsf(drawn[shading][i] - drawn[0][i]) < 1e-5f);
     }
     assert_true(lit > 4 * SIZE * SIZE); // layers indeed
-    lam_scene_free(scene);
     soup_free(&soup);
 }
 
 // The picture does not depend on the order of the triangles: only depth decides.
-static void test_order(void **state)
+TEST(test_order)
 {
-    (void)state;
     enum { COUNT = 80 };
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     seed = 20;
@@ -365,9 +351,8 @@ static void set(struct soup *soup, int i, const double corners[3][3], const floa
 }
 
 // Two squares that intersect along a diagonal, and an opaque one through both.
-static void test_intersecting(void **state)
+TEST(test_intersecting)
 {
-    (void)state;
     static const float colors[3][4] = {{1, 0, 0, 0.5f}, {0, 1, 0, 0.7f}, {0, 0, 1, 1}};
     struct soup soup = soup_make(6);
     for (int i = 0; i < 3; i++) {
@@ -384,9 +369,8 @@ static void test_intersecting(void **state)
 }
 
 // Three long triangles, each in front of the next one and behind the one before.
-static void test_cyclic(void **state)
+TEST(test_cyclic)
 {
-    (void)state;
     static const float colors[3][4] = {{1, 0.2f, 0, 0.6f}, {0, 1, 0.1f, 0.4f}, {0.3f, 0, 1, 0.8f}};
     struct soup soup = soup_make(3);
     for (int i = 0; i < 3; i++) {
@@ -405,9 +389,8 @@ static void test_cyclic(void **state)
 }
 
 // At the same depth, the first triangle is in front, as among opaque triangles.
-static void test_equal_depth(void **state)
+TEST(test_equal_depth)
 {
-    (void)state;
     struct soup soup = soup_make(12);
     for (int i = 0; i < 12; i++) {
         double corners[3][3] = {{4 + i, 4, 0}, {92 - i, 10, 0}, {20, 90 - 2 * i, 0}};
@@ -422,9 +405,8 @@ static void test_equal_depth(void **state)
 
 // Far more fragments than fit into a thread's memory: the tile is drawn in parts, down to few pixels, and the picture
 // is the same.
-static void test_many_layers(void **state)
+TEST(test_many_layers)
 {
-    (void)state;
     struct soup soup = soup_make(3000);
     seed = 30;
     for (int i = 0; i < soup.count; i++) {
@@ -436,7 +418,7 @@ static void test_many_layers(void **state)
     }
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     static struct reference reference;
-    lam_scene *scene = scene_of(&soup, NULL);
+    AUTO_SCENE scene = scene_of(&soup, NULL);
     struct way way = {.isa = LAM_ISA_SCALAR,
                       .threads = 1,
                       .format = LAM_RGBA32F,
@@ -457,14 +439,12 @@ static void test_many_layers(void **state)
         for (int c = 0; c < 4; c++)
             assert_true(fabs((double)first[4 * i + c] - reference.pixel[i][c]) < (reference.close[i] ? 1e-3 : 1e-5));
     assert_true(first[4 * (SIZE * 45 + 40) + 3] > 0.99f);
-    lam_scene_free(scene);
     soup_free(&soup);
 }
 
 // The maximum number of layers that can be sorted over one pixel, and one more.
-static void test_limit(void **state)
+TEST(test_limit)
 {
-    (void)state;
     enum { MOST = 65536 };
     for (int count = MOST; count <= MOST + 1; count++) {
         struct soup soup = soup_make(count);
@@ -473,11 +453,11 @@ static void test_limit(void **state)
             float color[4] = {1, 1, 1, 1e-4f};
             set(&soup, i, corners, color, false);
         }
-        lam_scene *scene = scene_of(&soup, NULL);
+        AUTO_SCENE scene = scene_of(&soup, NULL);
         lam_error error = {0};
-        lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, &error);
+        AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 2}, &error);
         lam_camera seen = camera();
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
         lam_draw_params params = {.samples = 1, .reflection = LAM_REFLECTION_NONE};
         bool drawn = lam_draw(device, scene, &seen, &params, &image, NULL, &error);
@@ -490,40 +470,32 @@ static void test_limit(void **state)
             assert_int_equal(error.code, LAM_LIMIT);
             assert_non_null(strstr(error.text, "65536"));
             // The device still works for other frames.
-            lam_scene *empty = lam_scene_make(&error);
+            AUTO_SCENE empty = lam_scene_make(&error);
             assert_true(lam_draw(device, empty, &seen, &params, &image, NULL, &error));
-            lam_scene_free(empty);
         }
-        lam_image_free(&image);
-        lam_device_free(device);
-        lam_scene_free(scene);
         soup_free(&soup);
     }
 }
 
 // The memory for layers is counted in the call's budget.
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     seed = 40;
     struct soup soup = random_soup(20, 0);
     for (int opaque = 0; opaque < 2; opaque++) {
         for (int i = 0; i < soup.count; i++)
             soup.colors[i][3] = opaque ? 1 : 0.5f;
-        lam_scene *scene = scene_of(&soup, NULL);
+        AUTO_SCENE scene = scene_of(&soup, NULL);
         lam_error error = {0};
-        lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
+        AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
         lam_camera seen = camera();
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, SIZE, SIZE, LAM_RGBA32F, &error));
         lam_draw_params params = {.samples = 1, .reflection = LAM_REFLECTION_NONE};
         lam_control control = {.memory_limit_bytes = 4 << 20};
         bool drawn = lam_draw(device, scene, &seen, &params, &image, &control, &error);
         assert_int_equal(drawn, opaque);
         assert_true(drawn || error.code == LAM_LIMIT);
-        lam_image_free(&image);
-        lam_device_free(device);
-        lam_scene_free(scene);
     }
     soup_free(&soup);
 }
@@ -549,9 +521,8 @@ static int add_square(lam_scene *scene, const float corners[4][3], const float a
 
 // A slanted ground that extends behind the eye is clipped into pieces whose seams cross the picture. Each sample still
 // gets each triangle once, and a pixel on a seam is lit once.
-static void test_clipped(void **state)
+TEST(test_clipped)
 {
-    (void)state;
     static const float corners[4][3] = {{-30, 0, 30}, {30, -4, 26}, {22, 3, -30}, {-30, 0, -26}};
     static float drawn[2][SIZE * SIZE * 4];
     int covered = 0;
@@ -565,7 +536,7 @@ static void test_clipped(void **state)
         seen.far_plane = random_between(12, 40);
         for (int i = 0; i < 2; i++) {
             lam_error error = {0};
-            lam_scene *scene = lam_scene_make(&error);
+            AUTO_SCENE scene = lam_scene_make(&error);
             lam_material material = white();
             lam_object object = lam_object_default();
             float alpha = i ? 0.5f : 1;
@@ -574,7 +545,6 @@ static void test_clipped(void **state)
             assert_true(lam_scene_add_object(scene, &object, &error) >= 0);
             struct way way = {.threads = 2, .format = LAM_RGBA32F, .params = {.reflection = LAM_REFLECTION_NONE}};
             lit[i] = draw_seen(scene, &seen, &way, drawn[i]);
-            lam_scene_free(scene);
         }
         for (int i = 0; i < SIZE * SIZE * 4; i++) {
             covered += drawn[0][i] == 1;
@@ -586,13 +556,12 @@ static void test_clipped(void **state)
 }
 
 // Alpha is the material's times the colour's, interpolated like colours in the shading method.
-static void test_shading(void **state)
+TEST(test_shading)
 {
-    (void)state;
     static const float corners[4][3] = {{16, 16, 0}, {80, 16, 0}, {80, 80, 0}, {16, 80, 0}};
     static float drawn[SIZE * SIZE * 4];
     lam_error error = {0};
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_material material = white();
     material.diffuse.a = 0.5f;
     lam_object object = lam_object_default();
@@ -620,20 +589,18 @@ static void test_shading(void **state)
                             fabs((double)pixel[0] - 0.25 * expected) < 1e-5);
             }
     }
-    lam_scene_free(scene);
 }
 
 // A back material has its own alpha, whichever side is translucent; culled sides are omitted.
-static void test_sides(void **state)
+TEST(test_sides)
 {
-    (void)state;
     static const float turned[2][4][3] = {{{16, 16, 0}, {80, 16, 0}, {80, 80, 0}, {16, 80, 0}},
                                           {{16, 16, 0}, {16, 80, 0}, {80, 80, 0}, {80, 16, 0}}};
     static float drawn[SIZE * SIZE * 4];
     for (int i = 0; i < 8; i++) {
         bool back = i & 1, swapped = i & 2, culled = i & 4;
         lam_error error = {0};
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         lam_material clear = white(), solid = white();
         clear.diffuse = (lam_rgba){0, 1, 0, 0.25f};
         lam_object object = lam_object_default();
@@ -646,15 +613,13 @@ static void test_sides(void **state)
              drawn);
         float expected = culled && back ? 0 : back != swapped ? 0.25f : 1;
         assert_true(drawn[4 * (48 * SIZE + 48) + 3] == expected);
-        lam_scene_free(scene);
     }
 }
 
 // Colours that could be transparent but are not give the opaque picture, and an unused transparent colour changes
 // nothing.
-static void test_as_opaque(void **state)
+TEST(test_as_opaque)
 {
-    (void)state;
     static float first[SIZE * SIZE * 4], other[SIZE * SIZE * 4];
     seed = 50;
     struct soup soup = random_soup(100, 1);
@@ -682,9 +647,8 @@ static void test_as_opaque(void **state)
 }
 
 // 8-bit pictures store the colour divided by alpha.
-static void test_straight(void **state)
+TEST(test_straight)
 {
-    (void)state;
     static uint8_t drawn[SIZE * SIZE * 4];
     static struct reference reference;
     seed = 60;
@@ -692,7 +656,7 @@ static void test_straight(void **state)
     for (int i = 0; i < soup.count; i++)
         for (int c = 0; c < 3; c++)
             soup.colors[i][c] *= 0.6f;
-    lam_scene *scene = scene_of(&soup, NULL);
+    AUTO_SCENE scene = scene_of(&soup, NULL);
     draw(scene,
          &(struct way){.threads = 2,
                        .format = LAM_RGBA8,
@@ -711,18 +675,5 @@ static void test_straight(void **state)
         seen += p[3] < 0.99;
     }
     assert_true(seen > 500);
-    lam_scene_free(scene);
     soup_free(&soup);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),       cmocka_unit_test(test_methods),  cmocka_unit_test(test_order),
-        cmocka_unit_test(test_intersecting), cmocka_unit_test(test_cyclic),   cmocka_unit_test(test_equal_depth),
-        cmocka_unit_test(test_many_layers),  cmocka_unit_test(test_limit),    cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_clipped),      cmocka_unit_test(test_shading),  cmocka_unit_test(test_sides),
-        cmocka_unit_test(test_as_opaque),    cmocka_unit_test(test_straight),
-    };
-    return cmocka_run_group_tests_name("translucent", tests, NULL, NULL);
 }

@@ -1,15 +1,7 @@
 // test_without_indices.c: a mesh without indices draws the same bytes as the same mesh with the indices 0, 1, 2 …, with
 // every instruction set and on every path of its triangles; and none of its vertices is stored.
-#include <lambent/lambent.h>
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 enum { WIDTH = 203, HEIGHT = 131 };
 
@@ -85,7 +77,7 @@ static lam_image draw(const lam_scene *scene, const struct variant *variant, lam
     return image;
 }
 
-static void test_same_bytes(void **state)
+TEST(test_same_bytes)
 {
     enum { TRIANGLES = 3001 };
     static const struct variant variants[] = {
@@ -93,7 +85,6 @@ static void test_same_bytes(void **state)
         {0.5f, LAM_CULL_NONE, false, false, 4}, {1, LAM_CULL_FRONT, false, true, 1},
         {0.5f, LAM_CULL_BACK, true, true, 1},
     };
-    (void)state;
     seed = 1;
     float *positions = random_triangles(TRIANGLES);
     uint32_t *indices = malloc(3 * TRIANGLES * sizeof *indices);
@@ -112,17 +103,15 @@ static void test_same_bytes(void **state)
         add(scene, &without, variant);
         add(scene, &half, &other);
         lam_frame_report report;
-        lam_image reference = draw(expected, variant, LAM_ISA_SCALAR, 1, &report);
+        AUTO_IMAGE reference = draw(expected, variant, LAM_ISA_SCALAR, 1, &report);
         assert_in_range(report.pixels_covered, WIDTH * HEIGHT / 2, WIDTH * HEIGHT);
         for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
             for (int threads = 1; threads < 4 && lam_isa_usable((lam_isa)isa); threads += 2) {
-                lam_image image = draw(scene, variant, (lam_isa)isa, threads, &report);
+                AUTO_IMAGE image = draw(scene, variant, (lam_isa)isa, threads, &report);
                 if (memcmp(image.pixels, reference.pixels, WIDTH * HEIGHT * 4) != 0)
                     fail_msg("variant %zu, %s, %d threads: the pictures differ", v, lam_isa_name((lam_isa)isa),
                              threads);
-                lam_image_free(&image);
             }
-        lam_image_free(&reference);
         lam_scene_free(expected);
         lam_scene_free(scene);
     }
@@ -131,30 +120,21 @@ static void test_same_bytes(void **state)
 }
 
 // The device uses no memory for its corners.
-static void test_memory(void **state)
+TEST(test_memory)
 {
     enum { TRIANGLES = 1000000 };
-    (void)state;
     static const struct variant plain = {.alpha = 1, .samples = 1};
     float *positions = calloc(9 * TRIANGLES, sizeof *positions); // no area, so nothing is binned
     assert_non_null(positions);
     uint64_t bytes[2];
     for (int i = 0; i < 2; i++) {
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_mesh mesh = mesh_of(positions, NULL, i ? TRIANGLES : 1);
         add(scene, &mesh, &plain);
         lam_frame_report report;
-        lam_image image = draw(scene, &plain, LAM_ISA_AUTO, 1, &report);
+        AUTO_IMAGE image = draw(scene, &plain, LAM_ISA_AUTO, 1, &report);
         bytes[i] = report.memory_bytes;
-        lam_image_free(&image);
-        lam_scene_free(scene);
     }
     assert_true(bytes[1] - bytes[0] < TRIANGLES / 10); // the list of tasks
     free(positions);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests_name("without-indices", tests, NULL, NULL);
 }

@@ -3,15 +3,8 @@
 //
 // The promise: each term is within 2e-6 + 4e-7·α of its largest value. If a light's own law amplifies the last digits
 // of its cosine (a spot's exponent, a narrow cone), that factor is added, as described in docs/lighting.md.
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <cmocka.h>
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
+#include "test.h"
 #include "points.h"
 #include "textbook.h"
 
@@ -97,9 +90,8 @@ static void compare(const struct points *p, const struct modes *m, int i)
 }
 
 // Environment light: the split sum and the Fresnel factor, with the light between microfacets.
-static void test_environment_light(void **state)
+TEST(test_environment_light)
 {
-    (void)state;
     struct points *p = malloc(sizeof *p);
     assert_non_null(p);
     double most = 0;
@@ -127,9 +119,8 @@ static void test_environment_light(void **state)
     free(p);
 }
 
-static void test_random_points(void **state)
+TEST(test_random_points)
 {
-    (void)state;
     struct points *p = malloc(sizeof *p);
     assert_non_null(p);
     int compared = 0;
@@ -209,9 +200,8 @@ static void adds_nothing(const float in[INPUTS], int kind, int falloff, int whic
     }
 }
 
-static void test_degenerate_points(void **state)
+TEST(test_degenerate_points)
 {
-    (void)state;
     float in[INPUTS], out[OUTPUTS];
 
     plain_point(in); // the light exactly at the point
@@ -288,9 +278,8 @@ static void test_degenerate_points(void **state)
 }
 
 // Lengths from 1e-15 to 1e15 give the same picture.
-static void test_scale(void **state)
+TEST(test_scale)
 {
-    (void)state;
     float in[INPUTS], first[OUTPUTS], out[OUTPUTS];
     for (int model = LAM_REFLECTION_LAMBERT; model < LAM_REFLECTION_COUNT; model++) {
         plain_point(in);
@@ -316,9 +305,8 @@ static void test_scale(void **state)
 }
 
 // Numbers that can be checked by hand.
-static void test_known_answers(void **state)
+TEST(test_known_answers)
 {
-    (void)state;
     float in[INPUTS], out[OUTPUTS];
     plain_point(in); // head on, light at the eye: all terms are 1
     for (int model = LAM_REFLECTION_PHONG; model <= LAM_REFLECTION_BLINN_PHONG; model++) {
@@ -362,9 +350,8 @@ static void test_known_answers(void **state)
 }
 
 // The edge of a cone is lit for any rounding of the cosines; slightly outside, it is dark.
-static void test_cone_edge(void **state)
+TEST(test_cone_edge)
 {
-    (void)state;
     float in[INPUTS], out[OUTPUTS];
     struct modes m = {LIGHT_SPOT_CUTOFF, FALLOFF_NONE, LAM_REFLECTION_LAMBERT, 0, 0};
     struct random r = {99};
@@ -395,9 +382,8 @@ static void test_cone_edge(void **state)
 }
 
 // Every model has a counterpart in textbook.c, a name and a summary; the properties agree with the formulas.
-static void test_table(void **state)
+TEST(test_table)
 {
-    (void)state;
     for (int model = 0; model < LAM_REFLECTION_COUNT; model++) {
         const lam_reflection_info *info = lam_reflection_describe((lam_reflection)model);
         assert_true(info && info->word && *info->word && info->summary && *info->summary);
@@ -409,18 +395,4 @@ static void test_table(void **state)
             assert_true(textbook_hash(model) != 0);
     }
     assert_null(lam_reflection_describe(LAM_REFLECTION_COUNT));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),
-        cmocka_unit_test(test_known_answers),
-        cmocka_unit_test(test_random_points),
-        cmocka_unit_test(test_degenerate_points),
-        cmocka_unit_test(test_scale),
-        cmocka_unit_test(test_cone_edge),
-        cmocka_unit_test(test_environment_light),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,8 @@
 // test_functions.c: compares power, exp2, log2, inverse root and the sRGB curves with libm in double, within the errors
 // promised in functions.h and encoding.h, and at their limits. Every width gives the same bits (test_widths.c), so one
 // is enough here.
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <cmocka.h>
 
-#include <math.h>
-#include <stdlib.h>
-
+#include "test.h"
 #include "random.h"
 #include "widths.h"
 
@@ -61,9 +55,8 @@ static double power_error(enum function function, float first, float last, uint3
     return worst;
 }
 
-static void test_power(void **state)
+TEST(test_power)
 {
-    (void)state;
     static const float exponents[] = {0.01f,  0.4f, 1,      2,      2.4f,   5,      10,      27.8974f,
                                       50,     64,   95.7f,  100.1f, 110.9f, 120.7f, 126.99f, 127.3f,
                                       127.9f, 128,  150.3f, 180.7f, 200,    217.7f, 256,     500,
@@ -87,9 +80,8 @@ static void test_power(void **state)
     assert_true(over <= 3e-6);
 }
 
-static void test_power_edges(void **state)
+TEST(test_power_edges)
 {
-    (void)state;
     static const float exponents[] = {0x1p-149f, 1e-30f, 0.5f, 1, 27.8f, 1e4f, 1e30f, 0x1.fffffep127f};
     for (enum function f = FUNCTION_POWER; f <= FUNCTION_UNIT_POWER; f++) {
         static const float bases[] = {0, -0.0f, 0x1p-149f, 0x1p-130f, 0x1p-126f, 0.3f, 1, -1, -INFINITY};
@@ -120,9 +112,8 @@ static void test_power_edges(void **state)
 }
 
 // No result is between 0 and the smallest normal number, except for the last digit of that number itself.
-static void test_no_denormals(void **state)
+TEST(test_no_denormals)
 {
-    (void)state;
     for (float base = 0.01f; base < 1; base += 0.003f) {
         for (float e = 1; e < 3000; e *= 1.01f) {
             float result = of(FUNCTION_UNIT_POWER, base, e);
@@ -131,9 +122,8 @@ static void test_no_denormals(void **state)
     }
 }
 
-static void test_exp2_and_log2(void **state)
+TEST(test_exp2_and_log2)
 {
-    (void)state;
     static float x[BLOCK], out[BLOCK];
     struct random r = {5};
     double exp2_error = 0, log2_absolute = 0, log2_relative = 0;
@@ -170,9 +160,8 @@ static void test_exp2_and_log2(void **state)
                 of(FUNCTION_LOG2, NAN, 0) == -126);
 }
 
-static void test_rsqrt(void **state)
+TEST(test_rsqrt)
 {
-    (void)state;
     static float x[BLOCK], out[BLOCK];
     double worst = 0;
     for (uint32_t bits = bits_of_float(1); bits < bits_of_float(4); bits += 3 * BLOCK) { // two binades cover all cases
@@ -199,9 +188,8 @@ static void test_rsqrt(void **state)
 static double encoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055; }
 static double decoded(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-static void test_srgb(void **state)
+TEST(test_srgb)
 {
-    (void)state;
     double encode = 0, decode = 0;
     for (int i = 0; i <= 100000; i++) {
         float x = (float)i / 100000;
@@ -222,9 +210,8 @@ static void test_srgb(void **state)
     }
 }
 
-static void test_bytes(void **state)
+TEST(test_bytes)
 {
-    (void)state;
     for (int k = 0; k < 255; k++) {
         assert_true(of(FUNCTION_BYTE, ((float)k + 0.49f) / 255, 0) == (float)k);
         assert_true(of(FUNCTION_BYTE, ((float)k + 0.51f) / 255, 0) == (float)(k + 1));
@@ -232,14 +219,4 @@ static void test_bytes(void **state)
     assert_true(of(FUNCTION_BYTE, 0, 0) == 0 && of(FUNCTION_BYTE, 1, 0) == 255);
     assert_true(of(FUNCTION_BYTE, -5, 0) == 0 && of(FUNCTION_BYTE, 1e30f, 0) == 255);
     assert_true(of(FUNCTION_BYTE, NAN, 0) == 0 && of(FUNCTION_BYTE, INFINITY, 0) == 255);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_power),         cmocka_unit_test(test_power_edges), cmocka_unit_test(test_no_denormals),
-        cmocka_unit_test(test_exp2_and_log2), cmocka_unit_test(test_rsqrt),       cmocka_unit_test(test_srgb),
-        cmocka_unit_test(test_bytes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,8 @@
 // test_furnace.c: a white metal in a uniform environment returns all of its light (the white furnace); this tests the
 // lobe and the table of its single-scattering albedo.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdio.h>
 
 #define LANES 1
+#include "test.h"
 #include "lighting.h"
 
 #define PI 3.14159265358979323846
@@ -39,9 +31,8 @@ static double albedo(double n_dot_v, double roughness)
     return sum / (RINGS * SECTORS);
 }
 
-static void test_table(void **state)
+TEST(test_table)
 {
-    (void)state;
     double worst = 0, mean = 0;
     int count = 0;
     for (double roughness = 0.045; roughness <= 1; roughness += 0.0191)
@@ -60,9 +51,8 @@ static void test_table(void **state)
 }
 
 // The lobe itself, over a plain grid of directions, for sufficiently wide lobes.
-static void test_white_furnace(void **state)
+TEST(test_white_furnace)
 {
-    (void)state;
     enum { RINGS = 600, SECTORS = 600 };
     for (float roughness = 0.4f; roughness < 1.05f; roughness += 0.2f)
         for (float n_dot_v = 0.2f; n_dot_v < 1.05f; n_dot_v += 0.2f) {
@@ -84,10 +74,4 @@ static void test_white_furnace(void **state)
                 fail_msg("roughness %g, n.v %g: a white metal returns %.4f of the light", (double)rough, (double)z,
                          returned);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_table), cmocka_unit_test(test_white_furnace)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

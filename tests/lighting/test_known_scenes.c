@@ -1,16 +1,8 @@
 // test_known_scenes.c: compares scene files with a mesh with normals and tangents, drawn as linear floats, with the
 // textbook's sums over the same triangles: rays through the pixels' centres, in double, implemented independently of
 // the renderer.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <cmocka.h>
-
+#include "test.h"
 #include "vec.h"
 
 enum { W = 96, H = 72, AROUND = 14, ALONG = 9, VERTICES = (AROUND + 1) * (ALONG + 1), TRIANGLES = 2 * AROUND * ALONG };
@@ -271,11 +263,11 @@ static lam_scene *load(const struct known *k)
 static void compare(const struct known *k)
 {
     static struct world w;
-    lam_scene *scene = load(k);
+    AUTO_SCENE scene = load(k);
     lam_picture_settings settings;
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     lam_error error = {0};
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
+    AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
     assert_true(lam_scene_picture_settings(scene, &settings));
     assert_true(lam_image_make(&image, settings.width, settings.height, LAM_RGBA32F, &error));
     if (!lam_draw(device, scene, &settings.camera, &settings.draw, &image, NULL, &error))
@@ -314,9 +306,6 @@ static void compare(const struct known *k)
     assert_true(counted > 1000);
     assert_true(largest <= 2e-4);
     assert_true(total / (3 * counted) <= 2e-6);
-    lam_image_free(&image);
-    lam_device_free(device);
-    lam_scene_free(scene);
 }
 
 #define WHITE      {1, 1, 1}
@@ -324,9 +313,8 @@ static void compare(const struct known *k)
 #define PLAIN      .attenuation = {1, 0, 0}, .diffuse = WHITE, .specular = WHITE
 #define FROM_POINT {POINT, "world", .at = {2, 3, 4}, PLAIN}
 
-static void test_known_scenes(void **unused)
+TEST(test_known_scenes)
 {
-    (void)unused;
     static const struct known cases[] = {
         {"point", STRAIGHT, .lights = {FROM_POINT}, .light_count = 1},
         {"point, attenuated, ranged", STRAIGHT,
@@ -365,10 +353,4 @@ static void test_known_scenes(void **unused)
     make_mesh();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         compare(&cases[i]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_scenes)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,8 @@
 // test_layers.c: compares the layers of physical materials (src/core/lighting/layers.h) with the formulas of the Khronos
 // extensions in double precision, implemented independently with libm: random materials under random light, for every
 // set of layers; then numbers that can be checked by hand, and the table of the sheen's albedo.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
 
 #include <lambent/material.h>
 
@@ -89,9 +81,8 @@ static layer_values layers_from(const struct point *p)
     return m;
 }
 
-static void test_random_points(void **state)
+TEST(test_random_points)
 {
-    (void)state;
     struct random r = {2026};
     enum { SETS = LAYER_VOLUME, POINTS = 300 };
     double worst = 0;
@@ -126,9 +117,8 @@ static void test_random_points(void **state)
 }
 
 // Layers with neutral numbers do not change lobes.h and sum.h.
-static void test_neutral(void **state)
+TEST(test_neutral)
 {
-    (void)state;
     struct random r = {7};
     for (int i = 0; i < 2000; i++) {
         struct point p = random_point(&r);
@@ -171,9 +161,8 @@ static vec3 narrow3(const double v[3]) { return (vec3){(float)v[0], (float)v[1],
 
 // Specular antialiasing: compares the variance of normals with differences of unit normals, Toksvig's length, and the
 // wider lobe.
-static void test_widening(void **state)
+TEST(test_widening)
 {
-    (void)state;
     struct random r = {11};
     for (int i = 0; i < 2000; i++) {
         double normal[3], slope[2][3], sum = 0;
@@ -207,9 +196,8 @@ static void test_widening(void **state)
 }
 
 // Numbers from the texts.
-static void test_known_answers(void **state)
+TEST(test_known_answers)
 {
-    (void)state;
     surface s = {.n = {0, 0, 1}, .v = {0, 0, 1}, .t = {1, 0, 0}};
     layer_values m = {
         .base = {1, 0.5f, 0.25f}, .roughness = 1, .ior = 3, .specular_weight = 0.5f, .f0_color = {1, 0.2f, 9}};
@@ -243,9 +231,8 @@ static void test_known_answers(void **state)
 }
 
 // Compares the table of the sheen's albedo with the integral of the lobe, if it is wide enough for a plain grid.
-static void test_sheen_table(void **state)
+TEST(test_sheen_table)
 {
-    (void)state;
     enum { RINGS = 300, SECTORS = 300 };
     for (double roughness = 0.3; roughness <= 1.01; roughness += 0.1)
         for (double z = 0.15; z < 1; z += 0.2) {
@@ -293,9 +280,8 @@ static void stretched_integral(double alpha_t, double alpha_b, double n_v, doubl
 }
 
 // The albedo of brushed metal is within 5 % of the integral for every pair of roughnesses and every direction.
-static void test_stretched_albedo(void **state)
+TEST(test_stretched_albedo)
 {
-    (void)state;
     double worst = 0, mean = 0, bias = 0;
     int count = 0;
     for (double roughness = 0.05; roughness < 1; roughness += 0.19)
@@ -319,12 +305,4 @@ static void test_stretched_albedo(void **state)
     print_message("two roughnesses: %.1f %% off at most, %.1f %% in the mean, bias %.3f\n", 100 * worst,
                   100 * mean / count, bias);
     assert_true(mean / count < 0.015 && bias < 0.02);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_widening),    cmocka_unit_test(test_known_answers),
-                                       cmocka_unit_test(test_neutral),     cmocka_unit_test(test_random_points),
-                                       cmocka_unit_test(test_sheen_table), cmocka_unit_test(test_stretched_albedo)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

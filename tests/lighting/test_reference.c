@@ -1,18 +1,7 @@
 // test_reference.c: compares the integral of environment light by fixed directions (lam_draw_params.reference) with
 // quadrature in double precision, implemented from docs/lighting/physical.md independently with libm.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <lambent/lambent.h>
-
+#include "test.h"
 #include "environment_scene.h"
 #include "layered_textbook.h"
 
@@ -142,9 +131,8 @@ static size_t differences(int count, double *out, size_t capacity)
 }
 
 // 4096 directions are within 0.2 % of the integral for half of the points, and within 0.5 % for nine tenths.
-static void test_integral(void **state)
+TEST(test_integral)
 {
-    (void)state;
     static double out[1000];
     size_t count = differences(4096, out, 1000);
     assert_true(count > 150);
@@ -247,8 +235,7 @@ static lam_image draw_ball(const lam_environment *environment, const lam_materia
     params.samples = 1;
     params.rig = LAM_RIG_NONE;
     params.occlusion = LAM_OCCLUSION_OFF;
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     lam_device_free(device);
     lam_scene_free(scene);
     return image;
@@ -256,9 +243,8 @@ static lam_image draw_ball(const lam_environment *environment, const lam_materia
 
 // For every combination of layers, 4096 directions are within 0.4 % of the sum over all directions, and within 0.2 % in
 // the mean.
-static void test_layers(void **state)
+TEST(test_layers)
 {
-    (void)state;
     static const int places[PLACES][2] = {{16, 16}, {9, 11}, {25, 20}, {3, 14}};
     lam_environment *environment = make_environment();
     for (int number = 0; number < COMBINATIONS; number++) {
@@ -299,24 +285,15 @@ static void test_layers(void **state)
 }
 
 // In a uniform environment, a white metal returns all light, and half as many directions do not change that.
-static void test_white_furnace(void **state)
-{
-    (void)state;
-    check_white_furnace((lam_draw_params){.reference = 1024});
-}
+TEST(test_white_furnace) { check_white_furnace((lam_draw_params){.reference = 1024}); }
 
-static void test_same_bytes(void **state)
-{
-    (void)state;
-    check_same_bytes((lam_draw_params){.reference = 19});
-}
+TEST(test_same_bytes) { check_same_bytes((lam_draw_params){.reference = 19}); }
 
 // An environment without light, one with light in a single texel, and numbers out of range.
-static void test_limits(void **state)
+TEST(test_limits)
 {
-    (void)state;
     lam_error error;
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, 64, 32, LAM_RGBA32F, &error));
     memset(image.pixels, 0, 64 * 32 * 16);
     for (int lit = 0; lit < 2; lit++) {
@@ -324,8 +301,8 @@ static void test_limits(void **state)
             ((float *)image.pixels)[4 * (8 * 64 + 20) + c] = 1e6f;
         lam_environment *environment = lam_environment_from_image(&image, LAM_COLOR_SRGB, &error);
         assert_non_null(environment);
-        lam_scene *scene = make_spheres(environment, (lam_rgb){1, 1, 1});
-        lam_image picture = draw_spheres(scene, (lam_draw_params){.reference = 64}, 0, LAM_ISA_AUTO);
+        AUTO_SCENE scene = make_spheres(environment, (lam_rgb){1, 1, 1});
+        AUTO_IMAGE picture = draw_spheres(scene, (lam_draw_params){.reference = 64}, 0, LAM_ISA_AUTO);
         double sum = 0;
         for (int i = 0; i < picture.width * picture.height * 4; i++) {
             float x = ((const float *)picture.pixels)[i];
@@ -333,12 +310,10 @@ static void test_limits(void **state)
             sum += i % 4 < 3 ? (double)x : 0;
         }
         assert_true(lit ? sum > 1e4 : sum == 0);
-        lam_image_free(&picture);
-        lam_scene_free(scene);
         lam_environment_free(environment);
     }
-    lam_scene *scene = lam_scene_make(&error);
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_SCENE scene = lam_scene_make(&error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     lam_camera camera = lam_camera_default();
     static const int wrong[] = {-1, 1, 15, (1 << 20) + 1};
     for (int i = 0; i < 4; i++) {
@@ -347,15 +322,4 @@ static void test_limits(void **state)
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
         assert_non_null(strstr(error.text, "reference is"));
     }
-    lam_device_free(device);
-    lam_scene_free(scene);
-    lam_image_free(&image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_integral), cmocka_unit_test(test_layers),
-                                       cmocka_unit_test(test_white_furnace), cmocka_unit_test(test_same_bytes),
-                                       cmocka_unit_test(test_limits)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

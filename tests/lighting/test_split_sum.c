@@ -1,20 +1,10 @@
 // test_split_sum.c: compares the environment's light on metallic-roughness materials with a split sum in double
 // precision, implemented from docs/lighting/environment.md independently with libm: every part of it by quadrature of
 // an environment given by a formula, a sky over a ground and three discs with soft edges.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <lambent/lambent.h>
-
+#include "test.h"
 #include "cpu_features.h"
+#include "environment.h"
 #include "environment_kernels.h"
 #include "environment_scene.h"
 #include "share.h"
@@ -162,9 +152,8 @@ static double mean_difference(bool single)
     return sum / count;
 }
 
-static void test_split_sum(void **state)
+TEST(test_split_sum)
 {
-    (void)state;
     for (int single = 0; single < 2; single++) {
         double mean = mean_difference(single);
         print_message("%s scattering: %.2g off in the mean\n", single ? "single" : "multiple", mean);
@@ -173,23 +162,14 @@ static void test_split_sum(void **state)
 }
 
 // A white metal in a uniform environment of 1 returns all of its light, for any roughness.
-static void test_white_furnace(void **state)
-{
-    (void)state;
-    check_white_furnace((lam_draw_params){0});
-}
+TEST(test_white_furnace) { check_white_furnace((lam_draw_params){0}); }
 
-static void test_same_bytes(void **state)
-{
-    (void)state;
-    check_same_bytes((lam_draw_params){0});
-}
+TEST(test_same_bytes) { check_same_bytes((lam_draw_params){0}); }
 
 // The sums are the same with every instruction set. With `alpha` of cube_sums_row < 0, it is the irradiance. The rows
 // of the last face that cube_sums_row fills are opposite to rows of LAM_FACE_PZ.
-static void test_kernels(void **state)
+TEST(test_kernels)
 {
-    (void)state;
     enum { SIZE = 21, ROW = 3 * (SIZE + 2) }; // not a multiple of any number of lanes
     lam_error error;
     lam_environment *environment = make_environment();
@@ -205,8 +185,7 @@ static void test_kernels(void **state)
     }
     static float texels[3][LAM_FACE_COUNT * (SIZE + 2) * ROW + CUBE_TEXELS_AFTER];
     for (int lanes = 0; lanes < 3; lanes++) {
-        const struct environment_kernels *kernels =
-            CPU_WIDEST(4 << lanes, &environment_kernels_scalar, &environment_kernels_avx2, &environment_kernels_avx512);
+        const struct environment_kernels *kernels = CPU_WIDEST(4 << lanes, environment_kernels);
         struct lam_environment out = {.size = SIZE, .texels = texels[lanes]};
         for (int row = 0; row < LAM_FACE_COUNT * SIZE; row++) {
             int face = row / SIZE, t = row % SIZE;
@@ -224,12 +203,11 @@ static void test_kernels(void **state)
 }
 
 // Cubes of any size are prefiltered, including the smallest, and light too strong for sums of floats stays finite.
-static void test_any_size(void **state)
+TEST(test_any_size)
 {
-    (void)state;
     lam_error error;
     for (int width = 2; width <= 46; width += 11) {
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, 2 * (width / 2 * 2), width / 2 * 2, LAM_RGBA32F, &error));
         for (int i = 0; i < image.width * image.height * 4; i++)
             ((float *)image.pixels)[i] = i % 4 == 3 ? 1 : 2e38f;
@@ -245,21 +223,18 @@ static void test_any_size(void **state)
                 if (!(fabsf(cube->texels[k] / 2e38f - 1) < 1e-4f))
                     fail_msg("level %d, number %zu: %g, expected 2e38", i, k, (double)cube->texels[k]);
         }
-        lam_image texture = {0};
+        AUTO_IMAGE texture = {0};
         assert_true(lam_environment_light_image(environment, &texture, NULL, &error));
         assert_int_equal(texture.width, ENVIRONMENT_LIGHT_WIDTH);
         const float *last = (const float *)texture.pixels + 4 * (size_t)environment_light_first(ENVIRONMENT_LEVELS);
         assert_memory_equal(last, light->irradiance.texels, 3 * sizeof(float));
-        lam_image_free(&texture);
         lam_environment_free(environment);
-        lam_image_free(&image);
     }
 }
 
 // Levels made one after another, as frames request them, equal levels made together.
-static void test_parts(void **state)
+TEST(test_parts)
 {
-    (void)state;
     lam_error error;
     lam_environment *whole = make_environment(), *parts = make_environment();
     const struct environment_light *all = environment_light(whole, ENVIRONMENT_LIGHT_ALL, NULL, NULL, &error);
@@ -285,9 +260,8 @@ static void test_parts(void **state)
 }
 
 // Bounds of a map's numbers: of each channel, of pictures with and without alpha, of any size.
-static void test_map_ranges(void **state)
+TEST(test_map_ranges)
 {
-    (void)state;
     enum { SIDE = 23 };
     lam_error error;
     static uint8_t pixels[SIDE * SIDE][4];
@@ -323,9 +297,8 @@ static void test_map_ranges(void **state)
 }
 
 // Only the levels that a map's roughnesses need are made, and the picture equals the picture with all levels.
-static void test_levels_of_maps(void **state)
+TEST(test_levels_of_maps)
 {
-    (void)state;
     lam_error error;
     lam_environment *whole = make_environment(), *parts = make_environment();
     static uint8_t pixels[64][4];
@@ -337,7 +310,7 @@ static void test_levels_of_maps(void **state)
     lam_image pictures[2];
     assert_non_null(environment_light(whole, ENVIRONMENT_LIGHT_ALL, NULL, NULL, &error));
     for (int i = 0; i < 2; i++) {
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         lam_material material = lam_material_default();
         material.physical = true;
         material.roughness = 0.9f;
@@ -351,7 +324,6 @@ static void test_levels_of_maps(void **state)
         assert_true(object.material >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
         assert_true(lam_scene_set_environment(scene, i ? parts : whole, 0, &error));
         pictures[i] = draw_spheres(scene, (lam_draw_params){0}, 2, LAM_ISA_AUTO);
-        lam_scene_free(scene);
     }
     assert_memory_equal(pictures[0].pixels, pictures[1].pixels,
                         (size_t)pictures[0].width * (size_t)pictures[0].height * 16);
@@ -362,13 +334,4 @@ static void test_levels_of_maps(void **state)
     lam_texture_free(texture);
     lam_environment_free(whole);
     lam_environment_free(parts);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_split_sum),  cmocka_unit_test(test_white_furnace),
-                                       cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_any_size),
-                                       cmocka_unit_test(test_kernels),    cmocka_unit_test(test_parts),
-                                       cmocka_unit_test(test_map_ranges), cmocka_unit_test(test_levels_of_maps)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,9 @@
 // test_widths.c: every width and instruction set gives the same bits, on ordinary numbers and on any bit pattern, and
 // so does every compiler and build type: one recorded hash covers all results.
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <cmocka.h>
+
+#include "test.h"
 
 #include <sys/mman.h>
-
-#include <math.h>
-#include <stdlib.h>
 
 #include "points.h"
 #include "textbook.h"
@@ -176,18 +171,16 @@ static uint64_t hash_of_environment(void)
     return hash;
 }
 
-static void test_environment_light(void **state)
+TEST(test_environment_light)
 {
-    (void)state;
     uint64_t hash = hash_of_environment();
     if (hash != RECORDED_ENVIRONMENT_HASH)
         fail_msg("hash of environment light is 0x%016llx, recorded 0x%016llx", (unsigned long long)hash,
                  (unsigned long long)RECORDED_ENVIRONMENT_HASH);
 }
 
-static void test_same_bits(void **state)
+TEST(test_same_bits)
 {
-    (void)state;
     int wrong = 0;
     for (int model = LAM_REFLECTION_AUTO; model < LAM_REFLECTION_COUNT; model++) { // AUTO: the functions
         uint64_t hash = model ? hash_of_lobe(model) : hash_of_functions();
@@ -202,9 +195,8 @@ static void test_same_bits(void **state)
 }
 
 // Every width finds the same numbers, bit for bit, and accesses nothing after the last one, at the end of the page.
-static void test_gather(void **state)
+TEST(test_gather)
 {
-    (void)state;
     enum { PLACES = 64, PAGE = 4096 };
     const struct width *widths[WIDTHS_MAX];
     int count = widths_usable(widths, WIDTHS_MAX);
@@ -230,11 +222,4 @@ static void test_gather(void **state)
         }
     }
     munmap(pages, 2 * PAGE);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits), cmocka_unit_test(test_environment_light),
-                                       cmocka_unit_test(test_gather)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""lint.py BUILD: cppcheck and clang-tidy over src, classroom and tools, with the compile commands of a build folder. Exceptions and their reasons
+"""lint.py BUILD: cppcheck and clang-tidy over src, program, classroom and tools, with the compile commands of a build folder. Exceptions and their reasons
 are in tests/lint/cppcheck.txt and .clang-tidy. Tools that are not installed are reported as skipped. The exit code is 1 if there is a finding."""
 import concurrent.futures
 import glob
@@ -16,11 +16,11 @@ GCC_ONLY = re.compile(r" -f(excess-precision=\S+|no-semantic-interposition|no-th
 
 
 def commands(build):
-    """One compile command for each C file of src, classroom and tools."""
+    """One compile command for each C file of src, program, classroom and tools."""
     found = {}
     for entry in json.load(open(os.path.join(build, "compile_commands.json"))):
         path = os.path.relpath(os.path.realpath(os.path.join(entry["directory"], entry["file"])), ROOT)
-        if path.endswith(".c") and path.startswith(("src/", "classroom/", "tools/")) and path not in found:
+        if path.endswith(".c") and path.startswith(("src/", "program/", "classroom/", "tools/")) and path not in found:
             found[path] = dict(entry, command=GCC_ONLY.sub("", entry["command"]))
     return found
 

@@ -66,7 +66,3 @@ class Doors(unittest.TestCase):
         gone = ["these rows agree, so delete the line: " + one for one in set(known) - used]
         if apart or gone:
             self.fail("\n".join(["%d of %d rows disagree" % (len(apart), len(rows)), *apart[:80], *gone]))
-
-
-if __name__ == "__main__":
-    unittest.main()

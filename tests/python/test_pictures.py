@@ -122,7 +122,3 @@ class Arrays(unittest.TestCase):
         first = lambent.render("teapot", 64, azimuth=70)
         self.assertEqual(first.hash, lambent.render("teapot", 64, camera=first.camera).hash)
         self.assertNotEqual(first.hash, lambent.render("teapot", 64).hash)
-
-
-if __name__ == "__main__":
-    unittest.main()

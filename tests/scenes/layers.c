@@ -2,6 +2,8 @@
 // iridescence, transmission.
 #include "textured.h"
 
+#include <lambent/light.h>
+
 enum { SPHERES = 8 };
 
 static lam_material base_material(float metallic, float roughness)

@@ -5,6 +5,8 @@
 
 #include "textured.h"
 
+#include <lambent/light.h>
+
 #include <stdio.h>
 #include <string.h>
 

@@ -2,6 +2,8 @@
 // they are the same on every machine.
 #include "textured.h"
 
+#include <lambent/light.h>
+
 #include <string.h>
 
 enum { SIDE = 48 }; // not a power of two

@@ -1,17 +1,7 @@
 // test_animation.c: the interface of animations, and scenes that are reset to a marked state.
 // tests/cli/test_animation.py decodes the files and tests their contents.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 static void fill(lam_image *image, uint8_t r, uint8_t g, uint8_t b, uint8_t a)
 {
@@ -24,14 +14,12 @@ static lam_animation *make(const char *format, const lam_animation_params *param
 {
     lam_error error;
     lam_animation *animation = lam_animation_make(format, 30, 20, params, &error);
-    if (!animation)
-        fail_msg("%s", error.text);
+    SUCCEEDS(animation);
     return animation;
 }
 
-static void test_formats(void **state)
+TEST(test_formats)
 {
-    (void)state;
     assert_string_equal(lam_animation_format("a/b.PNG"), "png");
     assert_string_equal(lam_animation_format("b.webp"), "webp");
     assert_null(lam_animation_format("b.jpg"));
@@ -43,9 +31,8 @@ static void test_formats(void **state)
     assert_string_equal(error.text, "animation: 'jpg' is not a format for animations, expected png or webp");
 }
 
-static void test_arguments(void **state)
+TEST(test_arguments)
 {
-    (void)state;
     lam_error error;
     const lam_animation_params wrong[] = {{.frames_per_second = 0.05},
                                           {.frames_per_second = 241},
@@ -80,18 +67,16 @@ static void test_arguments(void **state)
 }
 
 // Frames of every 8-bit format, and the end.
-static void test_frames(void **state)
+TEST(test_frames)
 {
-    (void)state;
     lam_error error;
     lam_animation *animation = make("png", &(lam_animation_params){.loops = 3});
     static const lam_pixel_format formats[] = {LAM_RGBA8, LAM_BGRA8, LAM_RGB8, LAM_GREY8};
     for (size_t i = 0; i < 4; i++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         assert_true(lam_image_make(&image, 30, 20, formats[i], &error));
         memset(image.pixels, (int)(40 * i), i < 2 ? 2400 : i == 2 ? 1800 : 600);
         assert_true(lam_animation_add(animation, &image, NULL, &error));
-        lam_image_free(&image);
     }
     lam_bytes bytes;
     assert_true(lam_animation_finish(animation, NULL, &bytes, &error));
@@ -103,19 +88,18 @@ static void test_frames(void **state)
 }
 
 // Readers of still pictures see the first frame of the file, even if later frames have more channels.
-static void test_first_frame(void **state)
+TEST(test_first_frame)
 {
-    (void)state;
     lam_error error;
     lam_image image, back;
-    lam_bytes bytes;
+    AUTO_BYTES bytes = {0};
     char path[64];
     lam_animation *animation = make("png", NULL);
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
     fill(&image, 90, 90, 90, 255);
     ((uint8_t *)image.pixels)[0] = ((uint8_t *)image.pixels)[1] = ((uint8_t *)image.pixels)[2] = 7;
     assert_true(lam_animation_add(animation, &image, NULL, &error));
-    lam_image first = image;
+    AUTO_IMAGE first = image;
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
     fill(&image, 200, 10, 90, 100);
     assert_true(lam_animation_add(animation, &image, NULL, &error));
@@ -127,19 +111,16 @@ static void test_first_frame(void **state)
     unlink(path);
     assert_memory_equal(back.pixels, first.pixels, 2400);
     lam_image_free(&back);
-    lam_image_free(&first);
     lam_image_free(&image);
-    lam_bytes_free(&bytes);
     lam_animation_free(animation);
 }
 
-static void test_cancelled(void **state)
+TEST(test_cancelled)
 {
-    (void)state;
     lam_error error;
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_bytes bytes;
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
     fill(&image, 1, 2, 3, 4);
@@ -153,7 +134,6 @@ static void test_cancelled(void **state)
         assert_false(lam_animation_finish(animation, NULL, &bytes, &error));
         lam_animation_free(animation);
     }
-    lam_image_free(&image);
 }
 
 // Pixels that no compression makes smaller.
@@ -165,13 +145,12 @@ static void fill_noise(lam_image *image, uint32_t *seed)
 }
 
 // Encoded frames count: a PNG of n frames is refused if they, or they and the file, exceed the limit.
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     enum { LIMIT = 50000, FRAME = 30 * 20 * 4 };
     const lam_control control = {.memory_limit_bytes = LIMIT};
     lam_error error;
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_bytes bytes;
     uint32_t seed = 1;
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
@@ -195,16 +174,14 @@ static void test_memory(void **state)
             assert_int_equal(error.code, LAM_LIMIT);
         lam_animation_free(animation);
     }
-    lam_image_free(&image);
 }
 
 // For a WebP, the encoder's canvases count, and the memory for encoding a frame.
-static void test_memory_webp(void **state)
+TEST(test_memory_webp)
 {
-    (void)state;
     enum { CANVASES = 3 * 4 * 30 * 20, NEXT = 12 * 30 * 20 };
     lam_error error;
-    lam_image image;
+    AUTO_IMAGE image = {0};
     uint32_t seed = 1;
     assert_true(lam_image_make(&image, 30, 20, LAM_RGBA8, &error));
     fill_noise(&image, &seed);
@@ -218,23 +195,20 @@ static void test_memory_webp(void **state)
             assert_int_equal(error.code, LAM_LIMIT);
         lam_animation_free(animation);
     }
-    lam_image_free(&image);
 }
 
 static void draw(const lam_scene *scene, lam_device *device, lam_image *image)
 {
     lam_error error;
     lam_camera camera = lam_camera_default();
-    if (!lam_draw(device, scene, &camera, NULL, image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, NULL, image, NULL, &error));
 }
 
 // A reset restores the picture after any change.
-static void test_reset(void **state)
+TEST(test_reset)
 {
-    (void)state;
     lam_error error;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     assert_false(lam_scene_reset(scene, &error)); // nothing is marked
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_false(lam_scene_mark(NULL, &error));
@@ -252,7 +226,7 @@ static void test_reset(void **state)
     lam_image before, after;
     assert_true(lam_image_make(&before, 64, 64, LAM_RGBA8, &error) &&
                 lam_image_make(&after, 64, 64, LAM_RGBA8, &error));
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     draw(scene, device, &before);
     assert_true(lam_scene_mark(scene, &error));
     for (int i = 0; i < 3; i++) {
@@ -281,42 +255,26 @@ static void test_reset(void **state)
         assert_int_equal(lam_scene_up(scene), LAM_UP_Y);
         assert_ptr_equal(lam_scene_mesh(scene, 0)->parts, parts);
     }
-    lam_device_free(device);
     lam_image_free(&before);
     lam_image_free(&after);
-    lam_scene_free(scene);
 }
 
-static void test_warnings_once(void **state)
+TEST(test_warnings_once)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_scene_add_warning(scene, "one");
     lam_scene_add_warning(scene, "two");
     lam_scene_add_warning(scene, "one");
     assert_string_equal(lam_scene_warning(scene, 1), "two");
     assert_null(lam_scene_warning(scene, 2));
-    lam_scene_free(scene);
 }
 
-static void test_rotation(void **state)
+TEST(test_rotation)
 {
-    (void)state;
     // A quarter turn about the diagonal of y and z maps x to its cross product with it.
     lam_mat4 m = lam_mat4_rotation((lam_vec3){0, 3, 3}, 1.57079632679489661923);
     const double expected[3] = {0, sqrt(0.5), -sqrt(0.5)};
     for (int i = 0; i < 3; i++)
         assert_true(fabs(m.m[i][0] - expected[i]) < 1e-15);
     assert_true(m.m[3][3] == 1 && m.m[0][3] == 0 && m.m[3][0] == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),     cmocka_unit_test(test_arguments), cmocka_unit_test(test_frames),
-        cmocka_unit_test(test_first_frame), cmocka_unit_test(test_cancelled), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_memory_webp), cmocka_unit_test(test_reset),     cmocka_unit_test(test_warnings_once),
-        cmocka_unit_test(test_rotation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

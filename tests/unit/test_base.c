@@ -1,7 +1,10 @@
 // test_base.c: small parts of the base: growing text, UTF-8, edit distance, libraries opened on first use.
+#include "fail.h" // before cmocka's macro of the same name
+
+#include "test.h"
+
 #include "call_control.h"
 #include "dynamic_library.h"
-#include "fail.h"
 #include "available_memory.h"
 #include "pool.h"
 #include "shown_name.h"
@@ -12,21 +15,11 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cmocka.h>
-
-static void test_text(void **state)
+TEST(test_text)
 {
-    (void)state;
     struct text text = {0};
     for (int i = 0; i < 1000; i++)
         text_print(&text, "%d,", i % 10);
@@ -46,9 +39,8 @@ static void test_text(void **state)
     free(text.bytes);
 }
 
-static void test_utf8(void **state)
+TEST(test_utf8)
 {
-    (void)state;
     static const struct {
         const char *bytes;
         int length;
@@ -76,9 +68,8 @@ static void test_utf8(void **state)
     assert_int_equal(lam_utf8_length("", 0), 0);
 }
 
-static void test_edit_distance(void **state)
+TEST(test_edit_distance)
 {
-    (void)state;
     assert_int_equal(lam_edit_distance("phong", "phong"), 0);
     assert_int_equal(lam_edit_distance("phogn", "phong"), 1); // neighbours swapped
     assert_int_equal(lam_edit_distance("kitten", "sitting"), 3);
@@ -93,9 +84,8 @@ static void test_edit_distance(void **state)
     assert_null(meant_word(longer, words, 3));
 }
 
-static void test_shown_name(void **state)
+TEST(test_shown_name)
 {
-    (void)state;
     static const struct {
         const char *name, *shown;
     } rows[] = {
@@ -127,9 +117,8 @@ static void test_shown_name(void **state)
 }
 
 // Text for a terminal: controls are visible, and the text ends between characters.
-static void test_text_for_terminals(void **state)
+TEST(test_text_for_terminals)
 {
-    (void)state;
     static const struct {
         const char *text, *shown;
     } rows[] = {
@@ -151,9 +140,8 @@ static void test_text_for_terminals(void **state)
 }
 
 // Typical spellings of a word of the interface.
-static void test_word_distance(void **state)
+TEST(test_word_distance)
 {
-    (void)state;
     static const struct {
         const char *typed, *word;
         int distance;
@@ -189,9 +177,8 @@ static void test_word_distance(void **state)
     assert_int_equal(lam_word_distance(many, "a"), 63);
 }
 
-static void test_libraries(void **state)
+TEST(test_libraries)
 {
-    (void)state;
     const char *reason = NULL;
     assert_null(library_open("libno-such-library.so.9", false, &reason));
     assert_non_null(reason);
@@ -230,9 +217,8 @@ static void remove_root(void)
     assert_int_equal(system(command), 0);
 }
 
-static void test_memory_of_groups(void **state)
+TEST(test_memory_of_groups)
 {
-    (void)state;
     assert_non_null(mkdtemp(root));
     assert_true(memory_of_groups(root) == UINT64_MAX);
     // cgroup v2: the smallest limit of the group and its ancestors.
@@ -265,9 +251,8 @@ static void test_memory_of_groups(void **state)
     remove_root();
 }
 
-static void test_memory_of_process(void **state)
+TEST(test_memory_of_process)
 {
-    (void)state;
     struct rlimit before;
     uint64_t machine = lam_memory_available();
     assert_true(machine > 1 << 20);
@@ -282,9 +267,8 @@ static void test_memory_of_process(void **state)
     assert_true(lam_memory_available() == machine);
 }
 
-static void test_limits(void **state)
+TEST(test_limits)
 {
-    (void)state;
     struct call_control call;
     lam_error error = {0};
     assert_true(call_triangle_limit(NULL) == LAM_TRIANGLE_LIMIT && call_pixel_limit(NULL) == LAM_PIXEL_LIMIT);
@@ -327,9 +311,8 @@ static void measure_stack(void *user, size_t index, int thread)
 }
 
 // The system's default, which depends on `ulimit -s`, may be too small for drawing.
-static void test_stack_of_workers(void **state)
+TEST(test_stack_of_workers)
 {
-    (void)state;
     pthread_attr_t before, small;
     size_t sizes[2] = {0};
     assert_int_equal(pthread_getattr_default_np(&before), 0);
@@ -342,22 +325,4 @@ static void test_stack_of_workers(void **state)
     pool_free(pool);
     assert_int_equal(pthread_setattr_default_np(&before), 0);
     assert_true(sizes[1] >= 1 << 20);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_text),
-        cmocka_unit_test(test_utf8),
-        cmocka_unit_test(test_edit_distance),
-        cmocka_unit_test(test_word_distance),
-        cmocka_unit_test(test_shown_name),
-        cmocka_unit_test(test_text_for_terminals),
-        cmocka_unit_test(test_libraries),
-        cmocka_unit_test(test_stack_of_workers),
-        cmocka_unit_test(test_memory_of_groups),
-        cmocka_unit_test(test_memory_of_process),
-        cmocka_unit_test(test_limits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

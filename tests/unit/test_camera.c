@@ -1,9 +1,8 @@
 // test_camera.c: the fitted camera. For any position and rotation, a model fills 92 % of the tighter side of the
 // picture, in its middle.
+#include "test.h"
 #include "../lighting/random.h"
 #include "loading.h"
-
-#include <math.h>
 
 static const double FILL = 0.92;
 
@@ -153,9 +152,8 @@ static struct span drawn(const struct boxed *b, const lam_camera *camera)
 
 // None of 300 random boxes is off the middle or cut off, at up to a million sizes from zero. A perspective box touches
 // both ends of the tighter side; its other side is also centred.
-static void boxes_fill_the_picture(void **state)
+TEST(boxes_fill_the_picture)
 {
-    (void)state;
     struct random r = {11};
     for (int number = 0; number < 300; number++) {
         struct boxed b = make_box(&r, number);
@@ -185,9 +183,8 @@ static void boxes_fill_the_picture(void **state)
 
 // A box rotated about an axis by any angle is never cut off, and the camera equals the camera of the unrotated box if
 // that does not cut it off either. Rotated about any axis, it is treated as a ball that is not cut off.
-static void turning_boxes_are_not_cut(void **state)
+TEST(turning_boxes_are_not_cut)
 {
-    (void)state;
     struct random r = {3};
     int kept = 0, moved_back = 0;
     for (int number = 0; number < 150; number++) {
@@ -206,7 +203,7 @@ static void turning_boxes_are_not_cut(void **state)
         double fill = 0, fill_still = 0;
         for (int turn = 0; turn < 200; turn++) {
             // A scene with one object at the position of the corners performs the rotation.
-            lam_scene *turning = lam_scene_make(NULL);
+            AUTO_SCENE turning = lam_scene_make(NULL);
             lam_object object = lam_object_default();
             object.mesh = lam_scene_add_shape(turning, "cube", NULL, NULL);
             assert_true(lam_scene_add_object(turning, &object, NULL) == 0);
@@ -221,7 +218,6 @@ static void turning_boxes_are_not_cut(void **state)
                 fill = fmax(fill, fmax(half - span.low[k], span.high[k] - half) / half);
                 fill_still = fmax(fill_still, fmax(half - before.low[k], before.high[k] - half) / half);
             }
-            lam_scene_free(turning);
         }
         if (!(fill < (same ? 0.985 : 0.925)))
             fail_msg("box %d: turned it reaches %g of the side", number, fill);
@@ -322,9 +318,8 @@ static void make_obj(struct made *file, const double corners[8][3])
 
 // A box of every format, a thousand and a million sizes from zero: the picture shows its corners at the positions in
 // the file, rounded to floats if the file contains floats.
-static void files_far_from_zero(void **state)
+TEST(files_far_from_zero)
 {
-    (void)state;
     enum { OBJ, STL_TEXT, STL_BINARY, PLY_TEXT, PLY_FLOAT, PLY_DOUBLE, FORMATS };
     static const char *const names[FORMATS] = {"box.obj", "box.stl", "box.stl", "box.ply", "box.ply", "box.ply"};
     static const lam_vec3 places[] = {{700, 0, -1200}, {8e5, -6e5, 1}};
@@ -373,9 +368,8 @@ static void files_far_from_zero(void **state)
 
 // A mesh made by hand keeps its corners exactly; one near zero keeps its numbers, and an unused vertex has no effect,
 // even if its distance exceeds the range of floats.
-static void origins_are_exact(void **state)
+TEST(origins_are_exact)
 {
-    (void)state;
     struct random r = {5};
     for (int number = 0; number < 200; number++) {
         float p[12];
@@ -384,7 +378,7 @@ static void origins_are_exact(void **state)
         for (int i = 0; i < 9; i++) // a triangle of size 1
             p[i] = far[i % 3] + (i % 3 == 0 && i < 6 ? (float)(i / 3) : random_between(&r, 0, 1));
         p[9] = p[10] = p[11] = -3.4e38f;
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_mesh mesh = {.positions = p, .vertex_count = 4, .indices = (uint32_t[]){0, 1, 2}, .triangle_count = 1};
         assert_true(lam_scene_add_mesh(scene, &mesh, NULL) == 0);
         const lam_mesh *kept = lam_scene_mesh(scene, 0);
@@ -393,14 +387,12 @@ static void origins_are_exact(void **state)
         assert_true((kept->origin[0] != 0) == (number % 4 > 0));
         for (int i = 0; i < 12; i++)
             assert_true(isfinite(kept->positions[i]));
-        lam_scene_free(scene);
     }
 }
 
 // The corners of the field of view are the corners of the picture, with and without perspective.
-static void points_of_eye_space_have_a_place(void **state)
+TEST(points_of_eye_space_have_a_place)
 {
-    (void)state;
     lam_camera camera = lam_camera_default();
     const double half = 3 * tan(camera.fovy_rad / 2);
     double x = -1, y = -1;
@@ -415,16 +407,4 @@ static void points_of_eye_space_have_a_place(void **state)
     camera.ortho_half_height = 2;
     assert_true(lam_camera_project(&camera, 300, 200, (lam_vec3){3, -2, 7}, &x, &y));
     assert_true(x == 300 && y == 200);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(points_of_eye_space_have_a_place),
-        cmocka_unit_test(boxes_fill_the_picture),
-        cmocka_unit_test(turning_boxes_are_not_cut),
-        cmocka_unit_test(files_far_from_zero),
-        cmocka_unit_test(origins_are_exact),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,6 @@
 // test_color.c: the sRGB curve, colours as users write them, and recomputed normals of a scene.
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
-#include <cmocka.h>
 
-#include <lambent/lambent.h>
-
+#include "test.h"
 #include "srgb.h"
 
 static void assert_near(double found, double expected, double tolerance)
@@ -16,9 +9,8 @@ static void assert_near(double found, double expected, double tolerance)
         fail_msg("found %.17g, expected %.17g", found, expected);
 }
 
-static void curve_is_the_standard(void **state)
+TEST(curve_is_the_standard)
 {
-    (void)state;
     for (int i = 0; i <= 10000; i++) {
         double encoded = i / 10000.0;
         double expected = encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
@@ -46,9 +38,8 @@ static void assert_color(lam_rgba c, double r, double g, double b, double a)
     assert_near((double)c.a, a, 1e-6);
 }
 
-static void colors_in_every_form(void **state)
+TEST(colors_in_every_form)
 {
-    (void)state;
     double half = srgb_linear(128 / 255.0), fifth = srgb_linear(0.2);
     assert_color(parsed("#ff8000", LAM_COLOR_SRGB), 1, half, 0, 1);
     assert_color(parsed("#FF8000", LAM_COLOR_RAW), 1, 128 / 255.0, 0, 1);
@@ -63,9 +54,8 @@ static void colors_in_every_form(void **state)
     assert_color(parsed("0.25", LAM_COLOR_SRGB), 0.25, 0.25, 0.25, 1); // one number for all three
 }
 
-static void wrong_colors_are_told(void **state)
+TEST(wrong_colors_are_told)
 {
-    (void)state;
     static const char *const wrong[] = {"",         "#",          "#1",      "#12",       "#1234",   "#12345",
                                         "#1234567", "#123456789", "#gggggg", "whit",      "whitee",  "-1",
                                         "1/2",      "1/2/",       "1/2/3/",  "1/2/3/4/5", "1/2/3/2", "-1/0/0",
@@ -83,11 +73,10 @@ static void wrong_colors_are_told(void **state)
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
 }
 
-static void normals_made_anew(void **state)
+TEST(normals_made_anew)
 {
-    (void)state;
     lam_error error = {0};
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     assert_non_null(scene);
     int mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 16, .stacks = 8}, &error);
     assert_true(mesh >= 0);
@@ -109,16 +98,4 @@ static void normals_made_anew(void **state)
     lam_cancel cancel = {1};
     assert_false(lam_scene_make_normals(scene, LAM_NORMALS_SMOOTH, 0, 0, &(lam_control){.cancel = &cancel}, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
-    lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(curve_is_the_standard),
-        cmocka_unit_test(colors_in_every_form),
-        cmocka_unit_test(wrong_colors_are_told),
-        cmocka_unit_test(normals_made_anew),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,9 @@
 // test_conversions.c: converts models to every format that can be written. If no loss is reported, both files give equal
 // pictures within 1/255 per channel.
+#include "test.h"
 #include "loading.h"
 #include "share.h"
 #include "temporary_folder.h"
-
-#include <lambent/export.h>
-#include <lambent/render.h>
 
 #include <dirent.h>
 #include <strings.h>
@@ -117,18 +115,16 @@ static void finish(void)
     assert_int_equal(differing, 0);
 }
 
-static void test_own_models(void **state)
+TEST(test_own_models)
 {
-    (void)state;
     walk(MODELS, 1);
     walk(CORPUS, 1);
     finish();
     assert_true(compared > 20);
 }
 
-static void test_shared_models(void **state)
+TEST(test_shared_models)
 {
-    (void)state;
     const char *models = getenv("LAMBENT_MODELS");
     size_t before = seen;
     walk(models ? models : "../shared/models", SHARE);
@@ -139,9 +135,11 @@ static void test_shared_models(void **state)
     finish();
 }
 
-int main(void)
+static int make_folder(void **state)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_own_models), cmocka_unit_test(test_shared_models)};
+    (void)state;
     snprintf(folder, sizeof folder, "/tmp/lambent-conversions-XXXXXX");
-    return mkdtemp(folder) ? cmocka_run_group_tests(tests, NULL, remove_folder) : 1;
+    return mkdtemp(folder) ? 0 : 1;
 }
+
+FIXTURE(make_folder, remove_folder)

@@ -1,13 +1,7 @@
 // test_curves.c: compares the equations at single values with the conventions' formulas in double.
+#include "test.h"
+
 #include <lambent/light_eval.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdint.h>
-#include <stddef.h>
-
-#include <cmocka.h>
 
 static void near(double found, double expected, double most)
 {
@@ -15,9 +9,8 @@ static void near(double found, double expected, double most)
         fail_msg("found %.9g, expected %.9g", found, expected);
 }
 
-static void attenuation(void **state)
+TEST(attenuation)
 {
-    (void)state;
     lam_light light = lam_light_default(LAM_LIGHT_POINT);
     near(lam_attenuation_at(&light, 7), 1, 0);
     light.attenuation = (lam_attenuation){1, 0.54f, 0.2f};
@@ -32,9 +25,8 @@ static void attenuation(void **state)
     near(lam_attenuation_at(&light, 100), 1, 0);
 }
 
-static void spot(void **state)
+TEST(spot)
 {
-    (void)state;
     lam_light light = lam_light_default(LAM_LIGHT_SPOT);
     light.cutoff_rad = 0.5f;
     light.exponent = 8;
@@ -54,9 +46,8 @@ static void spot(void **state)
     near(lam_spot_at(&light, 3), 1, 0);
 }
 
-static void highlight(void **state)
+TEST(highlight)
 {
-    (void)state;
     const float alphas[] = {0, 1, 10, 50, 1000};
     for (int i = 0; i < 5; i++)
         for (double a = 0; a < 1.55; a += 0.05) {
@@ -68,14 +59,4 @@ static void highlight(void **state)
     near(lam_highlight_at(LAM_REFLECTION_LAMBERT, 10, 0), 0, 0);
     near(lam_highlight_at(LAM_REFLECTION_PHONG, 10, 2), 0, 0);
     near(lam_highlight_at(LAM_REFLECTION_AUTO, 4, 1), pow(cos(0.5), 4), 1e-6);
-}
-
-int main(void)
-{
-    const struct CMUnitTest list[] = {
-        cmocka_unit_test(attenuation),
-        cmocka_unit_test(spot),
-        cmocka_unit_test(highlight),
-    };
-    return cmocka_run_group_tests(list, NULL, NULL);
 }

@@ -1,16 +1,10 @@
 // test_decoders.c: every picture of tests/pictures is decoded to the pixels recorded by its maker and Pillow (make.py
 // there); a truncated file, or a file with any byte changed, is refused with an error message or read without harm.
+#include "test.h"
 #include "codec.h"
 
 #include <dirent.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include <cmocka.h>
 #include <jpeglib.h>
 
 enum { FILE_BYTES = 16384, WIDTH = 13, HEIGHT = 7 };
@@ -100,9 +94,8 @@ static bool compare(const char *folder, const struct file *file)
     return true;
 }
 
-static void test_pixels(void **state)
+TEST(test_pixels)
 {
-    (void)state;
     for (int i = 0; i < FORMATS; i++) {
         int count = each_file(formats[i].name, compare);
         print_message("%s: %d pictures\n", formats[i].name, count);
@@ -110,14 +103,13 @@ static void test_pixels(void **state)
 }
 
 // All 16 bits of a 16-bit PNG, interlaced or not: the numbers of make.py.
-static void test_wide(void **state)
+TEST(test_wide)
 {
-    (void)state;
     static const char *const names[] = {"bits16.png", "bits16-interlaced.png", "grey16.png", "grey16-interlaced.png"};
     for (int i = 0; i < 4; i++) {
         struct file file;
         assert_true(read_file("png", names[i], &file));
-        lam_image image = {0};
+        AUTO_IMAGE image = {0};
         lam_error error = {0};
         bool wide = false;
         assert_true(
@@ -133,7 +125,6 @@ static void test_wide(void **state)
                 }
             }
         }
-        lam_image_free(&image);
     }
 }
 
@@ -173,23 +164,21 @@ static struct file make_inks(J_COLOR_SPACE space, bool marker, const uint8_t ink
     return file;
 }
 
-static void test_inks(void **state)
+TEST(test_inks)
 {
-    (void)state;
     // In Adobe's files, the numbers are the visible fraction of the paper; in others, the amount of ink.
     static const uint8_t through[4] = {255, 128, 64, 204};
     static const uint8_t inks[4] = {0, 127, 191, 51};
     static const int expected[4] = {204, 102, 51, 255};
     for (int kind = 0; kind < 3; kind++) {
         struct file file = make_inks(kind == 1 ? JCS_YCCK : JCS_CMYK, kind < 2, kind < 2 ? through : inks);
-        lam_image image;
+        AUTO_IMAGE image = {0};
         lam_error error;
         assert_true(decode(&file, file.size, &image, &error));
         for (int i = 0; i < SIDE * SIDE * 4; i++)
             if (abs(((const uint8_t *)image.pixels)[i] - expected[i % 4]) > 2)
                 fail_msg("kind %d, channel %d: %d, expected %d", kind, i % 4, ((const uint8_t *)image.pixels)[i],
                          expected[i % 4]);
-        lam_image_free(&image);
     }
 }
 
@@ -216,9 +205,8 @@ static bool cut(const char *folder, const struct file *file)
     return true;
 }
 
-static void test_cut(void **state)
+TEST(test_cut)
 {
-    (void)state;
     for (int i = 0; i < FORMATS; i++)
         each_file(formats[i].name, cut);
 }
@@ -246,9 +234,8 @@ static bool flip(const char *folder, const struct file *file)
     return true;
 }
 
-static void test_flips(void **state)
+TEST(test_flips)
 {
-    (void)state;
     for (int i = 0; i < FORMATS; i++)
         each_file(formats[i].name, flip);
 }
@@ -269,9 +256,8 @@ static void refused(struct file *file, size_t at, const char *bytes, size_t coun
         fail_msg("%d: '%s', expected '%s'", error.code, error.text, word);
 }
 
-static void test_bmp_refusals(void **state)
+TEST(test_bmp_refusals)
 {
-    (void)state;
     struct file bmp, runs, masks;
     assert_true(read_file("bmp", "bits8-40.bmp", &bmp) && read_file("bmp", "runs8.bmp", &runs));
     assert_true(read_file("bmp", "masks565-40.bmp", &masks));
@@ -292,9 +278,8 @@ static void test_bmp_refusals(void **state)
     refused(&masks, 54, "\x00\xa8", 2, "a.bmp", LAM_CANNOT_READ, "mask of red is 0xa800");
 }
 
-static void test_tga_refusals(void **state)
+TEST(test_tga_refusals)
 {
-    (void)state;
     struct file tga, runs, palette;
     assert_true(read_file("tga", "bits24-0.tga", &tga) && read_file("tga", "runs24-0.tga", &runs));
     assert_true(read_file("tga", "palette-first.tga", &palette));
@@ -319,9 +304,8 @@ static void test_tga_refusals(void **state)
     refused(&text, 0, "B", 1, "a.txt", LAM_CANNOT_READ, "byte 0: not the start of");
 }
 
-static void test_webp_refusals(void **state)
+TEST(test_webp_refusals)
 {
-    (void)state;
     struct file file;
     assert_true(read_file("webp", "lossy.webp", &file));
     lam_image image;
@@ -338,14 +322,4 @@ static void test_webp_refusals(void **state)
     struct file animation = {.name = "a.webp", .size = sizeof moving - 1};
     memcpy(animation.bytes, moving, sizeof moving - 1);
     refused(&animation, 0, "R", 1, "a.webp", LAM_UNSUPPORTED, "WebP animation");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pixels),       cmocka_unit_test(test_wide),          cmocka_unit_test(test_inks),
-        cmocka_unit_test(test_cut),          cmocka_unit_test(test_flips),         cmocka_unit_test(test_bmp_refusals),
-        cmocka_unit_test(test_tga_refusals), cmocka_unit_test(test_webp_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

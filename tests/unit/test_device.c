@@ -1,5 +1,6 @@
 // test_device.c: the common interface of devices: arguments, control, sharing, memory, and the caller's floating-point
 // state.
+#include "test.h"
 #include "scenes.h"
 
 #include "float_state.h"
@@ -7,24 +8,13 @@
 
 #include <lambent/settings.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 #include <pthread.h>
 
 static struct demo make_demo(const char *name)
 {
     struct demo demo;
     lam_error error = {0};
-    if (!demo_build_named(name, &demo, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(demo_build_named(name, &demo, &error));
     return demo;
 }
 
@@ -32,8 +22,7 @@ static lam_device *make_device(int threads)
 {
     lam_error error = {0};
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = threads}, &error);
-    if (!device)
-        fail_msg("%s", error.text);
+    SUCCEEDS(device);
     return device;
 }
 
@@ -45,15 +34,14 @@ static lam_image make_image(int width, int height)
 }
 
 // Without a given number of samples, the picture's size determines it, for any shape.
-static void test_default_samples(void **state)
+TEST(test_default_samples)
 {
-    (void)state;
     static const struct {
         int width, height, samples;
     } cases[] = {{512, 512, 8}, {513, 512, 4},     {512, 513, 4},  {2048, 128, 8}, {2048, 129, 4},
                  {1, 1, 16},    {65535, 65535, 4}, {256, 256, 16}, {257, 256, 8}};
     struct demo demo = make_demo("sphere-phong");
-    lam_device *device = make_device(1);
+    AUTO_DEVICE device = make_device(1);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         int width = cases[i].width, height = cases[i].height;
         assert_int_equal(lam_default_samples(width, height), cases[i].samples);
@@ -68,15 +56,13 @@ static void test_default_samples(void **state)
         for (int k = 0; k < 2; k++)
             lam_image_free(&images[k]);
     }
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
-static void test_arguments(void **state)
+TEST(test_arguments)
 {
-    (void)state;
     struct demo demo = make_demo("sphere-phong");
-    lam_device *device = make_device(1);
+    AUTO_DEVICE device = make_device(1);
     lam_image image = make_image(32, 32), none = {0};
     lam_error error;
     lam_camera camera = demo.camera;
@@ -114,16 +100,14 @@ static void test_arguments(void **state)
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     lam_device_free(NULL);
     lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
-static void test_cancel_and_limits(void **state)
+TEST(test_cancel_and_limits)
 {
-    (void)state;
     struct demo demo = make_demo("teapot");
-    lam_device *device = make_device(2);
-    lam_image image = make_image(256, 256);
+    AUTO_DEVICE device = make_device(2);
+    AUTO_IMAGE image = make_image(256, 256);
     lam_error error;
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
@@ -138,16 +122,13 @@ static void test_cancel_and_limits(void **state)
     assert_int_equal(error.code, LAM_LIMIT);
     assert_non_null(strstr(error.text, "time limit"));
 
-    lam_device *fresh = make_device(1);
+    AUTO_DEVICE fresh = make_device(1);
     control = (lam_control){.memory_limit_bytes = 100000};
     assert_false(lam_draw(fresh, demo.scene, &demo.camera, NULL, &image, &control, &error));
     assert_int_equal(error.code, LAM_LIMIT);
     assert_non_null(strstr(error.text, "memory limit"));
     control.memory_limit_bytes = 64000000;
     assert_true(lam_draw(fresh, demo.scene, &demo.camera, NULL, &image, &control, &error));
-    lam_device_free(fresh);
-    lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
@@ -165,31 +146,28 @@ static void see_progress(void *user, double share, const char *step)
     seen->calls++;
 }
 
-static void test_progress(void **state)
+TEST(test_progress)
 {
-    (void)state;
     struct demo demo = make_demo("teapot");
     lam_device *device =
         make_device(1); // reports come from the calling thread: with others it may draw few tiles itself
-    lam_image image = make_image(512, 512);
+    AUTO_IMAGE image = make_image(512, 512);
     struct progress_seen seen = {0};
     lam_control control = {.progress = see_progress, .user = &seen};
     assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, &control, NULL));
     assert_true(seen.calls > 2);
     assert_false(seen.backwards);
     assert_true(seen.last == 1);
-    lam_image_free(&image);
     lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
 // After the first frame, drawing the same kind of frame allocates nothing.
-static void test_memory_settles(void **state)
+TEST(test_memory_settles)
 {
-    (void)state;
     struct demo demo = make_demo("ground"); // including clipped pieces
-    lam_device *device = make_device(1);
-    lam_image image = make_image(300, 200);
+    AUTO_DEVICE device = make_device(1);
+    AUTO_IMAGE image = make_image(300, 200);
     lam_frame_report first, second;
     assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, NULL, NULL));
     lam_device_report(device, &first);
@@ -199,18 +177,15 @@ static void test_memory_settles(void **state)
     assert_int_equal(first.memory_bytes, second.memory_bytes);
     assert_int_equal(first.triangles, lam_scene_triangle_count(demo.scene));
     assert_true(first.pixels_covered > 0 && first.points_lit >= first.pixels_covered);
-    lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
 // A host that rounds upwards and flushes denormals gets the same bytes, and its state is restored.
-static void test_float_state(void **state)
+TEST(test_float_state)
 {
-    (void)state;
 #if defined(__SSE2__)
     struct demo demo = make_demo("lights");
-    lam_device *device = make_device(2);
+    AUTO_DEVICE device = make_device(2);
     lam_image before = make_image(160, 120), after = make_image(160, 120);
     assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &before, NULL, NULL));
     unsigned own = _mm_getcsr();
@@ -219,7 +194,7 @@ static void test_float_state(void **state)
     _mm_setcsr(odd);
     struct demo again;
     bool built = demo_build_named("lights", &again, NULL);
-    lam_device *made_here = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
+    AUTO_DEVICE made_here = lam_device_cpu(&(lam_cpu_params){.threads = 2}, NULL); // its threads inherit the state
     bool drawn = built && made_here && lam_draw(made_here, again.scene, &again.camera, NULL, &after, NULL, NULL);
     unsigned left = _mm_getcsr();
     _mm_setcsr(own);
@@ -228,8 +203,6 @@ static void test_float_state(void **state)
     assert_memory_equal(before.pixels, after.pixels, 160 * 120 * 4);
     lam_image_free(&before);
     lam_image_free(&after);
-    lam_device_free(device);
-    lam_device_free(made_here);
     lam_scene_free(again.scene);
     lam_scene_free(demo.scene);
 #else
@@ -256,9 +229,8 @@ static void *share_scene(void *argument)
     return NULL;
 }
 
-static void test_shared_scene(void **state)
+TEST(test_shared_scene)
 {
-    (void)state;
     struct demo demo = make_demo("knot-blinn-phong");
     enum { THREADS = 4 };
     struct sharing sharing[THREADS];
@@ -278,12 +250,11 @@ static void test_shared_scene(void **state)
     lam_scene_free(demo.scene);
 }
 
-static void test_null_device(void **state)
+TEST(test_null_device)
 {
-    (void)state;
     struct demo demo = make_demo("sphere-flat");
-    lam_device *device = lam_device_null(NULL);
-    lam_image image = make_image(16, 16);
+    AUTO_DEVICE device = lam_device_null(NULL);
+    AUTO_IMAGE image = make_image(16, 16);
     memset(image.pixels, 7, 16 * 16 * 4);
     assert_string_equal(lam_device_name(device), "null");
     assert_true(lam_draw(device, demo.scene, &demo.camera, NULL, &image, NULL, NULL));
@@ -291,23 +262,20 @@ static void test_null_device(void **state)
     lam_frame_report report;
     lam_device_report(device, &report);
     assert_int_equal(report.triangles, lam_scene_triangle_count(demo.scene));
-    lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
 }
 
 // The fitted camera: the projected vertices take 92 % of the tighter side and are centred.
-static void test_fit(void **state)
+TEST(test_fit)
 {
-    (void)state;
     static const char *const names[] = {"teapot", "cone", "stretched"};
     for (int n = 0; n < 3; n++)
         for (int wide = 0; wide < 2; wide++) {
             struct demo demo = make_demo(names[n]);
             int width = wide ? 1000 : 400, height = wide ? 400 : 1000;
             lam_camera camera = lam_camera_fit(demo.scene, width, height, NULL);
-            lam_device *device = make_device(2);
-            lam_image image = make_image(width, height);
+            AUTO_DEVICE device = make_device(2);
+            AUTO_IMAGE image = make_image(width, height);
             assert_true(lam_draw(device, demo.scene, &camera, NULL, &image, NULL, NULL));
             int left = width, right = -1, top = height, bottom = -1;
             for (int y = 0; y < height; y++)
@@ -322,8 +290,6 @@ static void test_fit(void **state)
             assert_true(fabs((across > down ? across : down) - 0.92) < 0.006);
             assert_true(abs(left - (width - 1 - right)) <= 3);
             assert_true(abs(top - (height - 1 - bottom)) <= 3);
-            lam_image_free(&image);
-            lam_device_free(device);
             lam_scene_free(demo.scene);
         }
 }
@@ -349,8 +315,7 @@ static lam_scene *load_sheet(bool when_drawn, lam_normals normals, bool clear)
         text, used, "sheet.obj",
         &(lam_load_params){.normals_when_drawn = when_drawn, .normals = normals, .crease_angle_rad = 0.6}, NULL,
         &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     assert_int_equal(lam_scene_mesh(scene, 0)->normals == NULL, when_drawn);
     // Twice; the second one is mirrored, and made of glass on request.
     lam_object object = *lam_scene_object(scene, 0);
@@ -365,9 +330,8 @@ static lam_scene *load_sheet(bool when_drawn, lam_normals normals, bool clear)
 }
 
 // Normals computed while drawing give the same bytes as normals computed before, for any drawing.
-static void test_normals_when_drawn(void **state)
+TEST(test_normals_when_drawn)
 {
-    (void)state;
     for (int all = 0; all < 2 * 2 * 3 * 2 * 3; all++) {
         const int i = all / 2;
         const lam_normals normals = all % 2 ? LAM_NORMALS_FACET : LAM_NORMALS_FILE;
@@ -383,8 +347,7 @@ static void test_normals_when_drawn(void **state)
         for (int k = 0; k < 3; k++) { // twice with the same device
             images[k] = make_image(200, 150);
             lam_error error = {0};
-            if (!lam_draw(device, scenes[k > 0], &camera, &params, &images[k], NULL, &error))
-                fail_msg("%s", error.text);
+            SUCCEEDS(lam_draw(device, scenes[k > 0], &camera, &params, &images[k], NULL, &error));
             assert_memory_equal(images[k].pixels, images[0].pixels, 200 * 150 * 4);
         }
         lam_frame_report report;
@@ -418,12 +381,11 @@ static void test_normals_when_drawn(void **state)
 }
 
 // A number outside the range of its row in the table of settings causes an error that names the member.
-static void test_ranges_of_settings(void **state)
+TEST(test_ranges_of_settings)
 {
-    (void)state;
     struct demo demo = make_demo("sphere-phong");
-    lam_device *device = make_device(1);
-    lam_image image = make_image(8, 8);
+    AUTO_DEVICE device = make_device(1);
+    AUTO_IMAGE image = make_image(8, 8);
     const lam_setting *s;
     int checked = 0;
     for (int i = 0; (s = lam_draw_setting(i)); i++) {
@@ -456,20 +418,5 @@ static void test_ranges_of_settings(void **state)
         checked++;
     }
     assert_true(checked > 20);
-    lam_image_free(&image);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_default_samples),    cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_cancel_and_limits),  cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_memory_settles),     cmocka_unit_test(test_float_state),
-        cmocka_unit_test(test_shared_scene),       cmocka_unit_test(test_null_device),
-        cmocka_unit_test(test_ranges_of_settings), cmocka_unit_test(test_fit),
-        cmocka_unit_test(test_normals_when_drawn),
-    };
-    return cmocka_run_group_tests_name("device", tests, NULL, NULL);
 }

@@ -1,8 +1,7 @@
 // test_edges.c: wireframes and feature edges: selection, width and hidden lines, the same on every device.
+#include "test.h"
 #include "device_fixture.h"
 #include "loading.h"
-
-#include <math.h>
 
 #ifndef M_PI
 #define M_PI 3.14159265358979323846
@@ -105,9 +104,8 @@ static lam_mesh cube(void)
     return (lam_mesh){.positions = cube_positions, .vertex_count = 8, .indices = cube_indices, .triangle_count = 12};
 }
 
-static void cubes(void **state)
+TEST(cubes)
 {
-    (void)state;
     lam_mesh mesh = cube();
     lam_scene *scene = scene_of(&mesh);
     for (int flat = 0; flat < 2; flat++) {
@@ -116,7 +114,7 @@ static void cubes(void **state)
         for (int hidden = 0; hidden < LAM_HIDDEN_LINES_COUNT; hidden++) {
             lam_draw_params params = {
                 .edges = LAM_EDGES_CREASE, .edge_width = 1.25f, .hidden_lines = (lam_hidden_lines)hidden};
-            lam_image image = draw(scene, &camera, params);
+            AUTO_IMAGE image = draw(scene, &camera, params);
             assert_int_equal(drawn(), 12);
             int visible = 0;
             for (int e = 0; e < 12; e++) {
@@ -144,7 +142,6 @@ static void cubes(void **state)
                     assert_true(fabs(whole / (1.25 * count) - 1) < 0.02);
             }
             assert_int_equal(visible, hidden == LAM_HIDDEN_LINES_SHOW ? 12 : 9);
-            lam_image_free(&image);
         }
     }
     // Diagonals of the triangles: two of three silhouettes of a wireframe's 18 edges occur by chance; the flags leave
@@ -173,9 +170,8 @@ static void cubes(void **state)
 
 // --- the area of a line is its width times its length, at any position
 
-static void widths(void **state)
+TEST(widths)
 {
-    (void)state;
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     for (int turn = 0; turn < 12; turn++) {
         double angle = turn * 0.13, shift = turn * 0.0007, s = sin(angle), c = cos(angle);
@@ -187,13 +183,13 @@ static void widths(void **state)
             p[3 * k + 2] = 0;
         }
         lam_mesh mesh = {.positions = p, .vertex_count = 4, .indices = indices, .triangle_count = 2};
-        lam_scene *scene = scene_of(&mesh);
+        AUTO_SCENE scene = scene_of(&mesh);
         lam_camera camera = camera_at(0, 0, 6);
         static const double all[] = {0.3, 1, 1.5, 2.75, 6};
         for (int w = 0; w < 5; w++) {
             for (int samples = 1; samples <= 16; samples += 15) {
                 lam_draw_params params = {.edges = LAM_EDGES_BOUNDARY, .edge_width = (float)all[w], .samples = samples};
-                lam_image image = draw(scene, &camera, params);
+                AUTO_IMAGE image = draw(scene, &camera, params);
                 assert_int_equal(drawn(), 4);
                 double corner[4][2], length = 0, least = 1e9, most = 0;
                 for (int k = 0; k < 4; k++)
@@ -210,19 +206,16 @@ static void widths(void **state)
                 // Round corners: four quarters of a disc instead of the overlap of four squares.
                 assert_true(fabs(area(&image) - all[w] * length) < 0.01 * all[w] * length + 0.5 * all[w] * all[w]);
                 assert_true(least > 0.99 * all[w] && most < 1.01 * all[w]);
-                lam_image_free(&image);
             }
         }
-        lam_scene_free(scene);
     }
 }
 
 // --- the outline of a sphere is one closed curve
 
-static void silhouettes(void **state)
+TEST(silhouettes)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 97, .stacks = 53}, NULL);
     assert_true(lam_scene_add_object(scene, &object, NULL) >= 0);
@@ -248,7 +241,6 @@ static void silhouettes(void **state)
                  (lam_draw_params){.edges = LAM_EDGES_ALL, .edge_width = 1.5f, .hidden_lines = LAM_HIDDEN_LINES_SHOW});
     assert_true(fabs(area(&image) / (1.5 * 2 * M_PI * radius) - 1) < 0.04);
     lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // --- lines have no gaps along a surface, or where triangles meet in the middle of an edge
@@ -259,9 +251,8 @@ static double next_random(uint32_t *state)
     return (double)(*state >> 8) / (1 << 24);
 }
 
-static void surfaces(void **state)
+TEST(surfaces)
 {
-    (void)state;
     // A plate: a square over two rectangles, whose common corner is in the middle of the square's edge; and a step on
     // that edge, which makes it a crease.
     static const float plate[] = {-1,     0, 0, 1,  0,  0, 1,      1,  0, -1, 1,  0,
@@ -285,10 +276,10 @@ static void surfaces(void **state)
                 p[3 * v + i] = (float)(q[i] + (i == 0 ? far_away : 0));
         }
         lam_mesh mesh = {.positions = p, .vertex_count = 8, .indices = indices, .triangle_count = 6};
-        lam_scene *scene = scene_of(&mesh);
+        AUTO_SCENE scene = scene_of(&mesh);
         lam_camera camera = camera_at(far_away, 0, 5);
         camera.target.x = far_away;
-        lam_image image = draw(scene, &camera, (lam_draw_params){.wireframe = true, .wireframe_width = 1});
+        AUTO_IMAGE image = draw(scene, &camera, (lam_draw_params){.wireframe = true, .wireframe_width = 1});
         for (int e = 0; e < 6; e++) { // each edge of the outline, and both along the seam
             static const int ends[6][2] = {{0, 1}, {2, 3}, {3, 0}, {1, 2}, {5, 6}, {7, 1}};
             double a[2], b[2];
@@ -301,8 +292,6 @@ static void surfaces(void **state)
                  t += 0.5 / length) // thinner if the plate is seen at an angle, but without gaps
                 assert_true(width_at(&image, a, b, t) > 0.15);
         }
-        lam_image_free(&image);
-        lam_scene_free(scene);
     }
 }
 
@@ -336,9 +325,8 @@ static double hidden_share(lam_object front, lam_material material, double *rays
     return 1 - width;
 }
 
-static void hiding(void **state)
+TEST(hiding)
 {
-    (void)state;
     double rays;
     lam_material material = lam_material_default();
     lam_object object = lam_object_default();
@@ -363,16 +351,15 @@ static void hiding(void **state)
 }
 
 // An edge that leads past the eye ends at the near plane, and surfaces in front of that plane hide nothing.
-static void near_plane(void **state)
+TEST(near_plane)
 {
-    (void)state;
     static const float p[] = {0, -0.5f, -8, 0, -0.5f, 8, -3, -0.5f, -8};
     lam_mesh mesh = {.positions = p, .vertex_count = 3, .triangle_count = 1};
-    lam_scene *scene = scene_of(&mesh);
+    AUTO_SCENE scene = scene_of(&mesh);
     lam_camera camera = camera_at(0, 0, 4);
     camera.near_plane = 1;
     camera.far_plane = 100;
-    lam_image image = draw(scene, &camera, (lam_draw_params){.edges = LAM_EDGES_BOUNDARY, .edge_width = 1});
+    AUTO_IMAGE image = draw(scene, &camera, (lam_draw_params){.edges = LAM_EDGES_BOUNDARY, .edge_width = 1});
     double f = SIDE / 2.0 / tan(0.3);
     int rows = 0;
     for (int y = 0; y < SIDE; y++) {
@@ -385,16 +372,13 @@ static void near_plane(void **state)
         rows += sum > 0.9;
     }
     assert_true(rows > 80);
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // --- every instruction set, any number of threads, every format
 
-static void same_bytes(void **state)
+TEST(same_bytes)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "teapot", &(lam_shape_params){.slices = 40}, NULL);
     assert_true(lam_scene_add_object(scene, &object, NULL) >= 0);
@@ -407,7 +391,7 @@ static void same_bytes(void **state)
     lam_image first = {0}, next = {0};
     for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
         for (int threads = 1; threads < 4 && lam_isa_usable((lam_isa)isa); threads += 2) {
-            lam_device *own = lam_device_cpu(&(lam_cpu_params){.threads = threads, .isa = (lam_isa)isa}, NULL);
+            AUTO_DEVICE own = lam_device_cpu(&(lam_cpu_params){.threads = threads, .isa = (lam_isa)isa}, NULL);
             lam_image *to = first.pixels ? &next : &first;
             assert_true(to->pixels || lam_image_make(to, SIDE, SIDE, LAM_RGBA8, NULL));
             for (int again = 0; again < 2; again++) { // drawn again, and from stored data
@@ -415,23 +399,20 @@ static void same_bytes(void **state)
                 if (to == &next)
                     assert_memory_equal(first.pixels, next.pixels, SIDE * SIDE * 4);
             }
-            lam_device_free(own);
         }
     lam_image_free(&first);
     lam_image_free(&next);
-    lam_scene_free(scene);
 }
 
-static void colors(void **state)
+TEST(colors)
 {
-    (void)state;
     lam_mesh mesh = cube();
-    lam_scene *scene = scene_of(&mesh);
+    AUTO_SCENE scene = scene_of(&mesh);
     lam_camera camera = camera_at(0, 0, 6);
     static const lam_pixel_format formats[] = {LAM_RGBA8, LAM_RGB8, LAM_RGBA32F};
     for (int i = 0; i < 3; i++)
         for (int raw = 0; raw < 2; raw++) {
-            lam_image image;
+            AUTO_IMAGE image = {0};
             lam_draw_params params = {.edges = LAM_EDGES_CREASE,
                                       .edge_width = 6,
                                       .edge_color = {1, 0.25f, 0, 1},
@@ -454,7 +435,7 @@ static void colors(void **state)
                 assert_int_equal(c[2], 0);
             }
             // Pictures of surface quantities have no lines over them.
-            lam_image plain;
+            AUTO_IMAGE plain = {0};
             params.output = LAM_OUTPUT_NORMALS;
             params.color = LAM_COLOR_SRGB;
             assert_true(lam_image_make(&plain, SIDE, SIDE, formats[i], NULL));
@@ -466,8 +447,6 @@ static void colors(void **state)
                                     (formats[i] == LAM_RGB8    ? 3
                                      : formats[i] == LAM_RGBA8 ? 4
                                                                : 16));
-            lam_image_free(&plain);
-            lam_image_free(&image);
         }
     // Lines without surfaces are white over a dark background, unless they have a colour.
     lam_image image =
@@ -477,16 +456,14 @@ static void colors(void **state)
         most = ((const float *)image.pixels)[4 * i] > most ? ((const float *)image.pixels)[4 * i] : most;
     assert_true(most > 0.9f);
     lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
-static void mistakes(void **state)
+TEST(mistakes)
 {
-    (void)state;
     lam_mesh mesh = cube();
-    lam_scene *scene = scene_of(&mesh);
+    AUTO_SCENE scene = scene_of(&mesh);
     lam_camera camera = camera_at(0, 0, 6);
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_error error;
     static const struct {
         lam_draw_params params;
@@ -505,22 +482,18 @@ static void mistakes(void **state)
         assert_string_equal(error.text, wrong[i].text);
     }
     // A memory limit that the lists of edges exceed causes an error, and the device still works afterwards.
-    lam_device *own = lam_device_cpu(&(lam_cpu_params){.threads = 1}, NULL);
+    AUTO_DEVICE own = lam_device_cpu(&(lam_cpu_params){.threads = 1}, NULL);
     lam_draw_params params = {.wireframe = true};
     assert_false(lam_draw(own, scene, &camera, &params, &image, &(lam_control){.memory_limit_bytes = 1 << 20}, &error));
     assert_int_equal(error.code, LAM_LIMIT);
     assert_true(lam_draw(own, scene, &camera, &params, &image, NULL, &error));
-    lam_device_free(own);
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // --- duplicate faces
 
 // A file that contains each face twice, once for either side, gives the lines of single faces.
-static void twins(void **state)
+TEST(twins)
 {
-    (void)state;
     uint32_t twice[72];
     for (int i = 0; i < 12; i++)
         for (int k = 0; k < 3; k++) {
@@ -533,13 +506,11 @@ static void twins(void **state)
     lam_camera camera = camera_at(2, 3, 7);
     for (int kind = LAM_EDGES_CREASE; kind <= LAM_EDGES_SILHOUETTE; kind <<= 1) {
         lam_scene *scene = scene_of(&one), *doubled = scene_of(&both);
-        lam_image plain = draw(scene, &camera, (lam_draw_params){.edges = (unsigned)kind});
+        AUTO_IMAGE plain = draw(scene, &camera, (lam_draw_params){.edges = (unsigned)kind});
         uint64_t count = drawn();
-        lam_image image = draw(doubled, &camera, (lam_draw_params){.edges = (unsigned)kind});
+        AUTO_IMAGE image = draw(doubled, &camera, (lam_draw_params){.edges = (unsigned)kind});
         assert_int_equal(drawn(), count);
         assert_memory_equal(image.pixels, plain.pixels, (size_t)SIDE * SIDE * 16);
-        lam_image_free(&plain);
-        lam_image_free(&image);
         lam_scene_free(scene);
         lam_scene_free(doubled);
     }
@@ -560,9 +531,8 @@ static uint64_t edges_of(const char *text, const char *name, bool polygons)
     return count;
 }
 
-static void polygons(void **state)
+TEST(polygons)
 {
-    (void)state;
     // A quad, a triangle next to it, and an L of six corners, which is not convex.
     static const char obj[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 0 -1 0\nv 2 -1 0\nv 2 -2 0\nv 1 -2 0\n"
                               "v 1 -1.5 0\nv 0 -1.5 0\nf 1 2 3 4\nf 2 5 3\nf 6 7 8 9 10 11\n";
@@ -576,13 +546,4 @@ static void polygons(void **state)
     assert_int_equal(edges_of(ply, "a.ply", false), 5 + 2);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cubes),      cmocka_unit_test(widths), cmocka_unit_test(silhouettes),
-        cmocka_unit_test(surfaces),   cmocka_unit_test(hiding), cmocka_unit_test(near_plane),
-        cmocka_unit_test(same_bytes), cmocka_unit_test(colors), cmocka_unit_test(mistakes),
-        cmocka_unit_test(polygons),   cmocka_unit_test(twins),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

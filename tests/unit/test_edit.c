@@ -1,15 +1,7 @@
 // test_edit.c: replacing, hiding and removing meshes and objects: the pictures equal the pictures of a scene built in
 // the final form.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <stdlib.h>
-#include <string.h>
-
+#include "test.h"
 #include "device_fixture.h"
 #include "temporary_folder.h"
 
@@ -43,8 +35,7 @@ static uint8_t *draw(const lam_scene *scene)
     lam_image image = {.width = SIZE, .height = SIZE, .format = LAM_RGBA8, .pixels = bytes};
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
     lam_draw_params params = {.samples = 1, .shadows = true, .ground = LAM_GROUND_CHECKER, .wireframe = true};
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     return bytes;
 }
 
@@ -69,10 +60,9 @@ static lam_scene *scene_of(const char *first, const char *second)
     return scene;
 }
 
-static void hidden_is_absent(void **state)
+TEST(hidden_is_absent)
 {
-    (void)state;
-    lam_scene *scene = scene_of("torus", "cube");
+    AUTO_SCENE scene = scene_of("torus", "cube");
     int points = add_points(scene);
     uint8_t *whole = draw(scene);
     assert_true(lam_scene_hide_object(scene, points, true, NULL));
@@ -92,26 +82,22 @@ static void hidden_is_absent(void **state)
     same(scene, scene_of(NULL, "cube"));
     free(whole);
     free(again);
-    lam_scene_free(scene);
 }
 
-static void all_hidden_is_empty(void **state)
+TEST(all_hidden_is_empty)
 {
-    (void)state;
-    lam_scene *scene = scene_of("torus", NULL);
+    AUTO_SCENE scene = scene_of("torus", NULL);
     lam_scene_hide_object(scene, 0, true, NULL);
     lam_vec3 low, high, centre;
     double radius;
     assert_false(lam_scene_bounds(scene, &low, &high));
     assert_false(lam_scene_sphere(scene, -1, &centre, &radius));
     same(scene, scene_of(NULL, NULL));
-    lam_scene_free(scene);
 }
 
-static void removed_is_absent(void **state)
+TEST(removed_is_absent)
 {
-    (void)state;
-    lam_scene *scene = scene_of("torus", "cube");
+    AUTO_SCENE scene = scene_of("torus", "cube");
     assert_true(lam_scene_remove_object(scene, 0, NULL));
     assert_int_equal(lam_scene_object_count(scene), 1);
     same(scene, scene_of(NULL, "cube"));
@@ -123,12 +109,10 @@ static void removed_is_absent(void **state)
     assert_true(lam_scene_remove_mesh(scene, 0, NULL)); // with its object
     assert_int_equal(lam_scene_object_count(scene), 1);
     same(scene, scene_of("torus", NULL));
-    lam_scene_free(scene);
 }
 
-static void replaced_is_the_new_one(void **state)
+TEST(replaced_is_the_new_one)
 {
-    (void)state;
     lam_scene *scene = scene_of("torus", "cube"), *other = scene_of("sphere", "cone");
     uint64_t memory = 0;
     for (int i = 0; i < 40; i++) { // addresses are reused: new data must not be mistaken for old data
@@ -147,9 +131,8 @@ static void replaced_is_the_new_one(void **state)
 }
 
 // Far from zero and without normals, it gets an origin and smooth normals, like an added mesh.
-static void replaced_as_added(void **state)
+TEST(replaced_as_added)
 {
-    (void)state;
     const float positions[] = {4000, 4000, 0, 4001, 4000, 0, 4000, 4001, 0, 4000, 4000, 1};
     const uint32_t indices[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
     const lam_mesh mesh = {.positions = positions, .vertex_count = 4, .indices = indices, .triangle_count = 4};
@@ -163,9 +146,8 @@ static void replaced_as_added(void **state)
     lam_scene_free(scene);
 }
 
-static void mark_brings_back(void **state)
+TEST(mark_brings_back)
 {
-    (void)state;
     lam_scene *scene = scene_of("torus", "cube"), *other = scene_of("sphere", "cone");
     assert_true(lam_scene_set_mesh(scene, 1, lam_scene_mesh(other, 0), NULL)); // before the mark
     assert_true(lam_scene_mark(scene, NULL));
@@ -188,11 +170,10 @@ static void refused(bool ok, const lam_error *error, const char *text)
     assert_string_equal(error->text, text);
 }
 
-static void bad_arguments(void **state)
+TEST(bad_arguments)
 {
-    (void)state;
     lam_error error;
-    lam_scene *scene = scene_of("torus", "cube");
+    AUTO_SCENE scene = scene_of("torus", "cube");
     const float infinite[] = {0, 0, 0, 1, 0, 0, 0, 1.0f / 0.0f, 0};
     refused(lam_scene_set_mesh(scene, 2, lam_scene_mesh(scene, 0), &error), &error, "mesh: 2 of 2");
     refused(lam_scene_set_mesh(scene, 0, NULL, &error), &error, "mesh: the mesh is NULL");
@@ -205,17 +186,15 @@ static void bad_arguments(void **state)
     refused(lam_scene_remove_mesh(scene, -1, &error), &error, "mesh: -1 of 2");
     refused(lam_scene_remove_mesh(NULL, 0, &error), &error, "mesh: the scene is NULL");
     same(scene, scene_of("torus", "cube")); // nothing has changed
-    lam_scene_free(scene);
 }
 
-static void scene_files(void **state)
+TEST(scene_files)
 {
-    (void)state;
     lam_error error;
     strcpy(folder, "/tmp/lambent-edit-XXXXXX");
     assert_non_null(mkdtemp(folder));
     const char *path = in_folder("scene.json");
-    lam_scene *scene = scene_of("torus", "cube");
+    AUTO_SCENE scene = scene_of("torus", "cube");
     assert_true(lam_scene_hide_object(scene, 0, true, NULL));
     const lam_picture_settings settings = {.draw = {.ground = LAM_GROUND_CHECKER}}; // draw() has a ground
     assert_true(lam_scene_save(scene, &settings, path, &error));
@@ -227,17 +206,7 @@ static void scene_files(void **state)
     assert_false(lam_scene_save(scene, NULL, path, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     assert_non_null(strstr(error.text, "object 1 ('cube')"));
-    lam_scene_free(scene);
     remove_folder(NULL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hidden_is_absent),  cmocka_unit_test(all_hidden_is_empty),
-        cmocka_unit_test(removed_is_absent), cmocka_unit_test(replaced_is_the_new_one),
-        cmocka_unit_test(replaced_as_added), cmocka_unit_test(mark_brings_back),
-        cmocka_unit_test(bad_arguments),     cmocka_unit_test(scene_files),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

@@ -1,17 +1,7 @@
 // test_encoders.c: JPEG and WebP pictures equal the encoded pictures, over the background, within the error of the
 // quality.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 enum { WIDTH = 61, HEIGHT = 37, PIXELS = WIDTH * HEIGHT };
 
@@ -35,8 +25,7 @@ static lam_bytes encode(const lam_image *image, const char *format, const lam_sa
 {
     lam_bytes bytes;
     lam_error error;
-    if (!lam_image_encode(image, format, params, &bytes, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_image_encode(image, format, params, &bytes, &error));
     return bytes;
 }
 
@@ -48,8 +37,7 @@ static lam_image decode(const lam_bytes *bytes, bool ours)
     lam_error error;
     snprintf(path, sizeof path, "test-encoders-%d", (int)getpid());
     assert_true(lam_bytes_save(bytes, path, &error));
-    if (!lam_image_load(&image, path, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_image_load(&image, path, NULL, &error));
     assert_int_equal(lam_image_is_from_lambent(path), ours);
     unlink(path);
     return image;
@@ -78,27 +66,24 @@ static int jpeg_sampling(const lam_bytes *bytes)
     return -1;
 }
 
-static void test_jpeg_quality(void **state)
+TEST(test_jpeg_quality)
 {
-    (void)state;
-    lam_image image = make_picture(WIDTH, HEIGHT, true);
+    AUTO_IMAGE image = make_picture(WIDTH, HEIGHT, true);
     static const int qualities[] = {1, 30, 60, 89, 90, 100};
     size_t last_size = 0;
     double last = 1e9;
     for (size_t i = 0; i < sizeof qualities / sizeof *qualities; i++) {
         lam_bytes bytes =
             encode(&image, i % 2 ? "jpeg" : "JPG", &(lam_save_params){.quality = qualities[i], .threads = 1});
-        lam_bytes again = encode(&image, "jpg", &(lam_save_params){.quality = qualities[i], .threads = 4});
+        AUTO_BYTES again = encode(&image, "jpg", &(lam_save_params){.quality = qualities[i], .threads = 4});
         assert_true(bytes.size == again.size && memcmp(bytes.data, again.data, bytes.size) == 0);
         assert_int_equal(jpeg_sampling(&bytes), qualities[i] < 90 ? 0x22 : 0x11);
-        lam_image back = decode(&bytes, true);
+        AUTO_IMAGE back = decode(&bytes, true);
         lam_difference difference;
         assert_true(lam_image_compare(&image, &back, &difference, NULL));
         assert_true(bytes.size > last_size && difference.rmse < last);
         last = difference.rmse;
         last_size = bytes.size;
-        lam_image_free(&back);
-        lam_bytes_free(&again);
         lam_bytes_free(&bytes);
     }
     assert_true(last < 0.004); // at 100, only the rounding of YCbCr
@@ -106,14 +91,12 @@ static void test_jpeg_quality(void **state)
     assert_true(plain.size == named.size && memcmp(plain.data, named.data, plain.size) == 0);
     lam_bytes_free(&plain);
     lam_bytes_free(&named);
-    lam_image_free(&image);
 }
 
 // A JPEG shows the same as a PPM, whose numbers test_image.c compares with the formulas.
-static void test_jpeg_background(void **state)
+TEST(test_jpeg_background)
 {
-    (void)state;
-    lam_image image = make_picture(WIDTH, HEIGHT, false);
+    AUTO_IMAGE image = make_picture(WIDTH, HEIGHT, false);
     for (int raw = 0; raw < 2; raw++) {
         lam_save_params params = {.quality = 100, .background = {0.2f, 0.5f, 1}, .raw = raw};
         lam_bytes jpeg = encode(&image, "jpg", &params), ppm = encode(&image, "ppm", &params);
@@ -126,36 +109,30 @@ static void test_jpeg_background(void **state)
         lam_bytes_free(&jpeg);
         lam_bytes_free(&ppm);
     }
-    lam_image_free(&image);
 }
 
-static void test_webp(void **state)
+TEST(test_webp)
 {
-    (void)state;
     if (!have_webp())
         skip();
     lam_image image = make_picture(WIDTH, HEIGHT, false);
     for (int quality = 0; quality <= 100; quality += 100) {
-        lam_bytes bytes = encode(&image, "webp", &(lam_save_params){.quality = quality});
-        lam_image back = decode(&bytes, false);
+        AUTO_BYTES bytes = encode(&image, "webp", &(lam_save_params){.quality = quality});
+        AUTO_IMAGE back = decode(&bytes, false);
         assert_memory_equal(back.pixels, image.pixels, 4 * PIXELS); // including the colours of transparent pixels
-        lam_image_free(&back);
-        lam_bytes_free(&bytes);
     }
     lam_image_free(&image);
     image = make_picture(WIDTH, HEIGHT, true);
     double last = 1e9;
     size_t last_size = 0;
     for (int quality = 1; quality < 100; quality += 49) {
-        lam_bytes bytes = encode(&image, "webp", &(lam_save_params){.quality = quality});
-        lam_image back = decode(&bytes, false);
+        AUTO_BYTES bytes = encode(&image, "webp", &(lam_save_params){.quality = quality});
+        AUTO_IMAGE back = decode(&bytes, false);
         lam_difference difference;
         assert_true(lam_image_compare(&image, &back, &difference, NULL));
         assert_true(difference.rmse > 0 && difference.rmse < last && bytes.size > last_size);
         last = difference.rmse;
         last_size = bytes.size;
-        lam_image_free(&back);
-        lam_bytes_free(&bytes);
     }
     assert_true(last < 0.02);
     lam_image_free(&image);
@@ -172,9 +149,8 @@ static void refused(const lam_image *image, const char *format, const lam_save_p
         fail_msg("'%s' does not say '%s'", error.text, word);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     lam_image image = make_picture(WIDTH, HEIGHT, true), wide = make_picture(16384, 1, true);
     lam_cancel cancel = {0};
     lam_control stop = {.cancel = &cancel}, late = {.time_limit_s = 1e-9};
@@ -201,15 +177,4 @@ static void test_refusals(void **state)
     refused(&wide, "jpg", NULL, LAM_LIMIT, "JPEG: Maximum supported image dimension is 65500");
     lam_image_free(&wide);
     lam_image_free(&image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_jpeg_quality),
-        cmocka_unit_test(test_jpeg_background),
-        cmocka_unit_test(test_webp),
-        cmocka_unit_test(test_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

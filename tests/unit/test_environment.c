@@ -2,19 +2,9 @@
 // have no seams.
 // The file has more than 600 lines because it contains the reference lookup in double and every picture and seam
 // compared with it.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#include "test.h"
 
-#include <cmocka.h>
 #include <spng.h>
 
 #include "vec.h"
@@ -126,8 +116,7 @@ static lam_environment *environment_of(const struct cube *cube)
         faces[face] = &cube->faces[face];
     lam_error error = {0};
     lam_environment *environment = lam_environment_make(faces, LAM_COLOR_RAW, &error);
-    if (!environment)
-        fail_msg("%s", error.text);
+    SUCCEEDS(environment);
     return environment;
 }
 
@@ -139,9 +128,8 @@ static double apart(lam_rgb a, vec b)
 
 static lam_rgb look_at(const lam_environment *e, vec d) { return lam_environment_sample(e, (lam_vec3){d.x, d.y, d.z}); }
 
-static void test_lookup_equals_reference(void **state)
+TEST(test_lookup_equals_reference)
 {
-    (void)state;
     for (int size = 1; size <= 64; size = size * 2 + (size < 4)) {
         struct cube cube = make_cube(size, false);
         lam_environment *e = environment_of(&cube);
@@ -164,9 +152,8 @@ static double step_between(const lam_environment *e, vec a, vec b)
 }
 
 // Noise has steps of up to 1 between texels, so a seam would be visible.
-static void test_no_seams(void **state)
+TEST(test_no_seams)
 {
-    (void)state;
     const double tiny = 1e-6;
     struct cube cube = make_cube(5, false);
     lam_environment *e = environment_of(&cube);
@@ -272,7 +259,7 @@ static void check_ball(const struct ball *ball)
     lam_error error = {0};
     struct cube cube = make_cube(64, true);
     lam_environment *environment = environment_of(&cube);
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 24, .stacks = 12}, &error);
     lam_material mirror = {.diffuse = {0, 0, 0, 1}, .reflectivity = {0.9f, 0.8f, 0.7f}};
@@ -292,11 +279,10 @@ static void check_ball(const struct ball *ball)
     camera.ortho_half_height = ball->orthographic ? 1.05 : 0;
     camera.fovy_rad = 0.65;
     lam_draw_params params = {.samples = 1, .color = LAM_COLOR_RAW, .rig = LAM_RIG_NONE};
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, SIDE, SIDE, LAM_RGBA32F, &error));
-    lam_device *device = lam_device_cpu(NULL, &error);
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
 
     vec eye = from_lam(camera.eye), back = unit(eye), right = unit(cross(of(0, 1, 0), back)),
         above = cross(back, right);
@@ -334,59 +320,34 @@ static void check_ball(const struct ball *ball)
     if (most > 5e-4 || sum / count > 5e-6)
         fail_msg("%g at most, %g on average, expected 5e-4 and 5e-6", most, sum / count);
     assert_true(wrong / count > 0.05);
-    lam_device_free(device);
-    lam_image_free(&image);
-    lam_scene_free(scene);
     free_cube(&cube);
 }
 
-static void test_ball(void **state)
+TEST(test_ball) { check_ball(&(struct ball){0}); }
+TEST(test_ball_turned) { check_ball(&(struct ball){.rotation = 0.7}); }
+TEST(test_ball_orthographic) { check_ball(&(struct ball){.orthographic = true, .rotation = -2}); }
+TEST(test_ball_z_up) { check_ball(&(struct ball){.up = LAM_UP_Z, .rotation = 1}); }
+TEST(test_ball_x_up)
 {
-    (void)state;
-    check_ball(&(struct ball){0});
-}
-static void test_ball_turned(void **state)
-{
-    (void)state;
-    check_ball(&(struct ball){.rotation = 0.7});
-}
-static void test_ball_orthographic(void **state)
-{
-    (void)state;
-    check_ball(&(struct ball){.orthographic = true, .rotation = -2});
-}
-static void test_ball_z_up(void **state)
-{
-    (void)state;
-    check_ball(&(struct ball){.up = LAM_UP_Z, .rotation = 1});
-}
-static void test_ball_x_up(void **state)
-{
-    (void)state;
     check_ball(&(struct ball){.up = LAM_UP_X, .light = true});
     check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_X, .rotation = 1});
     check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_Y, .rotation = 1});
     check_ball(&(struct ball){.up = LAM_UP_NEGATIVE_Z, .rotation = 1});
 }
-static void test_ball_lit(void **state)
-{
-    (void)state;
-    check_ball(&(struct ball){.light = true});
-}
+TEST(test_ball_lit) { check_ball(&(struct ball){.light = true}); }
 
 // --- layouts
 
 // Cuts a cross: each face moves to its documented place.
-static void test_crosses(void **state)
+TEST(test_crosses)
 {
-    (void)state;
     enum { N = 6 };
     struct cube cube = make_cube(N, false);
     lam_environment *straight = environment_of(&cube);
     static const int places[2][6][2] = {{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}},
                                         {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {1, 3}}};
     for (int stands = 0; stands < 2; stands++) {
-        lam_image cross_image = {0};
+        AUTO_IMAGE cross_image = {0};
         assert_true(lam_image_make(&cross_image, N * (stands ? 3 : 4), N * (stands ? 4 : 3), LAM_RGBA32F, NULL));
         memset(cross_image.pixels, 0xff, (size_t)12 * N * N * 16); // NaN: texels outside the cross are never used
         for (int face = 0; face < 6; face++) {
@@ -402,26 +363,23 @@ static void test_crosses(void **state)
         }
         lam_error error = {0};
         lam_environment *e = lam_environment_from_image(&cross_image, LAM_COLOR_RAW, &error);
-        if (!e)
-            fail_msg("%s", error.text);
+        SUCCEEDS(e);
         for (int i = 0; i < 2000; i++) {
             vec d = of(random_number() * 2 - 1, random_number() * 2 - 1, random_number() * 2 - 1);
             lam_rgb a = look_at(e, d), b = look_at(straight, d);
             assert_memory_equal(&a, &b, sizeof a);
         }
         lam_environment_free(e);
-        lam_image_free(&cross_image);
     }
     lam_environment_free(straight);
     free_cube(&cube);
 }
 
 // A 2:1 picture whose pixels are their directions: −Z in the middle, +X to the right, +Y at the top.
-static void test_equirectangular(void **state)
+TEST(test_equirectangular)
 {
-    (void)state;
     enum { WIDTH = 512, HEIGHT = 256 };
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA32F, NULL));
     for (int y = 0; y < HEIGHT; y++) {
         for (int x = 0; x < WIDTH; x++) {
@@ -444,7 +402,6 @@ static void test_equirectangular(void **state)
                      apart(look_at(e, d), of(0.5 + 0.5 * d.x, 0.5 + 0.5 * d.y, 0.5 + 0.5 * d.z)));
     }
     lam_environment_free(e);
-    lam_image_free(&image);
 }
 
 // --- files
@@ -464,9 +421,8 @@ static void write_16(const char *path, const uint16_t pixels[3])
 
 static double decoded(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-static void test_files_of_16_bits(void **state)
+TEST(test_files_of_16_bits)
 {
-    (void)state;
     static const vec axes[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     char names[6][64];
     const char *paths[6];
@@ -481,8 +437,7 @@ static void test_files_of_16_bits(void **state)
     for (int mode = 0; mode < 2; mode++) {
         lam_error error = {0};
         lam_environment *e = lam_environment_load_faces(paths, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error);
-        if (!e)
-            fail_msg("%s", error.text);
+        SUCCEEDS(e);
         for (int face = 0; face < 6; face++) {
             double v[3];
             for (int c = 0; c < 3; c++)
@@ -501,9 +456,8 @@ static void test_files_of_16_bits(void **state)
         unlink(names[face]);
 }
 
-static void test_real_files(void **state)
+TEST(test_real_files)
 {
-    (void)state;
     const char *models = getenv("LAMBENT_MODELS");
     char names[6][1024], hdr[1024];
     static const char *const sides[6] = {"posx", "negx", "posy", "negy", "posz", "negz"};
@@ -535,9 +489,8 @@ static void test_real_files(void **state)
     lam_environment_free(cube);
 }
 
-static void test_built_in(void **state)
+TEST(test_built_in)
 {
-    (void)state;
     int count = 0;
     for (; lam_environment_built_in_name(count); count++) {
         lam_environment *e = lam_environment_built_in(lam_environment_built_in_name(count), NULL);
@@ -556,9 +509,8 @@ static void test_built_in(void **state)
 }
 
 // A hash of every third texel of every third row: faster computations must not change the light.
-static void test_built_in_texels(void **state)
+TEST(test_built_in_texels)
 {
-    (void)state;
     static const uint64_t expected[2] = {0x6aa02f8d7b5c2bd7, 0x8253e980332de23e};
     for (int index = 0; index < 2; index++) {
         lam_environment *e = lam_environment_built_in(lam_environment_built_in_name(index), NULL);
@@ -594,9 +546,8 @@ static void refused(lam_environment *environment, const lam_error *error, lam_co
         fail_msg("'%s' does not say '%s'", error->text, word);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     lam_error error = {0};
     struct cube cube = make_cube(4, true);
     const lam_image *faces[6];
@@ -609,7 +560,7 @@ static void test_refusals(void **state)
         refused(lam_environment_make(faces, LAM_COLOR_RAW, &error), &error, LAM_BAD_ARGUMENT, "face +Y: pixel 1, 1");
     }
     pixel[4 * 5 + 1] = 0;
-    lam_image odd = {0};
+    AUTO_IMAGE odd = {0};
     assert_true(lam_image_make(&odd, 5, 4, LAM_RGBA8, NULL));
     memset(odd.pixels, 0, 80);
     faces[4] = &odd;
@@ -628,28 +579,5 @@ static void test_refusals(void **state)
     assert_true(lam_scene_set_environment(scene, NULL, 0, &error));
     lam_scene_free(scene);
     assert_true(apart(lam_environment_sample(NULL, (lam_vec3){1, 0, 0}), of(0, 0, 0)) == 0);
-    lam_image_free(&odd);
     free_cube(&cube);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lookup_equals_reference),
-        cmocka_unit_test(test_no_seams),
-        cmocka_unit_test(test_ball),
-        cmocka_unit_test(test_ball_turned),
-        cmocka_unit_test(test_ball_orthographic),
-        cmocka_unit_test(test_ball_z_up),
-        cmocka_unit_test(test_ball_x_up),
-        cmocka_unit_test(test_ball_lit),
-        cmocka_unit_test(test_crosses),
-        cmocka_unit_test(test_equirectangular),
-        cmocka_unit_test(test_files_of_16_bits),
-        cmocka_unit_test(test_real_files),
-        cmocka_unit_test(test_built_in),
-        cmocka_unit_test(test_built_in_texels),
-        cmocka_unit_test(test_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,17 +1,7 @@
 // test_explain.c: an explained pixel equals the picture's pixel, bit for bit, and follows from its numbers.
+#include "test.h"
 #include "scenes.h"
 #include "share.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 static uint32_t random_state = 1;
 
@@ -25,8 +15,7 @@ static lam_device *make_device(lam_isa isa)
 {
     lam_error error = {0};
     lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = isa}, &error);
-    if (!device)
-        fail_msg("%s", error.text);
+    SUCCEEDS(device);
     return device;
 }
 
@@ -291,7 +280,7 @@ static int alpha_of(const lam_image *image, int x, int y)
 // Some pixels of each kind: without triangles, partly covered, and fully covered.
 static void check_pixels(lam_device *drawing, lam_device *explaining, const struct demo *demo, const char *name)
 {
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     lam_error error = {0};
     masked_scene = strcmp(name, "masked") == 0 || strcmp(name, "shadows-leaves") == 0;
     soft_scene = strcmp(name, "shadows-soft") == 0 || strncmp(name, "ground", 6) == 0;
@@ -306,21 +295,18 @@ static void check_pixels(lam_device *drawing, lam_device *explaining, const stru
             check_pixel(explaining, demo, &image, x, y, name);
         }
     }
-    lam_image_free(&image);
 }
 
 static const lam_shading shadings[] = {LAM_SHADING_PHONG, LAM_SHADING_GOURAUD, LAM_SHADING_FLAT};
 static const int sample_counts[] = {1, 4, 16};
 
-static void test_scenes(void **state)
+TEST(test_scenes)
 {
-    (void)state;
     lam_device *widest = make_device(LAM_ISA_AUTO), *plain = make_device(LAM_ISA_SCALAR);
     for (int i = 0; i < demo_count; i++) {
         struct demo demo;
         lam_error error = {0};
-        if (!demo_build(&demos[i], &demo, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(demo_build(&demos[i], &demo, &error));
         lam_device *a = i & 1 ? widest : plain, *b = i & 1 ? plain : widest;
         check_pixels(a, b, &demo, demos[i].name); // unchanged
         for (int s = 0; s < 3; s++) {
@@ -342,9 +328,8 @@ static void test_scenes(void **state)
     lam_device_free(plain);
 }
 
-static void test_models(void **state)
+TEST(test_models)
 {
-    (void)state;
     static const char *const models[] = {"obj/koala/koala.obj", "obj/spot/spot_triangulated.obj",
                                          "obj/kaykit_hexagon/building_castle_blue.obj",
                                          "ply/derived/spot_colour_le.ply"};
@@ -377,10 +362,9 @@ static void test_models(void **state)
 }
 
 // gl1, matched highlights, an infinite viewer: each changes a number, and the explanation contains it.
-static void test_ways(void **state)
+TEST(test_ways)
 {
-    (void)state;
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     for (int i = 0; i < demo_count; i++) {
         if (strcmp(demos[i].name, "lights") != 0)
             continue;
@@ -396,14 +380,12 @@ static void test_ways(void **state)
         }
         lam_scene_free(demo.scene);
     }
-    lam_device_free(device);
 }
 
 // Maps, and their effect on a material: the numbers equal the pictures of --show, and S = pi D V n.l.
-static void test_values(void **state)
+TEST(test_values)
 {
-    (void)state;
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     struct demo demo;
     assert_true(demo_build_named("textured", &demo, NULL));
     demo.params.samples = 1;
@@ -456,14 +438,12 @@ static void test_values(void **state)
     for (int i = 0; i < 5; i++)
         lam_image_free(&images[i]);
     lam_scene_free(demo.scene);
-    lam_device_free(device);
 }
 
 // A picture filled by one surface: each pixel of a tile is one fragment, and no sum is stored while it is drawn.
-static void test_filled(void **state)
+TEST(test_filled)
 {
-    (void)state;
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     struct demo demo = {.width = 130, .height = 130, .camera = lam_camera_default()};
     demo.scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
@@ -478,14 +458,12 @@ static void test_filled(void **state)
         check_pixels(device, device, &demo, "filled");
     }
     lam_scene_free(demo.scene);
-    lam_device_free(device);
 }
 
 // A known point: the sphere's middle under the headlight, seen straight from the front.
-static void test_known(void **state)
+TEST(test_known)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_material material = lam_material_default();
     material.name = "chalk";
     material.ambient = (lam_rgb){0, 0, 0};
@@ -503,7 +481,7 @@ static void test_known(void **state)
     light.attenuation = (lam_attenuation){0, 0, 1};
     assert_int_equal(lam_scene_add_light(scene, &light, NULL), 0);
     lam_camera camera = lam_camera_default();
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     lam_explanation *e = lam_explain(device, scene, &camera, NULL, 101, 101, LAM_RGBA32F, 50, 50, NULL, NULL);
     assert_non_null(e);
     assert_true(e->fragment_count >= 1);
@@ -525,22 +503,18 @@ static void test_known(void **state)
     assert_null(lam_explain(device, scene, &camera, NULL, 0, 101, LAM_RGBA8, 0, 0, NULL, &error));
     assert_null(lam_explain(device, NULL, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
     assert_null(lam_explain(NULL, scene, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
-    lam_device *null = lam_device_null(NULL);
+    AUTO_DEVICE null = lam_device_null(NULL);
     assert_null(lam_explain(null, scene, &camera, NULL, 10, 10, LAM_RGBA8, 0, 0, NULL, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     lam_explanation_free(NULL);
-    lam_device_free(null);
-    lam_device_free(device);
-    lam_scene_free(scene);
 }
 
 // A picture drawn after an explanation equals the picture before it.
-static void test_device_unchanged(void **state)
+TEST(test_device_unchanged)
 {
-    (void)state;
     struct demo demo;
     assert_true(demo_build(&demos[0], &demo, NULL));
-    lam_device *device = make_device(LAM_ISA_AUTO);
+    AUTO_DEVICE device = make_device(LAM_ISA_AUTO);
     lam_image before = {0}, after = {0};
     assert_true(lam_image_make(&before, 200, 150, LAM_RGBA8, NULL) &&
                 lam_image_make(&after, 200, 150, LAM_RGBA8, NULL));
@@ -553,16 +527,5 @@ static void test_device_unchanged(void **state)
     assert_memory_equal(before.pixels, after.pixels, 200 * 150 * 4);
     lam_image_free(&before);
     lam_image_free(&after);
-    lam_device_free(device);
     lam_scene_free(demo.scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scenes),           cmocka_unit_test(test_models), cmocka_unit_test(test_ways),
-        cmocka_unit_test(test_values),           cmocka_unit_test(test_filled), cmocka_unit_test(test_known),
-        cmocka_unit_test(test_device_unchanged),
-    };
-    return cmocka_run_group_tests_name("explain", tests, NULL, NULL);
 }

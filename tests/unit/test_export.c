@@ -1,13 +1,6 @@
 // test_export.c: lam_scene_export: wrong arguments, files, losses, and a mesh with all attributes of a vertex.
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
 
-#include <lambent/lambent.h>
-
-#include <string.h>
+#include "test.h"
 
 static lam_scene *quad(bool by_triangle)
 {
@@ -37,9 +30,8 @@ static lam_scene *quad(bool by_triangle)
     return scene;
 }
 
-static void test_arguments(void **state)
+TEST(test_arguments)
 {
-    (void)state;
     lam_error error;
     lam_scene *scene = quad(false), *empty = lam_scene_make(&error);
     assert_null(lam_scene_export(NULL, "glb", NULL, &error));
@@ -66,12 +58,11 @@ static void test_arguments(void **state)
 }
 
 // Exports and reads again: the same triangles, in a file named after the model.
-static void test_round_trips(void **state)
+TEST(test_round_trips)
 {
-    (void)state;
     lam_error error;
     for (int by_triangle = 0; by_triangle < 2; by_triangle++) {
-        lam_scene *scene = quad(by_triangle);
+        AUTO_SCENE scene = quad(by_triangle);
         for (int i = 0; lam_export_format(i); i++) {
             const char *format = lam_export_format(i);
             lam_export_params params = {.name = "a.b"};
@@ -83,7 +74,7 @@ static void test_round_trips(void **state)
             assert_memory_equal(name, "a.", 2);
             assert_string_equal(name + 2, format);
             lam_bytes bytes = lam_export_file(result, 0);
-            lam_scene *again = lam_scene_load_memory(bytes.data, bytes.size, name, NULL, NULL, &error);
+            AUTO_SCENE again = lam_scene_load_memory(bytes.data, bytes.size, name, NULL, NULL, &error);
             assert_non_null(again);
             assert_int_equal(lam_scene_triangle_count(again), 2);
             bool colored = lam_scene_mesh(again, 0)->colors != NULL;
@@ -91,18 +82,15 @@ static void test_round_trips(void **state)
             assert_null(lam_export_file_name(result, -1));
             assert_null(lam_export_loss(result, 1000));
             assert_null(lam_export_file(result, 1000).data);
-            lam_scene_free(again);
             lam_export_free(result);
         }
-        lam_scene_free(scene);
     }
 }
 
 // A camera that is written can be read again: planes that are missing are fitted to the scene, and a camera that is too
 // far away is left out, with a sentence.
-static void test_cameras(void **state)
+TEST(test_cameras)
 {
-    (void)state;
     static const struct {
         double near_plane, far_plane, ortho_half_height;
         int cameras, losses;
@@ -110,7 +98,7 @@ static void test_cameras(void **state)
                 {0, 9, 2, 1, 0},   {9, 0, 2, 1, 1}, {1e31, 1e32, 0, 0, 1}, {1, 1e31, 2, 0, 1}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lam_error error = {0};
-        lam_scene *scene = quad(false);
+        AUTO_SCENE scene = quad(false);
         lam_camera camera = lam_camera_default();
         camera.near_plane = rows[i].near_plane;
         camera.far_plane = rows[i].far_plane;
@@ -122,19 +110,10 @@ static void test_cameras(void **state)
             losses += strstr(lam_export_loss(result, k), "cameras") != NULL;
         assert_int_equal(losses, rows[i].losses);
         lam_bytes bytes = lam_export_file(result, 0);
-        lam_scene *again = lam_scene_load_memory(bytes.data, bytes.size, "a.glb", NULL, NULL, &error);
+        AUTO_SCENE again = lam_scene_load_memory(bytes.data, bytes.size, "a.glb", NULL, NULL, &error);
         if (!again)
             fail_msg("row %zu: %s", i, error.text);
         assert_int_equal(lam_scene_camera_count(again), rows[i].cameras);
-        lam_scene_free(again);
         lam_export_free(result);
-        lam_scene_free(scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cameras), cmocka_unit_test(test_arguments),
-                                       cmocka_unit_test(test_round_trips)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

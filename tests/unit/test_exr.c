@@ -1,16 +1,7 @@
 // test_exr.c: writing, reading and recognising EXR pictures.
+#include "test.h"
+
 #include <lambent/image.h>
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 static lam_image noise(int width, int height, uint32_t seed)
 {
@@ -55,9 +46,8 @@ static void load(lam_image *image, const void *bytes, size_t size, lam_error *er
         fail_msg("%s", ok ? "was read" : error->text);
 }
 
-static void test_round(void **state)
+TEST(test_round)
 {
-    (void)state;
     static const int sizes[][2] = {{1, 1}, {37, 50}, {3, 16}, {130, 17}};
     for (int i = 0; i < 4; i++) {
         lam_image image = noise(sizes[i][0], sizes[i][1], 7), back;
@@ -73,14 +63,13 @@ static void test_round(void **state)
         assert_memory_equal(back.pixels, image.pixels, (size_t)image.width * (size_t)image.height * 16);
         for (size_t cut = 0; cut < first.size;
              cut += 1 + first.size / 40) { // truncated files: an error or, in the last chunk, pixels
-            lam_image part = {0};
+            AUTO_IMAGE part = {0};
             char path[] = "/tmp/lambent-exr-XXXXXX";
             int file = mkstemp(path);
             assert_true(file >= 0 && write(file, first.data, cut) == (ssize_t)cut);
             close(file);
             lam_image_load(&part, path, NULL, &error);
             unlink(path);
-            lam_image_free(&part);
         }
         lam_image_free(&image);
         lam_image_free(&back);
@@ -94,9 +83,8 @@ static lam_layer layer(const char *name, const lam_image *image, const char *cha
     return (lam_layer){.name = name, .image = image, .channels = channels};
 }
 
-static void test_layers(void **state)
+TEST(test_layers)
 {
-    (void)state;
     lam_image picture = noise(20, 40, 1), light = noise(20, 40, 2), back;
     const lam_layer layers[] = {layer("diffuse", &light, NULL), layer(NULL, &picture, NULL),
                                 layer("depth", &light, "Z"), layer("n.l", &light, "Y")};
@@ -121,9 +109,8 @@ static void test_layers(void **state)
     lam_image_free(&light);
 }
 
-static void test_wrong(void **state)
+TEST(test_wrong)
 {
-    (void)state;
     lam_image image = noise(4, 4, 1), other = noise(4, 5, 1), bytes_image;
     assert_true(lam_image_make(&bytes_image, 4, 4, LAM_RGBA8, NULL));
     lam_bytes bytes;
@@ -146,11 +133,4 @@ static void test_wrong(void **state)
     lam_image_free(&image);
     lam_image_free(&other);
     lam_image_free(&bytes_image);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_round), cmocka_unit_test(test_layers),
-                                       cmocka_unit_test(test_wrong)};
-    return cmocka_run_group_tests_name("exr", tests, NULL, NULL);
 }

@@ -1,24 +1,16 @@
 // test_file.c: files are complete or do not appear, and no other files remain in their folder, whatever ends the
 // process.
+#include "test.h"
 #include "file.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/wait.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 #include "temporary_folder.h"
 
@@ -53,6 +45,7 @@ static int empty_folder(size_t other, const char *doing)
 static int set_up(void **state)
 {
     (void)state;
+    umask(022);
     snprintf(folder, sizeof folder, "/tmp/lambent-file-XXXXXX");
     bytes = malloc(LARGE);
     for (size_t i = 0; bytes && i < LARGE; i++)
@@ -80,9 +73,8 @@ static void assert_holds(const char *name, const uint8_t *data, size_t size, mod
     assert_int_equal(about.st_mode & 07777, mode);
 }
 
-static void test_written_and_replaced(void **state)
+TEST(test_written_and_replaced)
 {
-    (void)state;
     mode_t before = umask(027);
     for (enum file_way way = FILE_UNNAMED; way <= FILE_NAMED; way++) {
         lam_error error;
@@ -110,9 +102,8 @@ static void test_written_and_replaced(void **state)
     umask(before);
 }
 
-static void test_failures_leave_nothing(void **state)
+TEST(test_failures_leave_nothing)
 {
-    (void)state;
     for (enum file_way way = FILE_UNNAMED; way <= FILE_NAMED; way++) {
         lam_error error;
         assert_false(file_write_by(way, in_folder("no/x"), bytes, 10, NULL, &error));
@@ -195,9 +186,8 @@ static void kill_writer(enum file_way way, int number, bool same_name, unsigned 
         fail_msg("%s: left %d files", doing, left);
 }
 
-static void test_signals_leave_nothing(void **state)
+TEST(test_signals_leave_nothing)
 {
-    (void)state;
     srandom(7);
     for (enum file_way way = FILE_UNNAMED; way <= FILE_NAMED; way++)
         for (int number = 1; number < NSIG; number++)
@@ -207,17 +197,15 @@ static void test_signals_leave_nothing(void **state)
 
 // SIGKILL takes effect immediately. A file without a name disappears with its process. Only in the microseconds between
 // link and rename, when the name exists, could a complete file remain, so this test writes new names.
-static void test_kill_leaves_nothing(void **state)
+TEST(test_kill_leaves_nothing)
 {
-    (void)state;
     srandom(8);
     for (int i = 0; i < 60; i++)
         kill_writer(FILE_UNNAMED, SIGKILL, false, (unsigned)(random() % 12000) + 100);
 }
 
-static void test_file_size_limit(void **state)
+TEST(test_file_size_limit)
 {
-    (void)state;
     for (enum file_way way = FILE_UNNAMED; way <= FILE_NAMED; way++)
         for (int ignored = 0; ignored < 2; ignored++) {
             pid_t child = fork();
@@ -247,9 +235,8 @@ static void count_alarm(int number)
     alarms++;
 }
 
-static void test_handlers_run(void **state)
+TEST(test_handlers_run)
 {
-    (void)state;
     struct sigaction action = {.sa_handler = count_alarm}, old;
     sigaction(SIGALRM, &action, &old);
     for (enum file_way way = FILE_UNNAMED; way <= FILE_NAMED; way++) {
@@ -274,9 +261,8 @@ static void test_handlers_run(void **state)
 
 // A file named in another file is opened below its folder: a link or ".." that appeared in its path after the check
 // leads nowhere.
-static void test_beneath(void **state)
+TEST(test_beneath)
 {
-    (void)state;
     struct file_bytes read = {0};
     lam_error error;
     bool outside = true;
@@ -336,12 +322,12 @@ int __wrap_fsync(int file)
     return failing ? -1 : __real_fsync(file);
 }
 
-int __real_rename(const char *from, const char *to);
-int __wrap_rename(const char *from, const char *to);
-int __wrap_rename(const char *from, const char *to)
+int __real_renameat(int from_folder, const char *from, int to_folder, const char *to);
+int __wrap_renameat(int from_folder, const char *from, int to_folder, const char *to);
+int __wrap_renameat(int from_folder, const char *from, int to_folder, const char *to)
 {
     note("rename");
-    return __real_rename(from, to);
+    return __real_renameat(from_folder, from, to_folder, to);
 }
 
 int __real_linkat(int from_folder, const char *from, int to_folder, const char *to, int flags);
@@ -354,9 +340,8 @@ int __wrap_linkat(int from_folder, const char *from, int to_folder, const char *
 
 // The file is on the disk before its name refers to it, and the name before the call returns; if the disk fails, the
 // old file remains.
-static void test_durable(void **state)
+TEST(test_durable)
 {
-    (void)state;
     lam_error error;
     for (unsigned way = FILE_UNNAMED; way <= FILE_NAMED; way++) {
         static const char *const made[] = {"file link folder", "file rename folder"};
@@ -388,18 +373,4 @@ static void test_durable(void **state)
     }
 }
 
-int main(void)
-{
-    umask(022);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_written_and_replaced),
-        cmocka_unit_test(test_failures_leave_nothing),
-        cmocka_unit_test(test_signals_leave_nothing),
-        cmocka_unit_test(test_kill_leaves_nothing),
-        cmocka_unit_test(test_file_size_limit),
-        cmocka_unit_test(test_handlers_run),
-        cmocka_unit_test(test_beneath),
-        cmocka_unit_test(test_durable),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

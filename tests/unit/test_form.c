@@ -1,11 +1,7 @@
 // test_form.c: the form of a model depends on its surface, not on the order, the number or the copies of its triangles.
+#include "test.h"
 #include "loading.h"
 #include "scene_internal.h"
-
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <stdlib.h>
 
 enum { TRIANGLES_MAX = 1 << 17, SIDE = 61 };
 
@@ -148,9 +144,8 @@ static lam_scene *scene_with(const struct soup *soup, enum change change)
     return scene;
 }
 
-static void forms_depend_on_surfaces(void **state)
+TEST(forms_depend_on_surfaces)
 {
-    (void)state;
     struct {
         const char *name;
         struct soup soup;
@@ -166,7 +161,7 @@ static void forms_depend_on_surfaces(void **state)
         struct surface_facts plain = {.detail = 0};
         for (int change = 0; change < CHANGES; change++) {
             struct soup soup = changed(&rows[i].soup, (enum change)change);
-            lam_scene *scene = scene_with(&soup, (enum change)change);
+            AUTO_SCENE scene = scene_with(&soup, (enum change)change);
             const struct surface_facts facts = surface_facts(scene, NULL);
             if (change == NOTHING)
                 plain = facts;
@@ -182,7 +177,6 @@ static void forms_depend_on_surfaces(void **state)
                     "%.9g, detail %.9g without it",
                     rows[i].name, change, (int)scene_form(scene), scene_is_fine(scene), facts.facing.y, facts.fullest,
                     facts.detail, plain.facing.y, plain.fullest, plain.detail);
-            lam_scene_free(scene);
             free(soup.corners);
         }
         free(rows[i].soup.corners);
@@ -190,11 +184,10 @@ static void forms_depend_on_surfaces(void **state)
 }
 
 // Threads, hidden objects and new transforms: the kept result is replaced when it no longer applies.
-static void kept_results_follow_the_scene(void **state)
+TEST(kept_results_follow_the_scene)
 {
-    (void)state;
     struct soup ball = grid(181, bumpy_ball), flat = plate(); // more triangles than one task
-    lam_scene *scene = scene_with(&ball, NOTHING);
+    AUTO_SCENE scene = scene_with(&ball, NOTHING);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_mesh(
         scene, &(lam_mesh){.positions = flat.corners, .vertex_count = 3 * flat.count, .triangle_count = flat.count},
@@ -208,16 +201,6 @@ static void kept_results_follow_the_scene(void **state)
     pool_free(pool);
     assert_true(lam_scene_hide_object(scene, 1, true, NULL));
     assert_int_equal(scene_form(scene), FORM_CURVED);
-    lam_scene_free(scene);
     free(ball.corners);
     free(flat.corners);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forms_depend_on_surfaces),
-        cmocka_unit_test(kept_results_follow_the_scene),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,7 @@
 // test_formats.c: pictures of every format and stride: drawn, encoded, compared, captioned; and the caller's own
 // memory.
+#include "test.h"
 #include "share.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include <lambent/lambent.h>
 
 enum { WIDTH = 150, HEIGHT = 90, PAD = 12, GUARD = 0xA5 };
 
@@ -119,8 +110,7 @@ static void draw(lam_device *device, const lam_scene *scene, lam_draw_params par
     }
     lam_camera camera = lam_camera_fit(scene, WIDTH, HEIGHT, NULL);
     lam_error error = {0};
-    if (!lam_draw(device, scene, &camera, &params, image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, image, NULL, &error));
 }
 
 static lam_scene *make_scene(void)
@@ -149,7 +139,7 @@ static void draw_all(lam_device *device, size_t first, size_t share)
         {LAM_OUTPUT_COVERAGE, LAM_COLOR_SRGB, {0, 0, 0, 0}},
         {LAM_OUTPUT_CLIPPED, LAM_COLOR_SRGB, {0, 0, 0, 0}},
     };
-    lam_scene *scene = make_scene();
+    AUTO_SCENE scene = make_scene();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         if (!is_taken(first + i, share))
             continue;
@@ -169,21 +159,18 @@ static void draw_all(lam_device *device, size_t first, size_t share)
         for (int k = 0; k < 4; k++)
             lam_image_free(&plain[k]);
     }
-    lam_scene_free(scene);
     lam_device_free(device);
 }
 
-static void draws_every_format(void **state)
+TEST(draws_every_format)
 {
-    (void)state;
     for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
         if (lam_isa_usable((lam_isa)isa))
             draw_all(lam_device_cpu(&(lam_cpu_params){.threads = 2, .isa = (lam_isa)isa}, NULL), (size_t)isa, 3);
 }
 
-static void opengl_draws_every_format(void **state)
+TEST(opengl_draws_every_format)
 {
-    (void)state;
     lam_device *device = lam_device_gl(NULL, NULL);
     if (!device)
         skip();
@@ -215,9 +202,8 @@ static void fill(struct window *w, lam_image *tight)
         }
 }
 
-static void every_format_is_taken(void **state)
+TEST(every_format_is_taken)
 {
-    (void)state;
     lam_font *font = lam_font_open(NULL, NULL);
     for (int k = 0; k < 12; k++) {
         struct window w = open_window(formats[k / 2], k % 2);
@@ -226,8 +212,7 @@ static void every_format_is_taken(void **state)
         bool is_float = tight.format == LAM_RGBA32F;
         lam_bytes bytes[2];
         lam_error error = {0};
-        if (!lam_image_encode(&w.image, is_float ? "pfm" : "png", NULL, &bytes[0], &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(lam_image_encode(&w.image, is_float ? "pfm" : "png", NULL, &bytes[0], &error));
         assert_true(lam_image_encode(&tight, is_float ? "pfm" : "png", NULL, &bytes[1], NULL));
         assert_int_equal(bytes[0].size, bytes[1].size);
         assert_memory_equal(bytes[0].data, bytes[1].data, bytes[0].size);
@@ -259,9 +244,8 @@ static void every_format_is_taken(void **state)
     lam_font_free(font);
 }
 
-static void refuses_pictures_that_cannot_be(void **state)
+TEST(refuses_pictures_that_cannot_be)
 {
-    (void)state;
     static float memory[64 * 4];
     const lam_image good = {.width = 8, .height = 8, .pixels = memory};
     static const struct {
@@ -279,8 +263,8 @@ static void refuses_pictures_that_cannot_be(void **state)
         {4, 4, LAM_RGBA32F, 66, 0, "divisible by 4"},
         {4, 4, LAM_RGB32F, 48, 2, "divisible by 4"},
     };
-    lam_device *device = lam_device_null(NULL);
-    lam_scene *scene = make_scene();
+    AUTO_DEVICE device = lam_device_null(NULL);
+    AUTO_SCENE scene = make_scene();
     lam_camera camera = lam_camera_default();
     lam_image ok = good;
     assert_true(lam_draw(device, scene, &camera, NULL, &ok, NULL, NULL));
@@ -305,20 +289,16 @@ static void refuses_pictures_that_cannot_be(void **state)
     lam_image made;
     assert_false(lam_image_make(&made, 8, 8, (lam_pixel_format)6, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
-    lam_scene_free(scene);
-    lam_device_free(device);
 }
 
 // --- lam_render
 
-static void renders_into_the_callers_memory(void **state)
+TEST(renders_into_the_callers_memory)
 {
-    (void)state;
     struct window w = open_window(LAM_BGRA8, false);
     lam_render_report report;
     lam_error error = {0};
-    if (!lam_render("teapot", NULL, &w.image, &report, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_render("teapot", NULL, &w.image, &report, &error));
     assert_true(report.frame.pixels_covered > 1000 && report.triangles > 1000 && report.warnings[0] == 0);
     lam_image made = {.width = WIDTH, .height = HEIGHT, .format = LAM_RGBA8};
     assert_true(lam_render("teapot", NULL, &made, NULL, &error));
@@ -345,16 +325,4 @@ static void renders_into_the_callers_memory(void **state)
     assert_false(lam_render(NULL, NULL, &image, &report, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     lam_device_free(device);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_every_format),
-        cmocka_unit_test(opengl_draws_every_format),
-        cmocka_unit_test(every_format_is_taken),
-        cmocka_unit_test(refuses_pictures_that_cannot_be),
-        cmocka_unit_test(renders_into_the_callers_memory),
-    };
-    return cmocka_run_group_tests_name("formats", tests, NULL, NULL);
 }

@@ -1,18 +1,7 @@
 // test_formula.c: surfaces given as text: functions compared with libm, derivatives compared with differences, meshes,
 // errors; and model files of saved meshes.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
+#include "test.h"
 #include "elementary.h"
 #include "formula.h"
 
@@ -31,9 +20,8 @@ static void check_near(const char *what, double x, double found, double expected
         fail_msg("%s(%.17g) is %.17g, expected %.17g", what, x, found, expected);
 }
 
-static void functions_match_libm(void **unused)
+TEST(functions_match_libm)
 {
-    (void)unused;
     for (int i = 0; i < 200000; i++) {
         double x = random_between(-40, 40), y = random_between(-700, 700), p = exp(random_between(-600, 600));
         double unit = random_between(-1, 1), b = random_between(-60, 60), a = exp(random_between(-10, 10));
@@ -73,9 +61,8 @@ static double value_of(const char *expression, double u, double v)
     return point.p.x;
 }
 
-static void precedence_is_the_usual_one(void **unused)
+TEST(precedence_is_the_usual_one)
 {
-    (void)unused;
     static const struct {
         const char *text;
         double value;
@@ -92,9 +79,8 @@ static void precedence_is_the_usual_one(void **unused)
     check_near("pi", 0, value_of("\xcf\x80", 0, 0), 3.14159265358979324, 1e-16);
 }
 
-static void derivatives_match_differences(void **unused)
+TEST(derivatives_match_differences)
 {
-    (void)unused;
     static const char *const rows[] = {
         "u^2*v^3",      "sin(u)*cos(v)",   "tan(u*v/4)",  "exp(u-v)",      "log(u+v^2)",        "u^v",
         "2^u",          "u^2.5",           "sqrt(u*u+v)", "asin(u/3)*v",   "acos(v/3)",         "atan(u*v)",
@@ -149,9 +135,8 @@ static void check_error(const char *text, const char *u, lam_code code, const ch
         fail_msg("%s: found '%s' (%d), expected '%s'", text, error.text, (int)error.code, says);
 }
 
-static void errors_name_the_column(void **unused)
+TEST(errors_name_the_column)
 {
-    (void)unused;
     lam_code bad = LAM_BAD_ARGUMENT;
     check_error("", NULL, bad, "x is missing");
     check_error("x=u;y=v", NULL, bad, "z is missing");
@@ -211,9 +196,8 @@ static int open_edges(const lam_mesh *mesh, int *euler)
     return open;
 }
 
-static void seams_are_welded(void **unused)
+TEST(seams_are_welded)
 {
-    (void)unused;
     static const struct {
         const char *name, *text, *u, *v;
         int open, euler; // open: edges at borders, with 32 × 16 segments
@@ -233,7 +217,7 @@ static void seams_are_welded(void **unused)
         lam_formula formula = {
             .text = rows[i].text, .u = rows[i].u, .v = rows[i].v, .u_segments = 32, .v_segments = 16};
         lam_error error = {0};
-        lam_scene *scene = scene_of(&formula, &error);
+        AUTO_SCENE scene = scene_of(&formula, &error);
         if (!scene)
             fail_msg("%s: %s", rows[i].name, error.text);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
@@ -245,17 +229,15 @@ static void seams_are_welded(void **unused)
             const float *n = mesh->normals + 3 * (size_t)mesh->normal_indices[c];
             assert_float_equal(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-5);
         }
-        lam_scene_free(scene);
     }
 }
 
-static void normals_are_those_of_the_sphere(void **unused)
+TEST(normals_are_those_of_the_sphere)
 {
-    (void)unused;
     for (int flip = 0; flip < 2; flip++) {
         // u around and v downwards: the product of the derivatives points inward.
         lam_formula formula = {.text = "x=sin(v)*cos(u); y=sin(v)*sin(u); z=cos(v)", .v = "0..pi", .flip = flip};
-        lam_scene *scene = scene_of(&formula, NULL);
+        AUTO_SCENE scene = scene_of(&formula, NULL);
         const lam_mesh *m = lam_scene_mesh(scene, 0);
         double sign = flip ? 1 : -1;
         for (size_t c = 0; c < 3 * (size_t)m->triangle_count; c++) {
@@ -273,14 +255,12 @@ static void normals_are_those_of_the_sphere(void **unused)
                          (double)p[0][2] * ((double)p[1][0] * (double)p[2][1] - (double)p[1][1] * (double)p[2][0]);
             assert_true(sign * det > 0);
         }
-        lam_scene_free(scene);
     }
 }
 
 // Each side of a roof has one normal, also along the ridge, and so does each half of a double cone.
-static void creases_keep_their_normals(void **unused)
+TEST(creases_keep_their_normals)
 {
-    (void)unused;
     lam_formula roof = {.text = "x=u; y=v; z=-abs(u)", .u = "-1..1", .v = "-1..1"};
     lam_scene *scene = scene_of(&roof, NULL);
     const lam_mesh *m = lam_scene_mesh(scene, 0);
@@ -305,12 +285,11 @@ static void creases_keep_their_normals(void **unused)
     lam_scene_free(scene);
 }
 
-static void model_files_hold_the_mesh(void **unused)
+TEST(model_files_hold_the_mesh)
 {
-    (void)unused;
     static const char *const endings[] = {"obj", "stl", "ply"};
     lam_formula formula = {.text = "x=u; y=2v; z=3+u*v", .u = "0..1", .v = "0..1", .u_segments = 4, .v_segments = 3};
-    lam_scene *scene = scene_of(&formula, NULL);
+    AUTO_SCENE scene = scene_of(&formula, NULL);
     lam_error error = {0};
     for (int i = 0; i < 3; i++) {
         char path[] = "/tmp/lambent-mesh-XXXXXX.obj";
@@ -319,7 +298,7 @@ static void model_files_hold_the_mesh(void **unused)
         assert_true(file >= 0);
         close(file);
         assert_true(lam_mesh_save(lam_scene_mesh(scene, 0), path, LAM_UP_Z, &error));
-        lam_scene *read = lam_scene_load(path, NULL, NULL, &error);
+        AUTO_SCENE read = lam_scene_load(path, NULL, NULL, &error);
         unlink(path);
         assert_non_null(read);
         const lam_mesh *a = lam_scene_mesh(scene, 0), *b = lam_scene_mesh(read, 0);
@@ -337,17 +316,14 @@ static void model_files_hold_the_mesh(void **unused)
             assert_float_equal(n[1], -o[2], 1e-6);
             assert_float_equal(n[2], o[1], 1e-6);
         }
-        lam_scene_free(read);
     }
     assert_false(lam_mesh_save(lam_scene_mesh(scene, 0), "/tmp/x.fbx", LAM_UP_Z, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
-    lam_scene_free(scene);
 }
 
 // The gradient equals the differences, for each function of the language.
-static void gradients_match_differences(void **unused)
+TEST(gradients_match_differences)
 {
-    (void)unused;
     static const char *const rows[] = {"x^2+y^2+z^2-1",
                                        "a=2; (sqrt(x^2+y^2)-a)^2+z^2-1",
                                        "x*y*z",
@@ -383,9 +359,8 @@ static void gradients_match_differences(void **unused)
 
 // A sphere's surface is within the radius, its normals are its positions, and the box fits it, for any size and
 // position.
-static void implicit_surfaces_are_found(void **unused)
+TEST(implicit_surfaces_are_found)
 {
-    (void)unused;
     static const struct {
         const char *text, *x;
         bool flip;
@@ -398,7 +373,7 @@ static void implicit_surfaces_are_found(void **unused)
         lam_formula formula = {
             .text = rows[i].text, .implicit = true, .x = rows[i].x, .flip = rows[i].flip, .u_segments = 24};
         lam_error error = {0};
-        lam_scene *scene = scene_of(&formula, &error);
+        AUTO_SCENE scene = scene_of(&formula, &error);
         if (!scene)
             fail_msg("%s: %s", rows[i].text, error.text);
         const lam_mesh *m = lam_scene_mesh(scene, 0);
@@ -426,7 +401,6 @@ static void implicit_surfaces_are_found(void **unused)
             }
             assert_true(volume >= 0);
         }
-        lam_scene_free(scene);
     }
     // A plane is infinite, so it is cut at the first cube. A given range cuts the surface, and is kept.
     lam_vec3 low, high;
@@ -472,21 +446,4 @@ static void implicit_surfaces_are_found(void **unused)
     assert_int_equal(lam_scene_add_formula(scene, &dense, &(lam_control){.time_limit_s = 0.05}, &error), -1);
     assert_int_equal(error.code, LAM_LIMIT);
     lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(functions_match_libm),
-        cmocka_unit_test(precedence_is_the_usual_one),
-        cmocka_unit_test(derivatives_match_differences),
-        cmocka_unit_test(gradients_match_differences),
-        cmocka_unit_test(implicit_surfaces_are_found),
-        cmocka_unit_test(errors_name_the_column),
-        cmocka_unit_test(seams_are_welded),
-        cmocka_unit_test(normals_are_those_of_the_sphere),
-        cmocka_unit_test(creases_keep_their_normals),
-        cmocka_unit_test(model_files_hold_the_mesh),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

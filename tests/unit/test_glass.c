@@ -1,16 +1,8 @@
 // test_glass.c: compares rough and thick glass with an evaluation in double: the exit point of light, absorption, blur;
 // and coloured glass in front of nothing.
+#include "test.h"
+
 #include <lambent/explain.h>
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 256 };
 
@@ -178,9 +170,8 @@ static void compare(const lam_image *image, int x, int y, const double expected[
 }
 
 // A pane that is tilted to the side and back, in front of the wall. A linear gradient of light is unchanged by blur.
-static void test_panes(void **state)
+TEST(test_panes)
 {
-    (void)state;
     static const double numbers[][3] = {{1.5, 0, 0},     {1.5, 0, 0.7}, {2.4, 0, 0.7},
                                         {1.1, 0.3, 0.4}, {1.5, 0.4, 0}, {1.33, 0.6, 0.9}};
     const double turn = 0.6, cs = cos(turn), sn = sin(turn), lean = 0.3, cl = cos(lean), sl = sin(lean);
@@ -189,7 +180,7 @@ static void test_panes(void **state)
     const double n[3] = {sn, -sl * cs, cl * cs};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         lam_material m = glass_of(numbers[i][0], numbers[i][1], numbers[i][2]);
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         add_wall(scene, false);
         const float corners[4][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
         const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
@@ -199,7 +190,7 @@ static void test_panes(void **state)
         o.material = lam_scene_add_material(scene, &m, &error);
         o.transform = place;
         assert_true(lam_scene_add_object(scene, &o, &error) >= 0);
-        lam_image image = draw(scene, (lam_rgba){0, 0, 0, 0}, 1);
+        AUTO_IMAGE image = draw(scene, (lam_rgba){0, 0, 0, 0}, 1);
         for (int y = 90; y < 166; y += 5)
             for (int x = 90; x < 166; x += 5) {
                 ray r = eye_ray(x + 0.5, y + 0.5);
@@ -209,24 +200,21 @@ static void test_panes(void **state)
                 expected_light(&m, &r, p, n, expected);
                 compare(&image, x, y, expected, "pane");
             }
-        lam_image_free(&image);
-        lam_scene_free(scene);
     }
     print_message("panes: %.2g %% off at most\n", 100 * largest);
 }
 
 // Balls with their real thickness, and rough ones. At the rim, the facets of the mesh are visible.
-static void test_balls(void **state)
+TEST(test_balls)
 {
-    (void)state;
     largest = 0;
     for (int rough = 0; rough < 2; rough++) {
         lam_material m = glass_of(1.5, 0.35 * rough, 1.2);
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         add_wall(scene, false);
         lam_mat4 place = lam_mat4_identity();
         add_glass(scene, "sphere", &m, &place);
-        lam_image image = draw(scene, (lam_rgba){0, 0, 0, 0}, 1);
+        AUTO_IMAGE image = draw(scene, (lam_rgba){0, 0, 0, 0}, 1);
         int compared = 0;
         for (int y = 3; y < SIZE; y += 6)
             for (int x = 3; x < SIZE; x += 6) {
@@ -242,8 +230,6 @@ static void test_balls(void **state)
                 compared++;
             }
         assert_true(compared > 200);
-        lam_image_free(&image);
-        lam_scene_free(scene);
     }
     print_message("balls: %.2g %% off at most\n", 100 * largest);
 }
@@ -261,15 +247,14 @@ static double spline_step(double distance)
 
 // A step behind rough glass. Its width, 256 · 1024^(0.4 − 1) = 4 pixels, is the width of the texels of level 2, one of
 // whose edges is at the step.
-static void test_step(void **state)
+TEST(test_step)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_material m = glass_of(1.5, 0.4, 0);
     lam_mat4 place = lam_mat4_identity();
     add_wall(scene, true);
     add_glass(scene, "sphere", &m, &place);
-    lam_image image = draw(scene, (lam_rgba){0, 0, 0, 0}, 1);
+    AUTO_IMAGE image = draw(scene, (lam_rgba){0, 0, 0, 0}, 1);
     double whole = (double)at(&image, SIZE / 2 + 40, SIZE / 2)[0];
     const double expected = 0.9 * 0.96;
     assert_true(fabs(whole / expected - 1) < 0.01);
@@ -279,17 +264,14 @@ static void test_step(void **state)
         double share = (double)at(&image, SIZE / 2 - 12 + x, SIZE / 2)[0] / whole;
         assert_true(fabs(share - spline_step((x - 11.5) / 4)) < 1e-3);
     }
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // Coloured glass in front of nothing: over white, the transparent picture equals the picture drawn over white, for any
 // glass; and a picture with a background needs no white.
-static void test_over_white(void **state)
+TEST(test_over_white)
 {
-    (void)state;
     for (int i = 0; i < 3; i++) {
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         lam_material m = glass_of(i == 0 ? 1 : 1.5, i == 2 ? 0.5 : 0, 0.6);
         lam_mat4 place = lam_mat4_identity();
         m.emission = (lam_rgb){0.05f, 0, 0.1f};
@@ -304,27 +286,24 @@ static void test_over_white(void **state)
         }
         lam_image_free(&clear);
         lam_image_free(&white);
-        lam_scene_free(scene);
     }
 }
 
 // The explanation of a pixel of thick, rough glass adds up to the pixel.
-static void test_explained(void **state)
+TEST(test_explained)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_material m = glass_of(1.5, 0.3, 0.8);
     lam_mat4 place = lam_mat4_identity();
     m.emission = (lam_rgb){0.05f, 0, 0.1f};
     add_wall(scene, false);
     add_glass(scene, "sphere", &m, &place);
-    lam_image image = draw(scene, (lam_rgba){0, 0, 0, 0}, 1);
+    AUTO_IMAGE image = draw(scene, (lam_rgba){0, 0, 0, 0}, 1);
     const lam_camera c = camera();
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     const lam_draw_params params = {.rig = LAM_RIG_NONE, .tone = LAM_TONE_NONE, .samples = 1};
     lam_explanation *e = lam_explain(device, scene, &c, &params, SIZE, SIZE, LAM_RGBA32F, 140, 110, NULL, &error);
-    if (!e)
-        fail_msg("%s", error.text);
+    SUCCEEDS(e);
     assert_memory_equal(&e->result, at(&image, 140, 110), sizeof e->result);
     assert_true(e->fragments[0].point_count == 1 && e->fragments[0].points[0].layers);
     const lam_explained_layers *layers = e->fragments[0].points[0].layers;
@@ -338,15 +317,4 @@ static void test_explained(void **state)
         assert_true(fabsf(sum[k] - (&e->sum.r)[k]) < 1e-6f);
     assert_true(e->fragments[e->fragment_count - 1].weight == 0); // the wall is visible at another position
     lam_explanation_free(e);
-    lam_device_free(device);
-    lam_image_free(&image);
-    lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_panes), cmocka_unit_test(test_balls),
-                                       cmocka_unit_test(test_step), cmocka_unit_test(test_over_white),
-                                       cmocka_unit_test(test_explained)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 // test_gltf.c: glTF: containers, buffers, all types of accessors, triangles, nodes, materials, lights, cameras, and
 // errors. The file has more than 600 lines because it contains a table-like test for each feature and error message of
 // one format.
+#include "test.h"
 #include "gltf_document.h"
-
-#include <math.h>
 
 // Four corners of the unit square in the plane z = 0 (48 bytes), and its two triangles as shorts (12 bytes).
 static void put_square(struct document *document)
@@ -42,9 +41,8 @@ static void check_square(const lam_scene *scene)
     assert_false(lam_scene_object(scene, 0)->one_sided);
 }
 
-static void test_containers(void **state)
+TEST(test_containers)
 {
-    (void)state;
     struct document document;
     struct made file;
     put_square(&document);
@@ -68,9 +66,8 @@ static void test_containers(void **state)
 }
 
 // Zero copy: a float array and 32-bit indices are the file's own bytes.
-static void test_in_place(void **state)
+TEST(test_in_place)
 {
-    (void)state;
     struct document document;
     struct made file;
     put_square(&document);
@@ -83,11 +80,10 @@ static void test_in_place(void **state)
         "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, "
         "{\"bufferView\": 0, \"byteOffset\": 48, \"componentType\": 5125, \"count\": 6, \"type\": \"SCALAR\"}]}",
         &file);
-    lam_scene *scene = load(&file, "a.glb");
+    AUTO_SCENE scene = load(&file, "a.glb");
     check_square(scene);
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_ptr_equal((const char *)mesh->indices - (const char *)mesh->positions, (void *)48);
-    lam_scene_free(scene);
 }
 
 // --- accessors
@@ -122,9 +118,8 @@ static lam_scene *load_attribute(const char *name, const char *accessor, const c
     return load_document(&document, json);
 }
 
-static void test_types(void **state)
+TEST(test_types)
 {
-    (void)state;
     static const int8_t i8[4][4] = {{0, 0, 127, 0}, {-128, 0, 0, 0}, {127, -127, 64, 0}, {1, 2, 3, 0}};
     static const int16_t i16[4][4] = {{0, 0, 32767, 0}, {-32768, 0, 0, 0}, {32767, -32767, 16384, 0}, {1, 2, 3, 0}};
     lam_scene *scene =
@@ -172,9 +167,8 @@ static void test_types(void **state)
     }
 }
 
-static void test_index_types(void **state)
+TEST(test_index_types)
 {
-    (void)state;
     static const int components[] = {5121, 5123, 5125};
     for (int i = 0; i < 3; i++) {
         struct document document;
@@ -197,16 +191,14 @@ static void test_index_types(void **state)
             "\"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, {\"bufferView\": 1, \"componentType\": %d, "
             "\"count\": 6, \"type\": \"SCALAR\"}]}",
             6 << i, components[i]);
-        lam_scene *scene = load_document(&document, json);
+        AUTO_SCENE scene = load_document(&document, json);
         check_square(scene);
-        lam_scene_free(scene);
     }
 }
 
 // Interleaved, at an offset, and sparse with and without a bufferView.
-static void test_layouts(void **state)
+TEST(test_layouts)
 {
-    (void)state;
     struct document document = {0};
     static const float rows[4][5] = {{9, 0, 0, 0, 9}, {9, 1, 0, 0, 9}, {9, 1, 1, 0, 9}, {9, 0, 1, 0, 9}};
     static const uint16_t indices[6] = {0, 1, 2, 0, 2, 3};
@@ -247,9 +239,8 @@ static void test_layouts(void **state)
     }
 }
 
-static void test_colors(void **state)
+TEST(test_colors)
 {
-    (void)state;
     static const uint8_t bytes[16] = {255, 0, 51, 128, 1, 2, 3, 255, 4, 5, 6, 7, 8, 9, 10, 11};
     static const uint16_t shorts[12] = {65535, 0, 13107, 1, 2, 3, 4, 5, 6, 7, 8, 9};
     static const float floats[16] = {1, 0, 0.25f, 0.5f, 2, -1, NAN, 3, 0, 0, 0, 0, 0, 0, 0, 1};
@@ -326,9 +317,8 @@ static void assert_triangles(const lam_scene *scene, uint32_t count, const uint3
         assert_int_equal(mesh->indices ? mesh->indices[i] : i, corners[i]);
 }
 
-static void test_modes(void **state)
+TEST(test_modes)
 {
-    (void)state;
     lam_scene *scene = load_mode(5, 5, (uint16_t[]){0, 1, 2, 3, 4}, true);
     assert_triangles(scene, 3, (uint32_t[]){0, 1, 2, 1, 3, 2, 2, 3, 4});
     lam_scene_free(scene);
@@ -354,12 +344,11 @@ static void test_modes(void **state)
 }
 
 // Primitives with different attributes are separate meshes, with common data shared.
-static void test_several_primitives(void **state)
+TEST(test_several_primitives)
 {
-    (void)state;
     struct document document;
     put_square(&document);
-    lam_scene *scene = load_document(
+    AUTO_SCENE scene = load_document(
         &document,
         "{" ASSET ", \"nodes\": [{\"mesh\": 0, \"name\": \"left\"}, {\"mesh\": 0, \"translation\": [2, 0, 0]}], "
         "\"materials\": [{\"name\": \"one\"}, {\"name\": \"two\", \"doubleSided\": true}], "
@@ -383,13 +372,11 @@ static void test_several_primitives(void **state)
     assert_true(lam_scene_object(scene, 4)->transform.m[0][3] == 2);
     assert_string_equal(lam_scene_warning(scene, 0),
                         "a.gltf: not drawn: primitives without the attribute POSITION (1)");
-    lam_scene_free(scene);
 }
 
 // Two meshes with the same positions, far from zero: each gets its origin, and neither moves the other.
-static void test_shared_origin(void **state)
+TEST(test_shared_origin)
 {
-    (void)state;
     struct document document = {0};
     for (int i = 0; i < 4; i++)
         put_floats(&document, 3, (float[]){1000 + (float)(i == 1 || i == 2), (float)(i > 1), 0});
@@ -408,9 +395,8 @@ static void test_shared_origin(void **state)
 }
 
 // A file without normals gets flat ones (section 3.7.2.1), unless the caller requests others.
-static void test_normals(void **state)
+TEST(test_normals)
 {
-    (void)state;
     struct document document = {0};
     static const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0.2f};
     put_floats(&document, 12, corners);
@@ -420,20 +406,18 @@ static void test_normals(void **state)
     for (int i = 0; i < 3; i++) {
         lam_load_params params = {.crease_angle_rad = i == 1 ? 1.0 : 0,
                                   .normals = i == 2 ? LAM_NORMALS_SMOOTH : LAM_NORMALS_FILE};
-        lam_scene *scene = load_with(document.text, strlen(document.text), "a.gltf", &params);
+        AUTO_SCENE scene = load_with(document.text, strlen(document.text), "a.gltf", &params);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         const uint32_t *own = mesh->normal_indices ? mesh->normal_indices : mesh->indices;
         const float *a = mesh->normals + 3 * (size_t)own[0], *b = mesh->normals + 3 * (size_t)own[3];
         assert_int_equal(memcmp(a, b, 12) == 0, i > 0);
-        lam_scene_free(scene);
     }
 }
 
 // --- nodes
 
-static void test_nodes(void **state)
+TEST(test_nodes)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     lam_scene *scene = load_document(
@@ -469,16 +453,15 @@ static void test_nodes(void **state)
     assert_string_equal(error.text, "a.gltf: there is no scene 'third'; expected one of 0 ('first'), 1");
 }
 
-static void test_instances(void **state)
+TEST(test_instances)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     put_floats(&document, 6, (float[]){1, 0, 0, 2, 0, 0});
     put_floats(&document, 6, (float[]){1, 1, 1, 2, 2, 2});
     for (int i = 0; i < 8; i++)
         put_u8(&document.data, (uint8_t[]){0, 0, 0, 127, 0, 127, 0, 0}[i]);
-    lam_scene *scene = load_document(
+    AUTO_SCENE scene = load_document(
         &document,
         "{" ASSET
         ", \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0, \"translation\": [0, 10, 0], \"extensions\": "
@@ -499,21 +482,18 @@ static void test_instances(void **state)
     const lam_mat4 *a = &lam_scene_object(scene, 0)->transform, *b = &lam_scene_object(scene, 1)->transform;
     assert_true(a->m[0][3] == 1 && a->m[1][3] == 10 && a->m[0][0] == 1);
     assert_true(b->m[0][3] == 2 && b->m[1][3] == 10 && b->m[1][1] == 2 && b->m[0][0] == -2); // half a turn about y
-    lam_scene_free(scene);
 }
 
 // A scale of 0 hides a node; a flat node is omitted with a warning.
-static void test_zero_scale(void **state)
+TEST(test_zero_scale)
 {
-    (void)state;
     struct document document;
     put_square(&document);
-    lam_scene *scene = load_document(
+    AUTO_SCENE scene = load_document(
         &document, "{" ASSET ", \"nodes\": [{\"mesh\": 0, \"scale\": [0, 0, 0]}, {\"mesh\": 0, \"scale\": [1, 0, 1]}, "
                    "{\"mesh\": 0}], " MESH ", %B, " VIEWS ", " ACCESSORS "}");
     assert_int_equal(lam_scene_object_count(scene), 1);
     assert_string_equal(lam_scene_warning(scene, 0), "a.gltf: not drawn: meshes flattened by a node's scale of 0 (1)");
-    lam_scene_free(scene);
 }
 
 // --- materials, lights, cameras
@@ -533,9 +513,8 @@ static lam_scene *load_more(const char *more, const char *primitive, const lam_l
     return load_with(document.text, strlen(document.text), "a.gltf", params);
 }
 
-static void test_materials(void **state)
+TEST(test_materials)
 {
-    (void)state;
     lam_scene *scene = load_more(
         SCENE ", \"materials\": [{\"name\": \"plastic\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [0.5, 0.25, "
               "1, 0.5], "
@@ -580,9 +559,8 @@ static void test_materials(void **state)
 }
 
 // The numbers of the layers' extensions, clamped to their ranges; an unlit material has none.
-static void test_layers(void **state)
+TEST(test_layers)
 {
-    (void)state;
     static const char layers[] =
         "\"KHR_materials_ior\": {\"ior\": 0}, \"KHR_materials_specular\": {\"specularFactor\": 0.25, "
         "\"specularColorFactor\": [2, 0.5, -1]}, \"KHR_materials_clearcoat\": {\"clearcoatFactor\": 7, "
@@ -597,7 +575,7 @@ static void test_layers(void **state)
     snprintf(text, sizeof text,
              "%s, \"materials\": [{\"extensions\": {%s}}, {\"extensions\": {\"KHR_materials_unlit\": {}, %s}}, {}]",
              SCENE, layers, layers);
-    lam_scene *scene = load_more(text, ", \"material\": 0", NULL);
+    AUTO_SCENE scene = load_more(text, ", \"material\": 0", NULL);
     const lam_material *m = lam_scene_material(scene, 0);
     assert_true(m->ior == 0 && m->specular_weight == 0.25f);
     assert_true(m->f0_color.r == 2 && m->f0_color.g == 0.5f && m->f0_color.b == 0);
@@ -619,32 +597,28 @@ static void test_layers(void **state)
         assert_true(m->ior == plain.ior && m->specular_weight == 1 && m->f0_color.g == 1 && m->clearcoat == 0);
         assert_true(m->sheen_color.r == 0 && m->anisotropy == 0 && m->iridescence == 0 && m->transmission == 0);
     }
-    lam_scene_free(scene);
 }
 
-static void test_variants(void **state)
+TEST(test_variants)
 {
-    (void)state;
     static const struct {
         const char *variant;
         int material;
     } rows[] = {{NULL, 0}, {"night", 1}, {"1", 1}, {"day", 0}, {"noon", 1}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lam_scene *scene = load_more(SCENE ", \"materials\": [{}, {}], \"extensions\": {\"KHR_materials_variants\": "
+        AUTO_SCENE scene = load_more(SCENE ", \"materials\": [{}, {}], \"extensions\": {\"KHR_materials_variants\": "
                                            "{\"variants\": [{\"name\": \"day\"}, "
                                            "{\"name\": \"night\"}, {\"name\": \"noon\"}]}}",
                                      ", \"material\": 0, \"extensions\": {\"KHR_materials_variants\": {\"mappings\": "
                                      "[{\"material\": 1, \"variants\": [1, 2]}]}}",
                                      &(lam_load_params){.variant = rows[i].variant});
         assert_int_equal(lam_scene_mesh(scene, 0)->parts[0].material, rows[i].material);
-        lam_scene_free(scene);
     }
 }
 
-static void test_lights(void **state)
+TEST(test_lights)
 {
-    (void)state;
-    lam_scene *scene = load_more("\"nodes\": [{\"mesh\": 0}, {\"translation\": [1, 2, 3], \"name\": \"bulb\", "
+    AUTO_SCENE scene = load_more("\"nodes\": [{\"mesh\": 0}, {\"translation\": [1, 2, 3], \"name\": \"bulb\", "
                                  "\"extensions\": {\"KHR_lights_punctual\": "
                                  "{\"light\": 0}}, \"children\": [2]}, {\"rotation\": [0, 0.7071067811865476, 0, "
                                  "0.7071067811865476], \"scale\": [2, 2, "
@@ -677,13 +651,11 @@ static void test_lights(void **state)
     assert_string_equal(l->name, "sun");
     assert_true(l->direction.z == -1);
     assert_near((double)l->diffuse.r, 1 / pi, 1e-7);
-    lam_scene_free(scene);
 }
 
-static void test_cameras(void **state)
+TEST(test_cameras)
 {
-    (void)state;
-    lam_scene *scene = load_more(
+    AUTO_SCENE scene = load_more(
         "\"nodes\": [{\"mesh\": 0}, {\"translation\": [0, 0, 9], \"camera\": 0, \"name\": \"eye\"}, {\"rotation\": [0, "
         "0.7071067811865476, 0, 0.7071067811865476], \"scale\": [3, 3, 3], \"camera\": 1}, {\"camera\": 2, "
         "\"translation\": [0, 0, 20]}], "
@@ -710,7 +682,6 @@ static void test_cameras(void **state)
     assert_true(lam_scene_camera(scene, 2, &camera)); // infinitely far: behind the scene
     assert_true(camera.near_plane == 0.25 && camera.far_plane > 20 && camera.far_plane < 21);
     assert_false(lam_scene_camera(scene, 3, &camera));
-    lam_scene_free(scene);
 }
 
 // --- files next to the model
@@ -735,9 +706,8 @@ static bool open_from_shelf(void *user, const char *name, struct lam_bytes *byte
     return true;
 }
 
-static void test_files(void **state)
+TEST(test_files)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     static const struct {
@@ -767,12 +737,11 @@ static void test_files(void **state)
         struct shelf shelf = {document.data.bytes, document.data.size, ""};
         lam_load_params params = {.open = open_from_shelf, .user = &shelf};
         lam_error error = {0};
-        lam_scene *scene = lam_scene_load_memory(text, strlen(text), "a.gltf", &params, NULL, &error);
+        AUTO_SCENE scene = lam_scene_load_memory(text, strlen(text), "a.gltf", &params, NULL, &error);
         assert_string_equal(shelf.asked, rows[i].asked);
         assert_string_equal(error.text, rows[i].sentence ? rows[i].sentence : "");
         if (!rows[i].sentence)
             check_square(scene);
-        lam_scene_free(scene);
     }
 }
 
@@ -799,9 +768,8 @@ static void refuse_square(const char *piece, const char *by, lam_code code, cons
     refuse(document.text, strlen(document.text), "a.gltf", code, whole);
 }
 
-static void test_errors(void **state)
+TEST(test_errors)
 {
-    (void)state;
     static const struct {
         const char *piece, *by, *sentence;
         lam_code code;
@@ -887,18 +855,16 @@ static void test_errors(void **state)
     put_square(&document);
     memcpy(document.data.bytes + 16, (float[]){INFINITY}, 4);
     make_text(&document, SQUARE);
-    lam_scene *scene = load_text(document.text, "a.gltf");
+    AUTO_SCENE scene = load_text(document.text, "a.gltf");
     assert_string_equal(
         lam_scene_warning(scene, 0),
         "a.gltf: 1 vertices have coordinates that are not finite; 1 triangles, lines or points that use "
         "them are left out");
-    lam_scene_free(scene);
 }
 
 // What is wrong but not needed is left out, with one warning.
-static void test_tolerated(void **state)
+TEST(test_tolerated)
 {
-    (void)state;
 #define LIGHT(light)                                                                                                   \
     "\"mesh\": 0, \"extensions\": {\"KHR_lights_punctual\": {\"light\": 0}}}], \"extensions\": "                       \
     "{\"KHR_lights_punctual\": {\"lights\": [" light "]}}, \"x\": [{"
@@ -995,16 +961,14 @@ static void test_tolerated(void **state)
         snprintf(whole, sizeof whole, "a.gltf%s", rows[i].warning ? rows[i].warning : "");
         if (rows[i].warning)
             warn_once(document.text, strlen(document.text), "a.gltf", NULL, whole);
-        lam_scene *scene = load_text(document.text, "a.gltf");
+        AUTO_SCENE scene = load_text(document.text, "a.gltf");
         check_square(scene);
         assert_true(rows[i].warning || !lam_scene_warning(scene, 0));
-        lam_scene_free(scene);
     }
 }
 
-static void test_binary_errors(void **state)
+TEST(test_binary_errors)
 {
-    (void)state;
     struct document document;
     struct made file, other;
     put_square(&document);
@@ -1037,9 +1001,8 @@ static void test_binary_errors(void **state)
     check_allocations(document.text, strlen(document.text), "a.gltf");
 }
 
-static void test_lenient(void **state)
+TEST(test_lenient)
 {
-    (void)state;
     struct document document;
     put_square(&document);
     make_text(&document,
@@ -1078,9 +1041,8 @@ static void test_lenient(void **state)
 }
 
 // A long file read in parallel pieces gives the same mesh with any number of threads, and the first error.
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     enum { VERTICES = 20000 };
     size_t size = 28 + 600 + VERTICES * 20;
     uint8_t *file = calloc(1, size);
@@ -1114,23 +1076,4 @@ static void test_threads(void **state)
     memcpy(rows + 20 * 9000 + 4, (float[]){NAN}, 4);
     assert_same_for_threads(file, header[2], "a.glb");
     free(file);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_containers),    cmocka_unit_test(test_in_place),
-        cmocka_unit_test(test_types),         cmocka_unit_test(test_index_types),
-        cmocka_unit_test(test_layouts),       cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_modes),         cmocka_unit_test(test_several_primitives),
-        cmocka_unit_test(test_shared_origin), cmocka_unit_test(test_normals),
-        cmocka_unit_test(test_nodes),         cmocka_unit_test(test_instances),
-        cmocka_unit_test(test_zero_scale),    cmocka_unit_test(test_materials),
-        cmocka_unit_test(test_layers),        cmocka_unit_test(test_variants),
-        cmocka_unit_test(test_lights),        cmocka_unit_test(test_cameras),
-        cmocka_unit_test(test_files),         cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_tolerated),     cmocka_unit_test(test_binary_errors),
-        cmocka_unit_test(test_lenient),       cmocka_unit_test(test_threads),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 // test_gltf_draco.c: primitives compressed by Draco: attributes by their ids, in the type of their accessors; every
 // damaged or truncated buffer gives one error message. In a build without the decoder, files are refused or their
 // uncompressed data is read.
+#include "test.h"
 #include "loading.h"
 
 #include "gltf_meshes.h"
@@ -44,9 +45,8 @@ static lam_scene *load_made(struct made_of m, const char *bytes, lam_error *erro
 
 #if HAS_DRACO
 
-static void decoded(void **state)
+TEST(decoded)
 {
-    (void)state;
     static const int modes[] = {4, 5};
     for (int i = 0; i < 2; i++) {
         lam_error error = {0};
@@ -55,8 +55,7 @@ static void decoded(void **state)
         m.corners = i ? 4 : 6;
         m.component = i ? 5125 : 5121;
         lam_scene *scene = load_made(m, compressed, &error);
-        if (!scene)
-            fail_msg("%s", error.text);
+        SUCCEEDS(scene);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         assert_int_equal(mesh->vertex_count, 4);
         assert_int_equal(mesh->triangle_count, 2);
@@ -92,9 +91,8 @@ static void refuse_made(struct made_of m, const char *sentence)
 #define PLACE "a.gltf: meshes[0].primitives[0]."
 #define HERE  PLACE "extensions.KHR_draco_mesh_compression"
 
-static void wrong(void **state)
+TEST(wrong)
 {
-    (void)state;
     struct made_of m = good;
     m.ids = "\"POSITION\": 8";
     refuse_made(m, HERE ".attributes.POSITION: the compressed bytes are damaged: there is no such attribute");
@@ -137,9 +135,8 @@ static void encode(const uint8_t *bytes, int count, char *out)
 }
 
 // Every truncation and every changed byte gives a mesh, or one error message that names the primitive.
-static void damaged(void **state)
+TEST(damaged)
 {
-    (void)state;
     uint8_t bytes[COMPRESSED_BYTES + 3];
     int refused = 0;
     for (int i = 0; i < COMPRESSED_BYTES; i++) {
@@ -177,9 +174,8 @@ static void damaged(void **state)
 
 #else
 
-static void missing(void **state)
+TEST(missing)
 {
-    (void)state;
     lam_error error = {0};
     assert_null(load_made(good, compressed, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
@@ -270,13 +266,11 @@ static void skip_if_it_cannot_throw(void)
 }
 
 // Draco's memory is counted during decoding: exceeding the limit is an error, whatever the header claimed.
-static void memory_counted(void **state)
+TEST(memory_counted)
 {
-    (void)state;
     lam_error error = {0};
     lam_scene *scene = load_bomb(&(lam_control){.memory_limit_bytes = 1000000000}, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     assert_int_equal(lam_scene_triangle_count(scene), FACES);
     lam_scene_free(scene);
     skip_if_it_cannot_throw();
@@ -290,9 +284,8 @@ static void memory_counted(void **state)
 }
 
 // 36 million numbers take longer than the limit, so decoding ends early.
-static void too_long(void **state)
+TEST(too_long)
 {
-    (void)state;
     skip_if_it_cannot_throw();
     lam_error error = {0};
     assert_null(load_bomb(&(lam_control){.time_limit_s = 0.01}, &error));
@@ -304,9 +297,8 @@ static void too_long(void **state)
 
 #define CLAIM(...) draco_header_read((const uint8_t[]){__VA_ARGS__}, sizeof((uint8_t[]){__VA_ARGS__}), &claim)
 
-static void claims(void **state)
+TEST(claims)
 {
-    (void)state;
     struct draco_claim claim;
     // Sequential: faces, points; seven bits per byte.
     assert_true(CLAIM('D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 0x80, 0x01, 0xff, 0xff, 0xff, 0xff, 0x0f));
@@ -338,16 +330,4 @@ static void claims(void **state)
     assert_false(draco_header_read(nested, sizeof nested, &claim));
     for (size_t size = 0; size < 12; size++)
         assert_false(draco_header_read(nested, size, &claim));
-}
-
-int main(void)
-{
-#if HAS_DRACO
-    const struct CMUnitTest tests[] = {cmocka_unit_test(claims),         cmocka_unit_test(decoded),
-                                       cmocka_unit_test(wrong),          cmocka_unit_test(damaged),
-                                       cmocka_unit_test(memory_counted), cmocka_unit_test(too_long)};
-#else
-    const struct CMUnitTest tests[] = {cmocka_unit_test(claims), cmocka_unit_test(missing)};
-#endif
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

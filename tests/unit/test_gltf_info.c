@@ -1,4 +1,5 @@
 // test_gltf_info.c: the information in a glTF file: lam_scene_file_info.
+#include "test.h"
 #include "gltf_document.h"
 
 // Three corners of a triangle in the plane z = 0.
@@ -14,12 +15,11 @@ static void put_triangle(struct document *document)
     "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}]"
 #define POSITIONS "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}"
 
-static void test_everything(void **state)
+TEST(test_everything)
 {
-    (void)state;
     struct document document;
     put_triangle(&document);
-    lam_scene *scene = load_document(
+    AUTO_SCENE scene = load_document(
         &document,
         "{\"asset\": {\"version\": \"2.0\", \"generator\": \"by hand\", \"copyright\": \"nobody\"}, " MESH
         ", \"accessors\": [" POSITIONS
@@ -78,12 +78,10 @@ static void test_everything(void **state)
         assert_int_equal(info->extensions[i].support, extensions[i].support);
     }
     assert_true(lam_scene_memory(scene) > 36 && lam_scene_memory(scene) < 1 << 22);
-    lam_scene_free(scene);
 }
 
-static void test_nothing(void **state)
+TEST(test_nothing)
 {
-    (void)state;
     struct document document;
     put_triangle(&document);
     lam_scene *scene = load_document(&document, "{\"asset\": {\"version\": \"2.0\", \"generator\": 7}, " MESH
@@ -101,10 +99,4 @@ static void test_nothing(void **state)
     lam_scene_free(scene);
     assert_null(lam_scene_file_info(NULL));
     assert_int_equal(lam_scene_memory(NULL), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_everything), cmocka_unit_test(test_nothing)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

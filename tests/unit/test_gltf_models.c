@@ -1,10 +1,10 @@
 // test_gltf_models.c: every glTF file of the shared models loads, or is refused for the right reason; triangles and
 // sizes equal the models' own tables.
+#include "test.h"
 #include "loading.h"
 #include "share.h"
 
 #include <dirent.h>
-#include <math.h>
 #include <sys/stat.h>
 
 // Refused files, given by a part of their path: the code and a part of the error message.
@@ -86,7 +86,7 @@ static void check_row(const char *relative, const lam_scene *scene)
 static void check_file(const char *path)
 {
     lam_error error = {0};
-    lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
+    AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, &error);
     const char *relative = path + strlen(root) + 1;
     files++;
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
@@ -97,10 +97,8 @@ static void check_file(const char *path)
             fail_msg("%s: %s", relative, scene ? "loads, but should be refused" : error.text);
         return;
     }
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     check_row(relative, scene);
-    lam_scene_free(scene);
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -129,9 +127,8 @@ static void walk(const char *folder)
         free(names);
 }
 
-static void test_shared_models(void **state)
+TEST(test_shared_models)
 {
-    (void)state;
     static const char *const folders[] = {"gltf", "glb", "gltf-tests"};
     const char *models = getenv("LAMBENT_MODELS");
     char path[1100];
@@ -147,10 +144,4 @@ static void test_shared_models(void **state)
     }
     print_message("%d files, %d of them refused; %d with a row in the README\n", files, refused, checked_rows);
     assert_true(seen >= 300 && checked_rows >= (is_long() ? 100 : 30));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_shared_models)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 // test_gltf_pose.c: glTF: animations at a time, morph targets and skins.
+#include "test.h"
 #include "gltf_document.h"
-
-#include <math.h>
 
 #define ASSET "\"asset\": {\"version\": \"2.0\"}"
 
@@ -100,9 +99,8 @@ static void make_translation(struct builder *b, const char *interpolation)
     complete(b, json);
 }
 
-static void test_interpolation(void **state)
+TEST(test_interpolation)
 {
-    (void)state;
     struct builder b;
     make_translation(&b, "LINEAR");
     static const double linear[][3] = {{-5, 0, 0},    {1, 0, 0}, {1.25, 1, 2}, {2, 4, 8},
@@ -139,9 +137,8 @@ static void test_interpolation(void **state)
 }
 
 // Rotations take the shorter way, at constant speed; normalised shorts are read.
-static void test_rotation(void **state)
+TEST(test_rotation)
 {
-    (void)state;
     for (int kind = 0; kind < 3; kind++) {
         struct builder b;
         start(&b);
@@ -186,9 +183,8 @@ static void make_morph(struct builder *b, const char *node, const char *more)
     complete(b, json);
 }
 
-static void test_morph(void **state)
+TEST(test_morph)
 {
-    (void)state;
     struct builder b;
     // With the mesh's weights, which both nodes share.
     make_morph(&b, "", "");
@@ -263,9 +259,8 @@ static void assert_point(const lam_mesh *mesh, uint32_t corner, double x, double
     assert_near(p.z, z, 1e-5);
 }
 
-static void test_skin(void **state)
+TEST(test_skin)
 {
-    (void)state;
     for (int bytes = 0; bytes < 2; bytes++) {
         struct builder b;
         make_skin(&b, "", bytes, true);
@@ -285,9 +280,8 @@ static void test_skin(void **state)
 }
 
 // The inverse transpose of the blended matrix transforms normals.
-static void test_skinned_normals(void **state)
+TEST(test_skinned_normals)
 {
-    (void)state;
     struct builder b = {0};
     ADD_FLOATS(&b, "VEC3", 3, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     ADD_FLOATS(&b, "VEC3", 3, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0);
@@ -298,7 +292,7 @@ static void test_skinned_normals(void **state)
         "\"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0, \"skin\": 0}, {\"scale\": [2, -1, 1]}], \"meshes\": "
         "[{\"primitives\": [{\"attributes\": {\"POSITION\": 0, \"NORMAL\": 1, \"JOINTS_0\": 2, \"WEIGHTS_0\": 3}}]}], "
         "\"skins\": [{\"joints\": [1]}]");
-    lam_scene *scene = load_at(&b, NULL, 0);
+    AUTO_SCENE scene = load_at(&b, NULL, 0);
     const float *n = lam_scene_mesh(scene, 0)->normals;
     double length = sqrt(0.09 + 0.64);
     for (int i = 0; i < 3; i++) {
@@ -307,14 +301,12 @@ static void test_skinned_normals(void **state)
     }
     assert_point(lam_scene_mesh(scene, 0), 1, 2, 0, 0);
     assert_point(lam_scene_mesh(scene, 0), 2, 0, -1, 0);
-    lam_scene_free(scene);
 }
 
 // --- what is wrong is left out, with one warning
 
-static void test_errors(void **state)
+TEST(test_errors)
 {
-    (void)state;
     static const struct {
         const char *piece, *by, *sentence;
     } rows[] = {
@@ -391,23 +383,12 @@ static void test_errors(void **state)
             "FLOAT");
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     struct builder b;
     make_skin(&b, "", true, true);
     check_allocations(b.document.text, strlen(b.document.text), "a.gltf");
     assert_same_for_threads(b.document.text, strlen(b.document.text), "a.gltf");
     make_morph(&b, ", \"weights\": [1, 2]", "");
     check_allocations(b.document.text, strlen(b.document.text), "a.gltf");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_interpolation), cmocka_unit_test(test_rotation),        cmocka_unit_test(test_morph),
-        cmocka_unit_test(test_skin),          cmocka_unit_test(test_skinned_normals), cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,18 +1,8 @@
 // test_ground.c: the ground plane under a scene: its height, its shadow, contact, and cases without it.
+#include "test.h"
 #include "device_fixture.h"
 
 #include <lambent/explain.h>
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 128 };
 
@@ -78,7 +68,7 @@ static lam_vec3 on_plane(const lam_camera *c, int px, int py, double height)
 // 45°, so the shadow is the square moved by 1. Ambient light is half of the sun's light on a perpendicular face.
 static void check_shadow(const lam_camera *camera, lam_rgb color)
 {
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     add(scene, "plane", (lam_vec3){1, 1, 1}, (lam_vec3){0, 1, 0});
     add(scene, "sphere", (lam_vec3){0.01, 0.01, 0.01}, (lam_vec3){0, 0.01, 0});
     lam_light sun = lam_light_default(LAM_LIGHT_DIRECTIONAL);
@@ -86,7 +76,7 @@ static void check_shadow(const lam_camera *camera, lam_rgb color)
     sun.diffuse = color;
     lam_scene_add_light(scene, &sun, &error);
     lam_scene_set_ambient(scene, (lam_rgb){0.5f, 0.5f, 0.5f});
-    lam_image image = draw(scene, camera, (lam_draw_params){.ground = LAM_GROUND_SHADOW, .samples = 1});
+    AUTO_IMAGE image = draw(scene, camera, (lam_draw_params){.ground = LAM_GROUND_SHADOW, .samples = 1});
     lam_frame_report report;
     lam_device_report(device, &report);
     assert_true(report.ground && fabs(report.ground_height) < 2e-3 && report.ground_square == 0);
@@ -112,13 +102,10 @@ static void check_shadow(const lam_camera *camera, lam_rgb color)
             }
         }
     assert_true(inside > 100 && outside > 1000);
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
-static void test_shadow(void **state)
+TEST(test_shadow)
 {
-    (void)state;
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){6, 4, 5};
     camera.target = (lam_vec3){1, 0, 0};
@@ -131,10 +118,9 @@ static void test_shadow(void **state)
 }
 
 // Ambient occlusion darkens the ground near a wall, more at smaller distances, and nothing far away.
-static void test_contact(void **state)
+TEST(test_contact)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     add(scene, "cube", (lam_vec3){1, 1, 1}, (lam_vec3){0, 0, 0});
     lam_scene_set_ambient(scene, (lam_rgb){1, 1, 1});
     for (int ortho = 0; ortho < 2; ortho++) {
@@ -172,7 +158,6 @@ static void test_contact(void **state)
             assert_true(at(&image, i % SIZE, i / SIZE)[0] > 0 || at(&image, i % SIZE, i / SIZE)[3] == 0);
         lam_image_free(&image);
     }
-    lam_scene_free(scene);
 }
 
 static double height_of(const lam_scene *scene, const lam_camera *camera, lam_draw_params params)
@@ -186,10 +171,9 @@ static double height_of(const lam_scene *scene, const lam_camera *camera, lam_dr
 }
 
 // The lowest vertex determines the height, also of a rotated model, along the up axis.
-static void test_height(void **state)
+TEST(test_height)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     add(scene, "cube", (lam_vec3){1, 2, 3}, (lam_vec3){5, 7, 9});
     lam_draw_params params = {.ground = LAM_GROUND_CHECKER};
     double radius = sqrt(14), drop = radius / 16384;
@@ -209,17 +193,15 @@ static void test_height(void **state)
     lam_frame_report report;
     lam_device_report(device, &report);
     assert_true(report.ground_square == 1 && report.triangles > 12 && report.triangles_binned <= report.triangles);
-    lam_scene_free(scene);
 }
 
 static bool same(const lam_image *a, const lam_image *b) { return memcmp(a->pixels, b->pixels, SIZE * SIZE * 16) == 0; }
 
 // From below there is no ground, nor in pictures of quantities if it only catches shadows; the scene's own shadows
 // remain. The rig is given, because the default rig has other lights if a ground is requested.
-static void test_absent(void **state)
+TEST(test_absent)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     add(scene, "torus-knot", (lam_vec3){1, 1, 1}, (lam_vec3){0, 0, 0});
     for (int ortho = 0; ortho < 2; ortho++) {
         lam_camera camera = lam_camera_default();
@@ -244,23 +226,21 @@ static void test_absent(void **state)
         lam_image_free(&with);
         lam_image_free(&without);
     }
-    lam_scene_free(scene);
 }
 
 // A picture over a background shows the catcher's alpha over it, and terms have the same alpha.
-static void test_premultiplied(void **state)
+TEST(test_premultiplied)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     add(scene, "sphere", (lam_vec3){1, 1, 1}, (lam_vec3){0, 0, 0});
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
     lam_draw_params params = {.ground = LAM_GROUND_SHADOW};
-    lam_image clear = draw(scene, &camera, params);
+    AUTO_IMAGE clear = draw(scene, &camera, params);
     params.output = LAM_OUTPUT_DIFFUSE;
-    lam_image term = draw(scene, &camera, params);
+    AUTO_IMAGE term = draw(scene, &camera, params);
     params.output = LAM_OUTPUT_PICTURE;
     params.background = (lam_rgba){0.5f, 0.25f, 1, 1};
-    lam_image over = draw(scene, &camera, params);
+    AUTO_IMAGE over = draw(scene, &camera, params);
     int caught = 0;
     for (int i = 0; i < SIZE * SIZE; i++) {
         const float *c = at(&clear, i % SIZE, i / SIZE), *o = at(&over, i % SIZE, i / SIZE);
@@ -269,74 +249,54 @@ static void test_premultiplied(void **state)
         caught += c[0] == 0 && c[3] > 0.1f && c[3] < 0.9f;
     }
     assert_true(caught > 200);
-    lam_image_free(&clear);
-    lam_image_free(&term);
-    lam_image_free(&over);
-    lam_scene_free(scene);
 }
 
 static void refused(lam_draw_params params, const char *says)
 {
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     add(scene, "sphere", (lam_vec3){1, 1, 1}, (lam_vec3){0, 0, 0});
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     lam_image_make(&image, SIZE, SIZE, LAM_RGBA8, &error);
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     assert_non_null(strstr(error.text, says));
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     refused((lam_draw_params){.ground = LAM_GROUND_COUNT}, "lam_ground");
     refused((lam_draw_params){.ground = LAM_GROUND_COLOR, .ground_color = {0, -1, 0}}, "ground_color");
     refused((lam_draw_params){.ground = LAM_GROUND_SHADOW, .shading = LAM_SHADING_FLAT}, "Phong");
     assert_string_equal(lam_ground_name(LAM_GROUND_CHECKER), "checker");
     assert_null(lam_ground_name(LAM_GROUND_COUNT));
-    lam_scene *empty = lam_scene_make(&error);
+    AUTO_SCENE empty = lam_scene_make(&error);
     lam_camera camera = lam_camera_default();
-    lam_image image = draw(empty, &camera, (lam_draw_params){.ground = LAM_GROUND_COLOR});
+    AUTO_IMAGE image = draw(empty, &camera, (lam_draw_params){.ground = LAM_GROUND_COLOR});
     assert_true(at(&image, 64, 64)[3] == 0);
-    lam_image_free(&image);
-    lam_scene_free(empty);
 }
 
 // Sizes whose ground is not representable: the model is drawn without it. A light of an unknown type has no field.
-static void test_extreme_sizes(void **state)
+TEST(test_extreme_sizes)
 {
-    (void)state;
     static const double sizes[][2] = {{1e-90, 0},    {1e-90, 1}, {1e-40, 1e30}, {1e90, 0},
                                       {1e90, 1e100}, {1, 1e160}, {1, 1e300}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int ground = LAM_GROUND_SHADOW; ground <= LAM_GROUND_CHECKER; ground++) {
-            lam_scene *scene = lam_scene_make(&error);
+            AUTO_SCENE scene = lam_scene_make(&error);
             double s = sizes[i][0], at = sizes[i][1];
             add(scene, "cube", (lam_vec3){s, s, s}, (lam_vec3){at, at, at});
             add(scene, "cube", (lam_vec3){s, s, s}, (lam_vec3){-at, at, -at});
             lam_camera camera = {
                 .eye = {0, 2 * at + 3 * s, at + 5 * s}, .target = {0, at, 0}, .up = {0, 1, 0}, .fovy_rad = 0.5};
-            lam_image image = {0};
+            AUTO_IMAGE image = {0};
             assert_true(lam_image_make(&image, 16, 16, LAM_RGBA8, &error));
             lam_draw_params params = {.ground = (lam_ground)ground};
             lam_draw(device, scene, &camera, &params, &image, NULL,
                      &error); // may fail, but without undefined behaviour
-            lam_image_free(&image);
-            lam_scene_free(scene);
         }
     lam_light light = lam_light_default((lam_light_type)1000);
     assert_int_equal(light.type, 1000);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shadow),        cmocka_unit_test(test_contact), cmocka_unit_test(test_height),
-        cmocka_unit_test(test_extreme_sizes), cmocka_unit_test(test_absent),  cmocka_unit_test(test_premultiplied),
-        cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests_name("ground", tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

@@ -1,10 +1,8 @@
 // test_ground_fit.c: the camera of a picture with a ground plane, and the shadow on it, which fades out before the
 // border.
+#include "test.h"
 #include "../lighting/random.h"
 #include "loading.h"
-
-#include <math.h>
-#include <string.h>
 
 enum { SIDE = 160 };
 
@@ -61,8 +59,8 @@ static lam_camera fitted(const struct placed *p, const lam_view *view, const lam
 static void model_box(const struct placed *p, const lam_camera *camera, int box[4])
 {
     lam_error error = {0};
-    lam_image image = {0};
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
+    AUTO_IMAGE image = {0};
+    AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
     lam_draw_params params = {.ground = LAM_GROUND_NONE};
     assert_true(lam_image_make(&image, SIDE, SIDE, LAM_RGBA8, &error));
     assert_true(lam_draw(device, p->scene, camera, &params, &image, NULL, &error));
@@ -73,15 +71,12 @@ static void model_box(const struct placed *p, const lam_camera *camera, int box[
                 box[0] = x < box[0] ? x : box[0], box[1] = x > box[1] ? x : box[1];
                 box[2] = y < box[2] ? y : box[2], box[3] = y > box[3] ? y : box[3];
             }
-    lam_image_free(&image);
-    lam_device_free(device);
 }
 
 // Shadows of lights from all around, hard and soft, long and short, end before the border; the model is in the middle
 // and fills four fifths of the picture.
-static void shadows_end_before_the_border(void **state)
+TEST(shadows_end_before_the_border)
 {
-    (void)state;
     const char *shapes[] = {"cube", "torus-knot", "cylinder"};
     int seen = 0;
     for (int azimuth = 0; azimuth < 360; azimuth += 45)
@@ -104,9 +99,8 @@ static void shadows_end_before_the_border(void **state)
 }
 
 // Without a ground, the camera equals lam_camera_fit's; a fill given by the caller is kept.
-static void no_ground_no_change(void **state)
+TEST(no_ground_no_change)
 {
-    (void)state;
     struct placed p = place("torus-knot", 30, 40, 0);
     lam_view given = {.fill = 0.5}, view = {0};
     lam_camera alone = lam_camera_fit(p.scene, SIDE, SIDE, &given), camera = fitted(&p, &given, NULL);
@@ -121,9 +115,8 @@ static void no_ground_no_change(void **state)
 }
 
 // One camera shows a rotating model and its shadow at every angle.
-static void turning_shadows_end_before_the_border(void **state)
+TEST(turning_shadows_end_before_the_border)
 {
-    (void)state;
     const lam_vec3 up = {0, 1, 0};
     struct placed p = place("torus-knot", -60, 60, 0);
     lam_vec3 centre;
@@ -136,14 +129,4 @@ static void turning_shadows_end_before_the_border(void **state)
         assert_true(lam_scene_rotate(p.scene, centre, up, 30 * 0.017453292519943295, NULL));
     }
     lam_scene_free(p.scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shadows_end_before_the_border),
-        cmocka_unit_test(no_ground_no_change),
-        cmocka_unit_test(turning_shadows_end_before_the_border),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

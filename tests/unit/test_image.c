@@ -1,19 +1,10 @@
 // test_image.c: pictures in memory, their files except PNG compression, comparison, and all errors.
+#include "test.h"
+
 #include <lambent/image.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <dirent.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 #include "temporary_folder.h"
 
@@ -89,9 +80,8 @@ static void expect_error(bool ok, const lam_error *error, lam_code code, const c
     assert_null(strchr(error->text, '\n'));
 }
 
-static void makes_within_limits(void **state)
+TEST(makes_within_limits)
 {
-    (void)state;
     lam_image image;
     lam_error error;
     assert_true(lam_image_make(&image, 65535, 1, LAM_RGBA32F, NULL));
@@ -114,9 +104,8 @@ static void makes_within_limits(void **state)
     assert_null(image.pixels);
 }
 
-static void names_pick_formats(void **state)
+TEST(names_pick_formats)
 {
-    (void)state;
     lam_pixel_format format;
     lam_error error;
     assert_true(lam_image_format_for("a.png", &format, NULL));
@@ -133,9 +122,8 @@ static void names_pick_formats(void **state)
 }
 
 // Every row of the table: written files can be read, and the list in an error message names each format.
-static void formats_that_are_written_are_read(void **state)
+TEST(formats_that_are_written_are_read)
 {
-    (void)state;
     char path[256], wanted[32];
     lam_pixel_format pixels;
     lam_error error, unknown;
@@ -157,8 +145,7 @@ static void formats_that_are_written_are_read(void **state)
         }
         lam_image image = pixels == LAM_RGBA8 ? bytes_picture(40, 30) : floats_picture(40, 30), again;
         if (lam_image_save(&image, path, NULL, &error)) {
-            if (!lam_image_load(&again, path, NULL, &error))
-                fail_msg("%s", error.text);
+            SUCCEEDS(lam_image_load(&again, path, NULL, &error));
             assert_true(again.width == 40 && again.height == 30 && again.format == pixels);
             lam_image_free(&again);
             unlink(path);
@@ -173,11 +160,10 @@ static void formats_that_are_written_are_read(void **state)
     assert_null(lam_image_format_written(format));
 }
 
-static void encode_checks_its_arguments(void **state)
+TEST(encode_checks_its_arguments)
 {
-    (void)state;
     lam_image bytes = bytes_picture(3, 2), floats = floats_picture(3, 2), none = {0};
-    lam_bytes out = {&out, 5};
+    AUTO_BYTES out = {&out, 5};
     lam_error error;
     expect_error(lam_image_encode(&bytes, "gif", NULL, &out, &error), &error, LAM_UNSUPPORTED,
                  "png, ppm, pfm, exr, jpg");
@@ -190,15 +176,13 @@ static void encode_checks_its_arguments(void **state)
     expect_error(lam_image_encode(&bytes, NULL, NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "format");
     expect_error(lam_image_encode(&bytes, "png", &(lam_save_params){.threads = -1}, &out, &error), &error,
                  LAM_BAD_ARGUMENT, "threads");
-    lam_bytes_free(&out);
     lam_bytes_free(NULL);
     lam_image_free(&bytes);
     lam_image_free(&floats);
 }
 
-static void png_comes_back(void **state)
+TEST(png_comes_back)
 {
-    (void)state;
     const char *path = in_folder("a.png");
     lam_image image = bytes_picture(61, 47), back;
     assert_true(lam_image_save(&image, path, NULL, NULL));
@@ -213,9 +197,8 @@ static void png_comes_back(void **state)
     lam_image_free(&back);
 }
 
-static void pfm_is_exact(void **state)
+TEST(pfm_is_exact)
 {
-    (void)state;
     const char *path = in_folder("a.pfm");
     lam_image image = floats_picture(5, 3), back;
     lam_bytes bytes;
@@ -235,27 +218,24 @@ static void pfm_is_exact(void **state)
     lam_image_free(&back);
 }
 
-static void pfm_of_others(void **state)
+TEST(pfm_of_others)
 {
-    (void)state;
     // Grey, big-endian, another scale.
     static const char grey[] = "Pf 2\n1\r2.5\n\x3F\x80\x00\x00\xC0\x00\x00\x00";
-    lam_image image;
+    AUTO_IMAGE image = {0};
     write_file(in_folder("g.pfm"), grey, sizeof grey - 1);
     assert_true(lam_image_load(&image, in_folder("g.pfm"), NULL, NULL));
     const float wanted[8] = {1, 1, 1, 1, -2, -2, -2, 1};
     assert_memory_equal(image.pixels, wanted, sizeof wanted);
-    lam_image_free(&image);
 }
 
 static double decode(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 static double encode(double x) { return x <= 0.0031308 ? x * 12.92 : 1.055 * pow(x, 1 / 2.4) - 0.055; }
 
 // The picture over the background in linear light, compared with libm.
-static void ppm_lies_over_the_background(void **state)
+TEST(ppm_lies_over_the_background)
 {
-    (void)state;
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_bytes out;
     assert_true(lam_image_make(&image, 256, 256, LAM_RGBA8, NULL));
     uint8_t *pixels = image.pixels;
@@ -290,12 +270,10 @@ static void ppm_lies_over_the_background(void **state)
         assert_true(near < 100);
         lam_bytes_free(&out);
     }
-    lam_image_free(&image);
 }
 
-static void ppm_comes_back(void **state)
+TEST(ppm_comes_back)
 {
-    (void)state;
     lam_image image = bytes_picture(9, 4), back;
     for (int i = 0; i < 9 * 4; i++)
         ((uint8_t *)image.pixels)[4 * i + 3] = 255;
@@ -308,11 +286,10 @@ static void ppm_comes_back(void **state)
 }
 
 // A NaN background must not reach an undefined conversion.
-static void background_of_nan(void **state)
+TEST(background_of_nan)
 {
-    (void)state;
-    lam_image image = bytes_picture(2, 2);
-    lam_bytes out;
+    AUTO_IMAGE image = bytes_picture(2, 2);
+    AUTO_BYTES out = {0};
     ((uint8_t *)image.pixels)[3] = 0;
     lam_save_params params = {.background = {NAN, INFINITY, -INFINITY}};
     assert_true(lam_image_encode(&image, "ppm", &params, &out, NULL));
@@ -320,13 +297,10 @@ static void background_of_nan(void **state)
     assert_int_equal(pixel[0], 0);
     assert_int_equal(pixel[1], 255);
     assert_int_equal(pixel[2], 0);
-    lam_bytes_free(&out);
-    lam_image_free(&image);
 }
 
-static void ours_only_where_it_says_so(void **state)
+TEST(ours_only_where_it_says_so)
 {
-    (void)state;
     static const char foreign[] = "P6\n1 1\n255\nabc";
     assert_false(lam_image_is_from_lambent(in_folder("none.png")));
     assert_false(lam_image_is_from_lambent(folder));
@@ -340,8 +314,8 @@ static void ours_only_where_it_says_so(void **state)
     assert_false(lam_image_is_from_lambent(in_folder("pipe.png"))); // and does not wait for a writer
 
     // A PNG with another program's Software text, and Lambent's truncated at every byte before the pixels.
-    lam_image image = bytes_picture(4, 4);
-    lam_bytes out;
+    AUTO_IMAGE image = bytes_picture(4, 4);
+    AUTO_BYTES out = {0};
     assert_true(lam_image_encode(&image, "png", NULL, &out, NULL));
     uint8_t *text = out.data;
     while (memcmp(text, "lambent", 7) != 0)
@@ -354,15 +328,12 @@ static void ours_only_where_it_says_so(void **state)
     text[0] = 'L';
     write_file(in_folder("other.png"), out.data, out.size);
     assert_false(lam_image_is_from_lambent(in_folder("other.png")));
-    lam_bytes_free(&out);
-    lam_image_free(&image);
 }
 
 // Files truncated at any byte are refused. Files with one changed byte are refused or, thanks to PNG's checksums, give
 // the same picture (a damaged comment does no harm).
-static void damaged_files_are_refused(void **state)
+TEST(damaged_files_are_refused)
 {
-    (void)state;
     lam_image bytes = bytes_picture(7, 5), floats = floats_picture(3, 2), back;
     lam_error error;
     static const struct {
@@ -370,7 +341,7 @@ static void damaged_files_are_refused(void **state)
         size_t needless; // unneeded bytes at the end: the checksum of PNG's empty last chunk
     } cases[] = {{"png", 4}, {"ppm", 0}, {"pfm", 0}};
     for (int i = 0; i < 3; i++) {
-        lam_bytes out;
+        AUTO_BYTES out = {0};
         assert_true(lam_image_encode(i == 2 ? &floats : &bytes, cases[i].format, NULL, &out, NULL));
         for (size_t size = 0; size < out.size - cases[i].needless; size++) {
             write_file(in_folder("cut"), out.data, size);
@@ -393,15 +364,13 @@ static void damaged_files_are_refused(void **state)
             data[at] ^= 0x15;
         }
         assert_true(refused > (i == 0 ? (int)out.size / 2 : 4));
-        lam_bytes_free(&out);
     }
     lam_image_free(&bytes);
     lam_image_free(&floats);
 }
 
-static void refusals_say_why(void **state)
+TEST(refusals_say_why)
 {
-    (void)state;
     static const struct {
         const char *content;
         lam_code code;
@@ -442,11 +411,10 @@ static void refusals_say_why(void **state)
 }
 
 // On any error, no file appears or changes, and no temporary file remains.
-static void writes_whole_or_not_at_all(void **state)
+TEST(writes_whole_or_not_at_all)
 {
-    (void)state;
-    empty_folder(state);
-    lam_image image = bytes_picture(40, 40);
+    empty_folder(NULL);
+    AUTO_IMAGE image = bytes_picture(40, 40);
     lam_error error;
     expect_error(lam_image_save(&image, in_folder("a.pfm"), NULL, &error), &error, LAM_BAD_ARGUMENT, "PFM");
     expect_error(lam_image_save(&image, in_folder("a.bmp"), NULL, &error), &error, LAM_UNSUPPORTED, ".bmp");
@@ -479,14 +447,12 @@ static void writes_whole_or_not_at_all(void **state)
     assert_true(lam_image_save(&image, in_folder("a.png"), NULL, &error));
     assert_true(lam_image_is_from_lambent(in_folder("a.png")));
     assert_int_equal(files_in_folder(), 1);
-    lam_image_free(&image);
 }
 
-static void compares_bytes(void **state)
+TEST(compares_bytes)
 {
-    (void)state;
     lam_image a = bytes_picture(10, 10), b = bytes_picture(10, 10), other = bytes_picture(10, 9);
-    lam_image floats = floats_picture(10, 10);
+    AUTO_IMAGE floats = floats_picture(10, 10);
     lam_difference d;
     lam_error error;
     assert_true(lam_image_compare(&a, &b, &d, NULL));
@@ -509,12 +475,10 @@ static void compares_bytes(void **state)
     lam_image_free(&a);
     lam_image_free(&b);
     lam_image_free(&other);
-    lam_image_free(&floats);
 }
 
-static void compares_floats(void **state)
+TEST(compares_floats)
 {
-    (void)state;
     lam_image a = floats_picture(8, 8), b = floats_picture(8, 8);
     lam_difference d;
     float *first = a.pixels, *second = b.pixels;
@@ -542,9 +506,8 @@ static void compares_floats(void **state)
     lam_image_free(&b);
 }
 
-static void shows_differences(void **state)
+TEST(shows_differences)
 {
-    (void)state;
     lam_image a, b, where = {0};
     lam_error error;
     assert_true(lam_image_make(&a, 2, 1, LAM_RGBA8, NULL) && lam_image_make(&b, 2, 1, LAM_RGBA8, NULL));
@@ -574,26 +537,4 @@ static void shows_differences(void **state)
     lam_image_free(&where);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(makes_within_limits),
-        cmocka_unit_test(names_pick_formats),
-        cmocka_unit_test(formats_that_are_written_are_read),
-        cmocka_unit_test(encode_checks_its_arguments),
-        cmocka_unit_test(png_comes_back),
-        cmocka_unit_test(pfm_is_exact),
-        cmocka_unit_test(pfm_of_others),
-        cmocka_unit_test(ppm_lies_over_the_background),
-        cmocka_unit_test(ppm_comes_back),
-        cmocka_unit_test(background_of_nan),
-        cmocka_unit_test(ours_only_where_it_says_so),
-        cmocka_unit_test(damaged_files_are_refused),
-        cmocka_unit_test(refusals_say_why),
-        cmocka_unit_test(writes_whole_or_not_at_all),
-        cmocka_unit_test(compares_bytes),
-        cmocka_unit_test(compares_floats),
-        cmocka_unit_test(shows_differences),
-    };
-    return cmocka_run_group_tests_name("image", tests, make_folder, remove_folder);
-}
+FIXTURE(make_folder, remove_folder)

@@ -1,14 +1,8 @@
 // test_import.c: recognising formats, related files, and the models of the corpus.
-#include <lambent/lambent.h>
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "test.h"
+
 #include <sys/stat.h>
-#include <unistd.h>
-#include <cmocka.h>
 
 #include "temporary_folder.h"
 
@@ -59,9 +53,8 @@ static void expect_error(const char *bytes, size_t size, const char *name, lam_c
     assert_null(lam_scene_load_memory(bytes, size, name, NULL, NULL, NULL)); // the caller requests no error
 }
 
-static void test_formats(void **unused)
+TEST(test_formats)
 {
-    (void)unused;
     static const char *const known[][2] = {
         {"obj", "obj"}, {"stl", "stl"}, {"ply", "ply"}, {"gltf", "gltf glb"}, {"scene", "json"}};
     int count = 0, found = 0;
@@ -88,9 +81,8 @@ static void test_formats(void **unused)
 }
 
 // The content determines the format; the extension only resolves ambiguity.
-static void test_choice(void **unused)
+TEST(test_choice)
 {
-    (void)unused;
     static const struct {
         const char *text, *name, *format;
     } rows[] = {
@@ -109,29 +101,25 @@ static void test_choice(void **unused)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         lam_error error;
-        lam_scene *scene = lam_scene_load_memory(rows[i].text, strlen(rows[i].text), rows[i].name, NULL, NULL, &error);
-        if (!scene)
-            fail_msg("%s", error.text);
+        AUTO_SCENE scene = lam_scene_load_memory(rows[i].text, strlen(rows[i].text), rows[i].name, NULL, NULL, &error);
+        SUCCEEDS(scene);
         assert_string_equal(lam_scene_format(scene), rows[i].format);
         assert_int_equal(lam_scene_triangle_count(scene), 1);
         assert_int_equal(lam_scene_object_count(scene), 1);
         assert_int_equal(lam_scene_up(scene), strcmp(rows[i].format, "stl") == 0 ? LAM_UP_Z : LAM_UP_Y);
-        lam_scene_free(scene);
     }
     lam_error error;
     lam_load_params params = {.up = LAM_UP_X, .format = "OBJ"};
-    lam_scene *scene = lam_scene_load_memory(TRIANGLE, strlen(TRIANGLE), "x", &params, NULL, &error);
+    AUTO_SCENE scene = lam_scene_load_memory(TRIANGLE, strlen(TRIANGLE), "x", &params, NULL, &error);
     assert_non_null(scene);
     assert_int_equal(lam_scene_up(scene), LAM_UP_X);
     double read_ms = -1, prepare_ms = -1;
     lam_scene_times(scene, &read_ms, &prepare_ms);
     assert_true(read_ms > 0 && prepare_ms > 0);
-    lam_scene_free(scene);
 }
 
-static void test_foreign(void **unused)
+TEST(test_foreign)
 {
-    (void)unused;
     static const struct {
         const char *bytes;
         size_t size;
@@ -168,9 +156,8 @@ static void test_foreign(void **unused)
             expect_error(rows[i].bytes, rows[i].size, rows[i].name, rows[i].code, rows[i].sentence);
 }
 
-static void test_arguments(void **unused)
+TEST(test_arguments)
 {
-    (void)unused;
     static const struct {
         lam_load_params params;
         lam_code code;
@@ -203,9 +190,8 @@ static void write_text(const char *path, const char *text)
 }
 
 // Files on disk: material files are opened only in the model's folder.
-static void test_files(void **unused)
+TEST(test_files)
 {
-    (void)unused;
     char outer[] = "/tmp/lambent-import-XXXXXX", path[64], inner[64];
     assert_non_null(mkdtemp(outer));
     lam_error error;
@@ -230,11 +216,10 @@ static void test_files(void **unused)
         snprintf(text, sizeof text, "mtllib %s\n" TRIANGLE, libraries[i]);
         snprintf(path, sizeof path, "%s/inner/m.obj", outer);
         write_text(path, text);
-        lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
+        AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, &error);
         assert_non_null(scene);
         assert_int_equal(lam_scene_material_count(scene), found[i]);
         assert_true((lam_scene_warning(scene, 0) == NULL) == found[i]);
-        lam_scene_free(scene);
         unlink(path);
     }
     snprintf(path, sizeof path, "%s/inner/a.mtl", outer);
@@ -262,15 +247,13 @@ static lam_scene *load_inner(const char *text)
     snprintf(whole, sizeof whole, "%s" TRIANGLE, text);
     write_text(in_folder("inner/m.obj"), whole);
     lam_scene *scene = lam_scene_load(in_folder("inner/m.obj"), NULL, NULL, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     return scene;
 }
 
 // Links are followed if they stay in the model's folder or below; a pipe is never opened.
-static void test_links(void **unused)
+TEST(test_links, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     write_text(in_folder("outside.mtl"), "newmtl outside\nKd 1 0 0\n");
     write_text(in_folder("inner/sub/a.mtl"), "newmtl inside\nKd 1 0 0\n");
     assert_int_equal(symlink("sub/a.mtl", in_folder("inner/link.mtl")), 0);
@@ -298,26 +281,23 @@ static void test_links(void **unused)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[100];
         snprintf(text, sizeof text, "mtllib %s\n", rows[i].library);
-        lam_scene *scene = load_inner(text);
+        AUTO_SCENE scene = load_inner(text);
         assert_int_equal(lam_scene_material_count(scene), rows[i].warning == NULL);
         const char *warning = lam_scene_warning(scene, 0);
         if (rows[i].warning ? !warning || !strstr(warning, rows[i].warning) : warning != NULL)
             fail_msg("%s: %s", rows[i].library, warning ? warning : "no warning");
-        lam_scene_free(scene);
     }
     // The model's own folder may be named through a link, and from inside.
     lam_scene_free(load_inner("mtllib sub/a.mtl\n"));
     lam_error error;
-    lam_scene *scene = lam_scene_load(in_folder("also-inner/m.obj"), NULL, NULL, &error);
+    AUTO_SCENE scene = lam_scene_load(in_folder("also-inner/m.obj"), NULL, NULL, &error);
     assert_int_equal(lam_scene_material_count(scene), 1);
-    lam_scene_free(scene);
 }
 
 // Warnings about a material file contain its path; they show at most 32 characters of a name in a file, without control
 // characters.
-static void test_shown_names(void **unused)
+TEST(test_shown_names, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     write_text(in_folder("inner/b.mtl"), "newmtl b\nKd 0 1\nKd x\nfoo\n");
     lam_scene *scene = load_inner("mtllib b.mtl\n");
     char wanted[200];
@@ -348,19 +328,17 @@ static void test_shown_names(void **unused)
 }
 
 // A zero byte in a material file causes a warning, like every mistake in it.
-static void test_zero_in_materials(void **unused)
+TEST(test_zero_in_materials, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     static const char bytes[] = "newmtl z\nKd 1 0 0\n# a\0b\nNs 7\n";
     FILE *file = fopen(in_folder("inner/z.mtl"), "wb");
     assert_non_null(file);
     fwrite(bytes, 1, sizeof bytes - 1, file);
     fclose(file);
-    lam_scene *scene = load_inner("mtllib z.mtl\n");
+    AUTO_SCENE scene = load_inner("mtllib z.mtl\n");
     assert_non_null(strstr(lam_scene_warning(scene, 0), "/inner/z.mtl:3: found a zero byte, expected text"));
     assert_null(lam_scene_warning(scene, 1));
     assert_true(lam_scene_material(scene, 0)->shininess == 7);
-    lam_scene_free(scene);
 }
 
 // --- how often material files are read
@@ -385,9 +363,8 @@ static bool count_and_open(void *user, const char *name, lam_bytes *bytes, lam_e
     return true;
 }
 
-static void test_libraries(void **unused)
+TEST(test_libraries)
 {
-    (void)unused;
     enum { TIMES = 2000 };
     static const char *const spellings[] = {"a.mtl",  "./a.mtl",      ".//./a.mtl",    "../x/a.mtl",
                                             "/a.mtl", "C:\\x\\a.mtl", "x.mtl a.mtl x", "a.mtl a.mtl"};
@@ -425,9 +402,8 @@ static void test_libraries(void **unused)
 }
 
 // Every OBJ model of the corpus, with the number of triangles in its table, with one thread and with three.
-static void test_corpus(void **unused)
+TEST(test_corpus)
 {
-    (void)unused;
     const char *models = getenv("LAMBENT_MODELS");
     models = models ? models : "../shared/models";
     char path[1024], line[1024];
@@ -448,35 +424,16 @@ static void test_corpus(void **unused)
         for (int threads = 1; threads <= 3; threads += 2) {
             lam_error error;
             lam_load_params params = {.threads = threads};
-            lam_scene *scene = lam_scene_load(path, &params, NULL, &error);
-            if (!scene)
-                fail_msg("%s", error.text);
+            AUTO_SCENE scene = lam_scene_load(path, &params, NULL, &error);
+            SUCCEEDS(scene);
             if (lam_scene_triangle_count(scene) != triangles)
                 fail_msg("%s: %llu triangles, expected %llu", name, (unsigned long long)lam_scene_triangle_count(scene),
                          triangles);
             lam_vec3 low, high;
             assert_true(lam_scene_bounds(scene, &low, &high));
-            lam_scene_free(scene);
         }
         loaded++;
     }
     fclose(table);
     assert_true(loaded > 40);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_choice),
-        cmocka_unit_test(test_foreign),
-        cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_corpus),
-        cmocka_unit_test(test_libraries),
-        cmocka_unit_test_setup_teardown(test_links, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_shown_names, make_folder, remove_folder),
-        cmocka_unit_test_setup_teardown(test_zero_in_materials, make_folder, remove_folder),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 // test_json.c: JSON is parsed like Jansson does, but a failed allocation is reported as a limit, not as an error of the
 // file, for every allocation, failing once or permanently.
+#include "test.h"
 #include "json_parse.h"
 #include "loading.h"
-
-#include <unistd.h>
 
 // --- an allocator for Jansson that fails
 
@@ -51,9 +50,8 @@ static lam_scene *load_whole(lam_error *error)
     return lam_scene_load_memory(whole, sizeof whole - 1, "s.json", &(lam_load_params){.threads = 1}, NULL, error);
 }
 
-static void test_scene(void **state)
+TEST(test_scene, .setup_func = fail_allocations, .teardown_func = restore)
 {
-    (void)state;
     for (int mode = 0; mode < 2; mode++) {
         int refused = 0;
         for (long i = 0;; i++) {
@@ -76,15 +74,14 @@ static void test_scene(void **state)
 }
 
 // Writing likewise.
-static void test_save(void **state)
+TEST(test_save, .setup_func = fail_allocations, .teardown_func = restore)
 {
-    (void)state;
     char path[] = "/tmp/lambent-json-XXXXXX";
     int file = mkstemp(path);
     assert_true(file >= 0);
     close(file);
     lam_error error;
-    lam_scene *scene = load_whole(&error);
+    AUTO_SCENE scene = load_whole(&error);
     assert_non_null(scene);
     int refused = 0;
     for (long i = 0;; i++) {
@@ -101,7 +98,6 @@ static void test_save(void **state)
             break;
     }
     assert_true(refused > 50);
-    lam_scene_free(scene);
     unlink(path);
 }
 
@@ -122,9 +118,8 @@ static void expect_agreement(const char *text, size_t size)
     json_decref(wanted);
 }
 
-static void test_agreement(void **state)
+TEST(test_agreement)
 {
-    (void)state;
     static const char *const texts[] = {
         "[]",
         "{}",
@@ -198,9 +193,8 @@ static void test_agreement(void **state)
     }
 }
 
-static void test_sentences(void **state)
+TEST(test_sentences)
 {
-    (void)state;
     static const struct {
         const char *text, *sentence;
     } rows[] = {
@@ -236,9 +230,8 @@ static void test_sentences(void **state)
     json_decref(list);
 }
 
-static void test_depth_and_limits(void **state)
+TEST(test_depth_and_limits)
 {
-    (void)state;
     char deep[2 * LAM_JSON_DEPTH_LIMIT + 2];
     for (int extra = 0; extra < 2; extra++) {
         size_t depth = LAM_JSON_DEPTH_LIMIT + (size_t)extra;
@@ -266,16 +259,4 @@ static void test_depth_and_limits(void **state)
     assert_null(json_parse(text, 2 * NUMBERS + 1, "t.json", &call, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
     free(text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_scene, fail_allocations, restore),
-        cmocka_unit_test_setup_teardown(test_save, fail_allocations, restore),
-        cmocka_unit_test(test_agreement),
-        cmocka_unit_test(test_sentences),
-        cmocka_unit_test(test_depth_and_limits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 // test_large_files.c: large STL and PLY files, which are read in parts, give the same scenes and errors as in memory.
+#include "test.h"
 #include "large_file.h"
 
 enum { SIDE = 260, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
@@ -99,9 +100,8 @@ static void make_shuffled_stl(const char *header, unsigned word, int shuffled)
 
 static void make_stl(const char *header, unsigned word) { make_shuffled_stl(header, word, TRIANGLES); }
 
-static void stl_files(void **state)
+TEST(stl_files)
 {
-    (void)state;
     make_stl("a header", 0);
     assert_true(load_both(NULL));
     assert_true(fits(36 * TRIANGLES));
@@ -127,9 +127,8 @@ static lam_scene *load_stl(int threads, lam_normals normals)
 
 // The facets of a large file share vertices, if neighbours are close in the file. The mesh is the same for any number
 // of threads. All corners at a position get the same smooth normal, also if two windows of the file have a vertex there.
-static void stl_vertices(void **state)
+TEST(stl_vertices)
 {
-    (void)state;
     make_stl("a header", 0);
     write_file();
     lam_scene *one = load_stl(1, LAM_NORMALS_FILE), *three = load_stl(3, LAM_NORMALS_FILE),
@@ -158,15 +157,13 @@ static void stl_vertices(void **state)
     for (int shuffled = 0; shuffled <= TRIANGLES / 2; shuffled += TRIANGLES / 2) { // all facets, or the second half
         make_shuffled_stl("a header", 0, shuffled);
         assert_true(load_both(NULL));
-        lam_scene *scene = load_stl(2, LAM_NORMALS_FILE);
+        AUTO_SCENE scene = load_stl(2, LAM_NORMALS_FILE);
         assert_null(lam_scene_mesh(scene, 0)->indices);
-        lam_scene_free(scene);
     }
 }
 
-static void stl_errors(void **state)
+TEST(stl_errors)
 {
-    (void)state;
     const float nan = __builtin_nanf("");
     make_stl("a header", 0);
     memcpy(text + 84 + 50 * 20000 + 12, &nan, 4);
@@ -255,9 +252,8 @@ static void make_ply(struct layout layout)
         add_u32(0);
 }
 
-static void ply_files(void **state)
+TEST(ply_files)
 {
-    (void)state;
     const struct layout layouts[] = {
         {0},
         {.format = "binary_big_endian"},
@@ -286,9 +282,8 @@ static void ply_files(void **state)
     }
 }
 
-static void ply_errors(void **state)
+TEST(ply_errors)
 {
-    (void)state;
     const struct layout layouts[] = {
         {0},
         {.format = "binary_big_endian"},
@@ -329,9 +324,8 @@ static void insert(size_t at, int byte, size_t count)
 
 // The header ends before, at and after the end of the bytes that are read first. Such a file is read in parts or as a
 // whole, with the same result.
-static void ply_headers(void **state)
+TEST(ply_headers)
 {
-    (void)state;
     for (int past = -12; past <= 2; past += past < -2 ? 5 : 1) { // the whole line "end_header", a part of it, or none
         make_ply((struct layout){.format = past % 2 ? "binary_big_endian" : NULL});
         const size_t line = (size_t)(FILE_HEAD + past) - (size_t)(strstr(text, "end_header\n") + 11 - text);
@@ -343,9 +337,8 @@ static void ply_headers(void **state)
 }
 
 // Headers without an end, and long headers of text files, of sizes at which the reader's method changes.
-static void ply_long_headers(void **state)
+TEST(ply_long_headers)
 {
-    (void)state;
     static const struct {
         const char *first, *last; // around the filled bytes
         int fill;
@@ -378,9 +371,8 @@ static void ply_long_headers(void **state)
 }
 
 // Every format is recognised from the first bytes of a large file as from the whole file.
-static void beginnings(void **state)
+TEST(beginnings)
 {
-    (void)state;
     static const struct {
         const char *first, *last;
         char fill;
@@ -414,18 +406,16 @@ static void beginnings(void **state)
         }
 }
 
-static void can_be_stopped(void **state)
+TEST(can_be_stopped)
 {
-    (void)state;
     make_ply((struct layout){0});
     assert_true(load_both(NULL));
     check_stops(1 << 20);
 }
 
 // Each allocation fails in turn: the file is refused for want of memory; nothing leaks.
-static void memory(void **state)
+TEST(memory)
 {
-    (void)state;
     const struct layout layouts[] = {{0}, {.normals = true, .bytes = true}, {.mixed = true}};
     for (size_t i = 0; i < 4; i++) {
         if (i < 3)
@@ -437,24 +427,14 @@ static void memory(void **state)
         for (long countdown = 0; countdown < 40; countdown++) {
             lam_error error = {0};
             arena_fail_after(countdown);
-            lam_scene *scene = lam_scene_load(path, &(lam_load_params){.threads = 1}, NULL, &error);
+            AUTO_SCENE scene = lam_scene_load(path, &(lam_load_params){.threads = 1}, NULL, &error);
             arena_fail_after(-1);
             if (!scene)
                 assert_int_equal(error.code, LAM_MACHINE);
             refused += !scene;
-            lam_scene_free(scene);
         }
         assert_true(refused >= 3);
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stl_files),   cmocka_unit_test(stl_vertices),     cmocka_unit_test(stl_errors),
-        cmocka_unit_test(ply_files),   cmocka_unit_test(ply_errors),       cmocka_unit_test(can_be_stopped),
-        cmocka_unit_test(ply_headers), cmocka_unit_test(ply_long_headers), cmocka_unit_test(beginnings),
-        cmocka_unit_test(memory),
-    };
-    return cmocka_run_group_tests_name("large files", tests, start, stop);
-}
+FIXTURE(start, stop)

@@ -1,17 +1,7 @@
 // test_many_lights.c: lights omitted in a part of the picture: lights without contribution change no bit, lights with a
 // small contribution change the picture by at most the cutoff, and the selection does not depend on the machine.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
+#include "test.h"
 #include "../lighting/random.h"
 
 enum { WIDTH = 150, HEIGHT = 100, CHANNELS = WIDTH * HEIGHT * 4 };
@@ -95,13 +85,12 @@ static lam_light any_light(struct random *r)
 
 // The picture of four lights, few enough to be evaluated everywhere, has the same bits among so many black lights that
 // lists are made: no contributing light was omitted, and the order of the sum did not change.
-static void test_exact(void **state)
+TEST(test_exact)
 {
-    (void)state;
     struct random r = {3};
     uint64_t asked = 0, all = 0;
     for (int round = 0; round < 60; round++) {
-        lam_scene *scene = make_scene(round % 5 == 4);
+        AUTO_SCENE scene = make_scene(round % 5 == 4);
         for (int i = 0; i < 4; i++)
             assert_true(lam_scene_add_light(scene, &(lam_light[]){any_light(&r)}[0], NULL) >= 0);
         lam_draw_params params = {.samples = round & 1 ? 4 : 1,
@@ -110,13 +99,13 @@ static void test_exact(void **state)
                                   .reflection = (lam_reflection)(round % LAM_REFLECTION_COUNT),
                                   .gl1 = round % 6 == 5};
         lam_frame_report report;
-        lam_image few = draw(scene, &params, LAM_RGBA32F, &report);
+        AUTO_IMAGE few = draw(scene, &params, LAM_RGBA32F, &report);
         for (int i = 0; i < 30; i++) {
             lam_light black = any_light(&r);
             black.diffuse = black.specular = (lam_rgb){0, 0, 0};
             assert_true(lam_scene_add_light(scene, &black, NULL) >= 0);
         }
-        lam_image many = draw(scene, &params, LAM_RGBA32F, &report);
+        AUTO_IMAGE many = draw(scene, &params, LAM_RGBA32F, &report);
         const float *a = few.pixels, *b = many.pixels;
         for (int i = 0; i < CHANNELS; i++)
             if (memcmp(&a[i], &b[i], 4) != 0)
@@ -124,9 +113,6 @@ static void test_exact(void **state)
                          i / 4 % WIDTH, i / 4 / WIDTH, i % 4, (double)b[i], (double)a[i]);
         asked += report.lights_evaluated;
         all += report.points_lit * 34;
-        lam_image_free(&few);
-        lam_image_free(&many);
-        lam_scene_free(scene);
     }
     assert_true(asked * 10 < all); // at most 4 of 34 remain, and some of these are behind the surface
 }
@@ -161,35 +147,30 @@ static int largest_byte_difference(const lam_image *a, const lam_image *b)
 }
 
 // By default, no byte differs by more than 1, and far fewer lights are evaluated.
-static void test_default(void **state)
+TEST(test_default)
 {
-    (void)state;
     for (int way = 0; way < 8; way++) {
-        lam_scene *scene = make_many(way & 1, way & 2);
+        AUTO_SCENE scene = make_many(way & 1, way & 2);
         lam_draw_params params = {.rig = LAM_RIG_NONE, .color = way & 4 ? LAM_COLOR_RAW : LAM_COLOR_SRGB};
         lam_frame_report some, all;
-        lam_image picture = draw(scene, &params, LAM_RGBA8, &some);
+        AUTO_IMAGE picture = draw(scene, &params, LAM_RGBA8, &some);
         params.light_cutoff = -1;
-        lam_image whole = draw(scene, &params, LAM_RGBA8, &all);
+        AUTO_IMAGE whole = draw(scene, &params, LAM_RGBA8, &all);
         assert_in_range(largest_byte_difference(&picture, &whole), 0, 1);
         assert_true(all.points_lit == some.points_lit && all.lights_evaluated <= all.points_lit * 400);
         assert_true(some.lights_evaluated < all.lights_evaluated);
         if (way & 1)
             assert_true(some.lights_evaluated * 4 < some.points_lit * 400);
-        lam_image_free(&picture);
-        lam_image_free(&whole);
-        lam_scene_free(scene);
     }
 }
 
 // Linear pictures: the difference stays below the cutoff, with any cutoff, exposure and method; a larger cutoff saves
 // more. Terms use the same lights, and still add up.
-static void test_bound(void **state)
+TEST(test_bound)
 {
-    (void)state;
     static const float cutoffs[] = {-1, 0.001f, 0.05f, 0.5f};
     for (int way = 0; way < 6; way++) {
-        lam_scene *scene = make_many(way & 1, false);
+        AUTO_SCENE scene = make_many(way & 1, false);
         lam_draw_params params = {.rig = LAM_RIG_NONE,
                                   .samples = 1,
                                   .color = LAM_COLOR_RAW,
@@ -217,10 +198,9 @@ static void test_bound(void **state)
                 fail_msg("way %d: with a cutoff of %g the picture is off by %g", way, (double)cutoffs[c], most);
             for (int show = LAM_OUTPUT_AMBIENT; show <= LAM_OUTPUT_REFLECTION; show++) {
                 params.output = (lam_output)show;
-                lam_image term = draw(scene, &params, LAM_RGBA32F, &report);
+                AUTO_IMAGE term = draw(scene, &params, LAM_RGBA32F, &report);
                 for (int i = 0; i < CHANNELS; i++)
                     sums[i] += ((const float *)term.pixels)[i];
-                lam_image_free(&term);
             }
             params.output = LAM_OUTPUT_PICTURE;
             for (int i = 0; i < CHANNELS; i++)
@@ -229,53 +209,46 @@ static void test_bound(void **state)
             lam_image_free(&picture);
         }
         lam_image_free(&whole);
-        lam_scene_free(scene);
     }
 }
 
 // The bytes are the same with every instruction set and number of threads, also with many layers over one another.
-static void test_same_everywhere(void **state)
+TEST(test_same_everywhere)
 {
-    (void)state;
     for (int way = 0; way < 6; way++) {
-        lam_scene *scene = make_many(way & 1, way & 2);
+        AUTO_SCENE scene = make_many(way & 1, way & 2);
         lam_draw_params params = {.rig = LAM_RIG_NONE, .light_cutoff = 0.02f, .samples = way & 2 ? 16 : 4};
         params.shading = way >= 4 ? LAM_SHADING_GOURAUD : LAM_SHADING_PHONG;
         lam_frame_report first, other;
-        lam_image expected = draw_with(LAM_ISA_SCALAR, 1, scene, &params, LAM_RGBA8, &first);
+        AUTO_IMAGE expected = draw_with(LAM_ISA_SCALAR, 1, scene, &params, LAM_RGBA8, &first);
         for (int isa = LAM_ISA_SCALAR; isa < LAM_ISA_COUNT; isa++)
             for (int threads = 1; threads <= 3 && lam_isa_usable((lam_isa)isa); threads++) {
-                lam_image picture = draw_with((lam_isa)isa, threads, scene, &params, LAM_RGBA8, &other);
+                AUTO_IMAGE picture = draw_with((lam_isa)isa, threads, scene, &params, LAM_RGBA8, &other);
                 assert_memory_equal(picture.pixels, expected.pixels, CHANNELS);
                 assert_int_equal(first.lights_evaluated, other.lights_evaluated);
-                lam_image_free(&picture);
             }
-        lam_image_free(&expected);
-        lam_scene_free(scene);
     }
 }
 
 // An explained pixel equals the picture's; its lights state which are omitted, and the others add up.
-static void test_explained(void **state)
+TEST(test_explained)
 {
-    (void)state;
     lam_error error = {0};
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){0.4, 0.9, 3.4};
     camera.target = (lam_vec3){0, 0, 0};
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     int left_out = 0, reported = 0;
     for (int way = 0; way < 6; way++) {
-        lam_scene *scene = make_many(way & 1, way == 5);
+        AUTO_SCENE scene = make_many(way & 1, way == 5);
         lam_draw_params params = {.rig = LAM_RIG_NONE, .samples = way < 3 ? 1 : 4, .light_cutoff = 0.05f};
         params.shading = (lam_shading)(way % 3);
         lam_frame_report report;
-        lam_image picture = draw(scene, &params, LAM_RGBA8, &report);
+        AUTO_IMAGE picture = draw(scene, &params, LAM_RGBA8, &report);
         for (int at = 0; at < WIDTH * HEIGHT; at += 1487) {
             lam_explanation *e = lam_explain(device, scene, &camera, &params, WIDTH, HEIGHT, LAM_RGBA8, at % WIDTH,
                                              at / WIDTH, NULL, &error);
-            if (!e)
-                fail_msg("%s", error.text);
+            SUCCEEDS(e);
             assert_memory_equal(e->bytes, (const uint8_t *)picture.pixels + 4 * at, 4);
             for (int f = 0; f < e->fragment_count; f++)
                 for (int p = 0; p < e->fragments[f].point_count; p++) {
@@ -291,20 +264,16 @@ static void test_explained(void **state)
                 }
             lam_explanation_free(e);
         }
-        lam_image_free(&picture);
-        lam_scene_free(scene);
     }
     assert_true(reported > 20 && left_out > 100);
-    lam_device_free(device);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
-    lam_scene *scene = make_scene(false);
-    lam_device *device = lam_device_null(NULL);
+    AUTO_SCENE scene = make_scene(false);
+    AUTO_DEVICE device = lam_device_null(NULL);
     lam_camera camera = lam_camera_default();
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, 8, 8, LAM_RGBA8, NULL));
     const float bad[] = {1.5f, NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 4; i++) {
@@ -314,16 +283,4 @@ static void test_refused(void **state)
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
         assert_non_null(strstr(error.text, "light_cutoff"));
     }
-    lam_image_free(&image);
-    lam_device_free(device);
-    lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_exact),           cmocka_unit_test(test_default),   cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_same_everywhere), cmocka_unit_test(test_explained), cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,6 @@
 // test_materials.c: the default material and the named materials; default lights, their checks, and the rigs.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "test.h"
 
 #include <lambent/fields.h>
 #include <lambent/light.h>
@@ -84,9 +76,8 @@ static void assert_numbers(lam_material_id id, const double n[10])
     }
 }
 
-static void test_named(void **state)
+TEST(test_named)
 {
-    (void)state;
     assert_int_equal(sizeof published / sizeof *published, LAM_MATERIAL_COUNT);
     assert_int_equal(LAM_MATERIAL_COUNT, 24);
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
@@ -107,9 +98,8 @@ static void test_named(void **state)
     assert_memory_equal(&none.ambient, &grey.ambient, sizeof none.ambient);
 }
 
-static void test_find(void **state)
+TEST(test_find)
 {
-    (void)state;
     assert_int_equal(lam_material_find("Black Plastic"), LAM_MATERIAL_BLACK_PLASTIC);
     assert_int_equal(lam_material_find("BLACK_PLASTIC"), LAM_MATERIAL_BLACK_PLASTIC);
     assert_int_equal(lam_material_find("bRaSs"), LAM_MATERIAL_BRASS);
@@ -119,9 +109,8 @@ static void test_find(void **state)
     assert_int_equal(lam_material_find(NULL), LAM_MATERIAL_COUNT);
 }
 
-static void test_default_material(void **state)
+TEST(test_default_material)
 {
-    (void)state;
     lam_material m = lam_material_default();
     assert_true(m.diffuse.a == 1.0f && m.illum == -1 && m.name == NULL);
     assert_true(m.diffuse.r == m.diffuse.g && m.diffuse.g == m.diffuse.b); // neutral
@@ -130,9 +119,8 @@ static void test_default_material(void **state)
 
 // --- Lights
 
-static void test_default_lights(void **state)
+TEST(test_default_lights)
 {
-    (void)state;
     for (int type = LAM_LIGHT_AMBIENT; type <= LAM_LIGHT_SPOT; type++) {
         lam_light light = lam_light_default((lam_light_type)type);
         lam_error error = {0};
@@ -161,8 +149,7 @@ static void refused(const lam_light *light, const char *field)
 static void accepted(const lam_light *light)
 {
     lam_error error = {0};
-    if (!lam_light_check(light, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_light_check(light, &error));
 }
 
 // Sets a field of a light to an invalid number and expects an error that names it; lights of other types accept it.
@@ -179,9 +166,8 @@ static void accepted(const lam_light *light)
         accepted(&right_);                                                                                             \
     } while (0)
 
-static void test_light_checks(void **state)
+TEST(test_light_checks)
 {
-    (void)state;
     BAD(LAM_LIGHT_AMBIENT, ambient.r, -0.1f);
     BAD(LAM_LIGHT_POINT, ambient.g, NAN);
     BAD(LAM_LIGHT_POINT, diffuse.b, INFINITY);
@@ -233,9 +219,8 @@ static void test_light_checks(void **state)
 
 // --- Rigs
 
-static void test_rigs(void **state)
+TEST(test_rigs)
 {
-    (void)state;
     lam_light lights[LAM_RIG_LIGHTS_MAX];
     assert_int_equal(lam_rig_lights(LAM_RIG_AUTO, lights), 0);
     assert_int_equal(lam_rig_lights(LAM_RIG_NONE, lights), 0);
@@ -263,9 +248,8 @@ static void test_rigs(void **state)
 
 // Diffuse and ambient light of the rig on the default material, over all visible directions and camera elevations:
 // never nearly black, never clipped.
-static void test_studio_range(void **state)
+TEST(test_studio_range)
 {
-    (void)state;
     lam_light lights[LAM_RIG_LIGHTS_MAX];
     int count = lam_rig_lights(LAM_RIG_STUDIO, lights);
     lam_material m = lam_material_default();
@@ -323,9 +307,8 @@ static void check_material_field(lam_scene *scene, const lam_field *field)
     }
 }
 
-static void test_fields(void **state)
+TEST(test_fields)
 {
-    (void)state;
     lam_scene *scene = lam_scene_make(NULL);
     assert_non_null(scene);
     int count = 0;
@@ -364,19 +347,4 @@ static void test_fields(void **state)
         }
         assert_true(lam_light_check(&light, NULL));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_named),
-        cmocka_unit_test(test_find),
-        cmocka_unit_test(test_default_material),
-        cmocka_unit_test(test_default_lights),
-        cmocka_unit_test(test_light_checks),
-        cmocka_unit_test(test_rigs),
-        cmocka_unit_test(test_studio_range),
-        cmocka_unit_test(test_fields),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

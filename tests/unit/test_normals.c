@@ -1,16 +1,9 @@
 // test_normals.c: smooth and facet normals.
 // The file has more than 600 lines because it contains a test for each rule, each kind of file that once failed, and
 // the reference for all of them.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
+#include "test.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "arena.h"
@@ -74,8 +67,8 @@ static void visible_as_all(const lam_mesh *mesh, double crease_degrees, struct p
         lam_mesh bare = *mesh;
         bare.normals = NULL;
         bare.normal_indices = NULL;
-        if (!make_some(&bare, firsts[k], takes[k], lanes[k], RADIANS(crease_degrees), &visible, &arena, pool, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(
+            make_some(&bare, firsts[k], takes[k], lanes[k], RADIANS(crease_degrees), &visible, &arena, pool, &error));
         uint32_t *same = arena_array(&arena, mesh->normal_count, sizeof *same), members = 0;
         uint8_t *wanted = arena_alloc_zeroed(&arena, (size_t)visible.used + 1);
         memset(same, 0xff, mesh->normal_count * sizeof *same);
@@ -156,8 +149,7 @@ static void all_as_one_by_one(const lam_mesh *mesh, double crease_degrees)
 static void smooth(lam_mesh *mesh, double crease_degrees, struct arena *arena, struct pool *pool)
 {
     lam_error error = {0};
-    if (!normals_smooth(mesh, RADIANS(crease_degrees), arena, pool, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(normals_smooth(mesh, RADIANS(crease_degrees), arena, pool, NULL, &error));
     for (size_t c = 0; c < 3 * (size_t)mesh->triangle_count; c++)
         assert_true(mesh->normal_indices[c] < mesh->normal_count);
     all_as_one_by_one(mesh, crease_degrees);
@@ -191,9 +183,8 @@ static lam_mesh cube(void)
     return (lam_mesh){.positions = cube_positions, .vertex_count = 8, .indices = cube_indices, .triangle_count = 12};
 }
 
-static void test_cube(void **state)
+TEST(test_cube)
 {
-    (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
     lam_mesh mesh = cube();
@@ -235,9 +226,8 @@ static void add_weighted(double sum[3], const double v[3], double weight)
 
 // A tip where three triangles of areas about 1 : 10 : 100, and angles from 20° to 150°, meet; in metres, micrometres
 // and light years.
-static void test_area_times_angle(void **state)
+TEST(test_area_times_angle)
 {
-    (void)state;
     static const double scales[] = {1, 1e-6, 1e16, 1e-30, 1e34};
     for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
         struct arena arena;
@@ -275,9 +265,8 @@ static void test_area_times_angle(void **state)
 
 // The wall of a cylinder as CAD programs write it: between its facets there are slivers, whose normals are tilted by
 // the rounding of their corners, here by 20°. Weighted by the angle alone, they would tilt the wall's normals by 10°.
-static void test_slivers_do_not_streak(void **state)
+TEST(test_slivers_do_not_streak)
 {
-    (void)state;
     enum { SIDES = 180, POINTS = 2 * SIDES };
     struct arena arena;
     arena_start(&arena, NULL);
@@ -303,9 +292,8 @@ static void test_slivers_do_not_streak(void **state)
     arena_free(&arena);
 }
 
-static void test_facet(void **state)
+TEST(test_facet)
 {
-    (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
     lam_mesh mesh = cube();
@@ -323,10 +311,9 @@ static void test_facet(void **state)
     arena_free(&arena);
 }
 
-static void test_sphere(void **state)
+TEST(test_sphere)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     struct arena arena;
     arena_start(&arena, NULL);
     double before = 0;
@@ -347,14 +334,12 @@ static void test_sphere(void **state)
         before = worst;
     }
     arena_free(&arena);
-    lam_scene_free(scene);
 }
 
 // --- Welding
 
-static void test_weld(void **state)
+TEST(test_weld)
 {
-    (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
     // Two triangles of a roof (30°) without shared vertices; the common edge is once written with −0.
@@ -373,9 +358,8 @@ static void test_weld(void **state)
     arena_free(&arena);
 }
 
-static void test_smoothing_groups(void **state)
+TEST(test_smoothing_groups)
 {
-    (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
     // A strip of three triangles in a plane; only the groups determine which normals may be shared.
@@ -403,9 +387,8 @@ static void test_smoothing_groups(void **state)
 
 // --- Odd triangles
 
-static void test_degenerate(void **state)
+TEST(test_degenerate)
 {
-    (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
     // A floor triangle, a needle along its edge (two equal corners), one with three equal corners, and a separate line.
@@ -448,9 +431,8 @@ static void test_degenerate(void **state)
     arena_free(&arena);
 }
 
-static void test_bow_tie(void **state)
+TEST(test_bow_tie)
 {
-    (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
     // The tips of two pyramids touch at vertex 0, without a common edge: two normals there, for any crease.
@@ -467,9 +449,8 @@ static void test_bow_tie(void **state)
 
 // Closed vertices are not welded to others at their position, open ones are: three octahedra in the same place, the
 // last without its face towards +x +y +z.
-static void test_closed_vertices(void **state)
+TEST(test_closed_vertices)
 {
-    (void)state;
     static const float points[6][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     static const uint32_t faces[] = {1, 0, 5, 2, 4, 0, 2, 1, 3, 0, 4, 5, 1, 5, 3, 2, 3, 4, 3, 5, 4, 0, 1, 2};
     float p[18][3];
@@ -496,9 +477,8 @@ static void test_closed_vertices(void **state)
     arena_free(&arena);
 }
 
-static void test_inconsistent_winding(void **state)
+TEST(test_inconsistent_winding)
 {
-    (void)state;
     struct arena arena;
     arena_start(&arena, NULL);
     static const float p[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
@@ -516,10 +496,9 @@ static void test_inconsistent_winding(void **state)
 
 // --- One result for any number of threads
 
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     struct arena arena;
     arena_start(&arena, NULL);
     int index = lam_scene_add_shape(scene, "teapot", &(lam_shape_params){.slices = 200, .stacks = 40}, NULL);
@@ -558,16 +537,14 @@ static void test_threads(void **state)
     free(counted);
     free(soup);
     arena_free(&arena);
-    lam_scene_free(scene);
 }
 
 // --- Meshes designed to be slow: each must take about as long as any other mesh of its size
 
 // Triangles between random points of all magnitudes, some of them equal, some zeros with a sign; most positions have
 // few corners, some very many.
-static void test_random(void **state)
+TEST(test_random)
 {
-    (void)state;
     enum { POINTS = 1400, TRIANGLES = 3000 };
     static float positions[3 * POINTS];
     static uint32_t indices[3 * TRIANGLES], groups[TRIANGLES];
@@ -611,9 +588,8 @@ static void within_seconds(clock_t start, double seconds)
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < seconds);
 }
 
-static void test_crowd_at_one_vertex(void **state)
+TEST(test_crowd_at_one_vertex)
 {
-    (void)state;
     enum { COUNT = 200000 }; // quadratic time would be minutes
     struct arena arena;
     arena_start(&arena, NULL);
@@ -677,9 +653,8 @@ static uint32_t inverse(uint32_t odd) // modulo 2³², by Newton's steps
 
 // Positions that all have the same hash, found by inverting it: they reach the limit of probes. Each of them once, with
 // and without indices, and twice.
-static void test_colliding_positions(void **state)
+TEST(test_colliding_positions)
 {
-    (void)state;
     enum { COUNT = 60000 };
     struct arena arena;
     arena_start(&arena, NULL);
@@ -719,9 +694,8 @@ static void test_colliding_positions(void **state)
 }
 
 // Positions whose hashes have the same first bits, so that one part of the table gets them all.
-static void test_one_part_of_the_table(void **state)
+TEST(test_one_part_of_the_table)
 {
-    (void)state;
     enum { COUNT = 60000 };
     struct arena arena;
     arena_start(&arena, NULL);
@@ -753,10 +727,9 @@ static void test_one_part_of_the_table(void **state)
 
 // --- Controls
 
-static void test_controls(void **state)
+TEST(test_controls)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     int index = lam_scene_add_shape(scene, "sphere", NULL, NULL);
     const lam_mesh mesh = *lam_scene_mesh(scene, index);
     lam_cancel cancel = {0};
@@ -805,29 +778,4 @@ static void test_controls(void **state)
         assert_true(done || error.code == LAM_MACHINE);
         arena_free(&arena);
     }
-    lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cube),
-        cmocka_unit_test(test_area_times_angle),
-        cmocka_unit_test(test_slivers_do_not_streak),
-        cmocka_unit_test(test_facet),
-        cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_weld),
-        cmocka_unit_test(test_smoothing_groups),
-        cmocka_unit_test(test_degenerate),
-        cmocka_unit_test(test_bow_tie),
-        cmocka_unit_test(test_closed_vertices),
-        cmocka_unit_test(test_inconsistent_winding),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_crowd_at_one_vertex),
-        cmocka_unit_test(test_colliding_positions),
-        cmocka_unit_test(test_one_part_of_the_table),
-        cmocka_unit_test(test_controls),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,7 @@
 // test_number.c: numbers are rounded correctly, compared with the C library on random and hard cases.
+#include "test.h"
 #include "number.h"
 #include "number_scan.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <cmocka.h>
 
 static uint64_t state = 88172645463325252u;
 
@@ -72,9 +66,8 @@ static void check(const char *text)
     free(padded);
 }
 
-static void test_forms(void **unused)
+TEST(test_forms)
 {
-    (void)unused;
     static const char *const texts[] = {
         "0",
         "-0",
@@ -189,9 +182,8 @@ static void test_forms(void **unused)
 }
 
 // Plain decimals as in files.
-static void test_plain(void **unused)
+TEST(test_plain)
 {
-    (void)unused;
     char text[128];
     for (int i = 0; i < 400000; i++) {
         uint64_t r = random64();
@@ -203,9 +195,8 @@ static void test_plain(void **unused)
 }
 
 // Random bits, printed short and long, with and without an exponent.
-static void test_random(void **unused)
+TEST(test_random)
 {
-    (void)unused;
     char text[1200];
     for (int i = 0; i < 300000; i++) {
         uint64_t bits = random64();
@@ -229,9 +220,8 @@ static void test_random(void **unused)
 }
 
 // The exact midpoint of two neighbours, and numbers just above and below it.
-static void test_middles(void **unused)
+TEST(test_middles)
 {
-    (void)unused;
     static char text[2400];
     for (int i = 0; i < 4000; i++) {
         double middle;
@@ -277,9 +267,8 @@ static void test_middles(void **unused)
     }
 }
 
-static void test_long(void **unused)
+TEST(test_long)
 {
-    (void)unused;
     static char text[3000];
     for (int i = 0; i < 2000; i++) {
         size_t length = 20 + (size_t)(random64() % 900), point = (size_t)(random64() % length);
@@ -290,9 +279,8 @@ static void test_long(void **unused)
     }
 }
 
-static void test_int(void **unused)
+TEST(test_int)
 {
-    (void)unused;
     static const struct {
         const char *text;
         int length; // −1: refused
@@ -322,13 +310,4 @@ static void test_int(void **unused)
             assert_true(value == rows[i].value);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_forms),   cmocka_unit_test(test_plain), cmocka_unit_test(test_random),
-        cmocka_unit_test(test_middles), cmocka_unit_test(test_long),  cmocka_unit_test(test_int),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,18 +2,10 @@
 // number of threads and the size of chunks.
 // The file has more than 600 lines because it contains a table-like test for each feature and error message of one
 // format.
+#include "test.h"
 #include "obj.h"
 
 #include <lambent/image.h>
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <cmocka.h>
 
 // --- help
 
@@ -61,25 +53,22 @@ static void release_constant(void *user, struct lam_bytes *bytes)
     *(int *)user += 99;
 }
 
-static void releases_what_the_caller_opened(void **state)
+TEST(releases_what_the_caller_opened)
 {
-    (void)state;
     static const char text[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
     int calls = 0;
     lam_load_params params = {.threads = 1, .open = open_constant, .release = release_constant, .user = &calls};
-    lam_scene *scene = lam_scene_load_memory(text, sizeof text - 1, "t.obj", &params, NULL, NULL);
+    AUTO_SCENE scene = lam_scene_load_memory(text, sizeof text - 1, "t.obj", &params, NULL, NULL);
     assert_non_null(scene);
     assert_int_equal(calls, 100); // opened once, released once
     assert_true(lam_scene_material(scene, 0)->diffuse.r == 1);
-    lam_scene_free(scene);
 }
 
 static lam_scene *load(const char *text)
 {
     lam_error error;
     lam_scene *scene = load_with(text, (lam_load_params){0}, NULL, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     return scene;
 }
 
@@ -100,13 +89,11 @@ static void expect_error(const char *text, lam_code code, const char *sentence)
 static void expect_warning(const char *text, const struct library *libraries, const char *sentence)
 {
     lam_error error = {0};
-    lam_scene *scene = load_with(text, (lam_load_params){0}, libraries, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    AUTO_SCENE scene = load_with(text, (lam_load_params){0}, libraries, &error);
+    SUCCEEDS(scene);
     assert_non_null(lam_scene_warning(scene, 0));
     assert_string_equal(lam_scene_warning(scene, 0), sentence);
     assert_null(lam_scene_warning(scene, 1));
-    lam_scene_free(scene);
 }
 
 static const float *position(const lam_mesh *mesh, uint32_t corner)
@@ -130,9 +117,8 @@ static void expect_part(const lam_mesh *mesh, uint32_t index, const char *name, 
 
 // --- faces
 
-static void test_face_forms(void **unused)
+TEST(test_face_forms)
 {
-    (void)unused;
     static const char *const forms[] = {
         TRIANGLE "f 1 2 3\n",
         TRIANGLE "f 1 2 3", // no line end
@@ -152,7 +138,7 @@ static void test_face_forms(void **unused)
     };
     static const float expected[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
-        lam_scene *scene = load(forms[i]);
+        AUTO_SCENE scene = load(forms[i]);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         assert_int_equal(mesh->triangle_count, 1);
         for (uint32_t c = 0; c < 3; c++)
@@ -161,14 +147,12 @@ static void test_face_forms(void **unused)
         assert_null(lam_scene_warning(scene, 0));
         assert_string_equal(lam_scene_format(scene), "obj");
         assert_int_equal(lam_scene_up(scene), LAM_UP_Y);
-        lam_scene_free(scene);
     }
 }
 
-static void test_attributes(void **unused)
+TEST(test_attributes)
 {
-    (void)unused;
-    lam_scene *scene = load(SQUARE "vt 0 0\nvt 1\nvt 0.5 0.25 7\nvn 0 0 1\nvn 0 1 0\n"
+    AUTO_SCENE scene = load(SQUARE "vt 0 0\nvt 1\nvt 0.5 0.25 7\nvn 0 0 1\nvn 0 1 0\n"
                                    "f 1/1/1 2/2/2 3/3/-1\nf -4/-3/-2 3/-1/2 4//1\n");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->triangle_count, 2);
@@ -179,13 +163,11 @@ static void test_attributes(void **unused)
     static const float numbers[8] = {0, 0, 1, 0, 0.5f, 0.25f, 0, 0};
     assert_memory_equal(mesh->texcoords, numbers, sizeof numbers);
     assert_true(mesh->normals[3] == 0 && mesh->normals[4] == 1 && mesh->normals[5] == 0);
-    lam_scene_free(scene);
 }
 
 // Corners with normals keep them; faces without normals get computed ones.
-static void test_missing_normals(void **unused)
+TEST(test_missing_normals)
 {
-    (void)unused;
     const char *text = SQUARE "vn 1 0 0\nf 1//1 2//1 3//1\nf 1 3 4\n";
     lam_scene *scene = load(text);
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
@@ -203,9 +185,8 @@ static void test_missing_normals(void **unused)
     lam_scene_free(scene);
 }
 
-static void test_polygons(void **unused)
+TEST(test_polygons)
 {
-    (void)unused;
     // A concave quad and a concave pentagon next to a triangle; attributes follow their corners.
     lam_scene *scene =
         load("v 0 0 0\nv 2 0 0\nv 0.3 0.3 0\nv 0 2 0\nv 2 2 0\nvt 0 0\nvt 2 0\nvt 0.3 0.3\nvt 0 2\nvt 2 2\n"
@@ -228,9 +209,8 @@ static void test_polygons(void **unused)
 }
 
 // One face of a few thousand corners, written on continued lines.
-static void test_large_polygon(void **unused)
+TEST(test_large_polygon)
 {
-    (void)unused;
     enum { HALF = 3000 };
     char *text = malloc(64 * 2 * HALF), *at = text;
     for (int i = 0; i < HALF; i++)
@@ -241,15 +221,13 @@ static void test_large_polygon(void **unused)
     for (int i = 1; i <= 2 * HALF; i++)
         at += sprintf(at, i % 10 ? " %d" : " %d\\\n", i);
     at += sprintf(at, "\n");
-    lam_scene *scene = load(text);
+    AUTO_SCENE scene = load(text);
     assert_int_equal(lam_scene_triangle_count(scene), 2 * HALF - 2);
-    lam_scene_free(scene);
     free(text);
 }
 
-static void test_warnings(void **unused)
+TEST(test_warnings)
 {
-    (void)unused;
     expect_warning(TRIANGLE "f 1 2 3\nf 1 2\nf\nf 3\n", NULL,
                    "t.obj:5: a face of fewer than three corners is ignored, the first of 3");
     expect_warning(TRIANGLE "l 1\nf 1 2 3\nl\nl 2 3\n", NULL, "t.obj: 2 lines of fewer than two vertices are ignored");
@@ -282,9 +260,8 @@ static void test_warnings(void **unused)
                    "t.obj: vertex colours reach 255, so their range is taken as 0 to 255, not 0 to 1");
 }
 
-static void test_errors(void **unused)
+TEST(test_errors)
 {
-    (void)unused;
     expect_error("v 0 0\n" TRIANGLE "f 1 2 3\n", LAM_CANNOT_READ,
                  "t.obj:1: found the end of the line, expected a coordinate (v x y z)");
     expect_error(TRIANGLE "v 1 2 x3\nf 1 2 3\n", LAM_CANNOT_READ,
@@ -336,9 +313,8 @@ static void test_errors(void **unused)
 
 // --- parts, groups, smoothing
 
-static void test_parts(void **unused)
+TEST(test_parts)
 {
-    (void)unused;
     static const struct library libraries[] = {
         {"my red.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue sky\nKd 0 0 1\n"},
         {"b.mtl", "newmtl green\nKd 0 1 0\nnewmtl red\nKd 0 0 0\n"},
@@ -380,9 +356,8 @@ static void test_parts(void **unused)
     lam_scene_free(scene);
 }
 
-static void test_smoothing(void **unused)
+TEST(test_smoothing)
 {
-    (void)unused;
     lam_scene *scene = load(SQUARE "f 1 2 3\ns 3\nf 1 2 3\nf 1 3 4\ns off\nf 1 2 3\ns 1\nf 1 2 3\ns 0\nf 1 3 4\n");
     static const uint32_t groups[] = {0, 3, 3, 0, 1, 0};
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
@@ -395,9 +370,8 @@ static void test_smoothing(void **unused)
 
 // --- numbers
 
-static void test_colors(void **unused)
+TEST(test_colors)
 {
-    (void)unused;
     lam_error error;
     const char *text = "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0.25 1 1 1\nf 1 2 3\n";
     lam_scene *scene = load_with(text, (lam_load_params){.color = LAM_COLOR_RAW}, NULL, &error);
@@ -415,22 +389,19 @@ static void test_colors(void **unused)
 }
 
 // Vertex colours of ZBrush: eight hexadecimal digits for each vertex, on several lines; the others are white.
-static void test_mrgb(void **unused)
+TEST(test_mrgb)
 {
-    (void)unused;
     lam_error error;
     const char *text = SQUARE "#MRGB ffff0000FF00ff33\n#MRGB 003300ff12\nf 1 2 3 4\n";
-    lam_scene *scene = load_with(text, (lam_load_params){.color = LAM_COLOR_RAW}, NULL, &error);
+    AUTO_SCENE scene = load_with(text, (lam_load_params){.color = LAM_COLOR_RAW}, NULL, &error);
     static const float colors[16] = {1, 0, 0, 1, 0, 1, 0.2f, 1, 0.2f, 0, 1, 1, 1, 1, 1, 1};
     assert_memory_equal(lam_scene_mesh(scene, 0)->colors, colors, sizeof colors);
     assert_null(lam_scene_warning(scene, 0));
-    lam_scene_free(scene);
 }
 
 // A file of vertices only is a cloud of points, with one normal for each vertex or none.
-static void test_cloud(void **unused)
+TEST(test_cloud)
 {
-    (void)unused;
     lam_scene *scene = load("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nvn 0 0 1\nvn 0 1 0\n");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->point_count, 2);
@@ -444,9 +415,8 @@ static void test_cloud(void **unused)
 }
 
 // A detail of a millimetre is preserved 500 km from zero.
-static void test_origin(void **unused)
+TEST(test_origin)
 {
-    (void)unused;
     lam_scene *scene =
         load("v 500000.001 4e6 -7.0005\nv 500001.002 4000000.5 -7\nv 500000.003 4000001.25 -6\nf 1 2 3\n");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
@@ -474,9 +444,8 @@ static const lam_material *load_material(const char *mtl, lam_color_mode color, 
     return lam_scene_material(*scene, 0);
 }
 
-static void test_mtl(void **unused)
+TEST(test_mtl)
 {
-    (void)unused;
     lam_scene *scene;
     const lam_material *m =
         load_material("# x\r\n\tnewmtl  shiny \r\nKa 0.1 0.2 0.3\r\nKd 0.5 0.25 1\r\nKs 1 1 1\r\nKe 2\r\n"
@@ -507,9 +476,8 @@ static void test_mtl(void **unused)
 }
 
 // A black Kd under a map is white, whatever the other colours are.
-static void test_mtl_black(void **unused)
+TEST(test_mtl_black)
 {
-    (void)unused;
     static const struct {
         const char *mtl;
         float diffuse;
@@ -533,9 +501,8 @@ static void test_mtl_black(void **unused)
 }
 
 // '#' begins a comment after white space, and options may follow the name of a map.
-static void test_names(void **unused)
+TEST(test_names)
 {
-    (void)unused;
     static const struct {
         const char *statement, *name, *options; // a map_Kd
     } rows[] = {
@@ -568,17 +535,15 @@ static void test_names(void **unused)
     }
     static const struct library libraries[] = {{"a.mtl", "newmtl x#1\nKd 1 0 0\n"}, {NULL, NULL}};
     lam_error error;
-    lam_scene *scene = load_with("mtllib a.mtl # the file\n" TRIANGLE "usemtl x#1 # red\ng part # 1\nf 1 2 3\n",
+    AUTO_SCENE scene = load_with("mtllib a.mtl # the file\n" TRIANGLE "usemtl x#1 # red\ng part # 1\nf 1 2 3\n",
                                  (lam_load_params){0}, libraries, &error);
     assert_null(lam_scene_warning(scene, 0));
     expect_part(lam_scene_mesh(scene, 0), 0, "part", 0, 1, 0);
-    lam_scene_free(scene);
 }
 
 // Ns 0 removes the highlight if there is one; a small exponent does not.
-static void test_mtl_exponents(void **unused)
+TEST(test_mtl_exponents)
 {
-    (void)unused;
     static const struct {
         const char *mtl;
         float specular, shininess;
@@ -597,9 +562,8 @@ static void test_mtl_exponents(void **unused)
     }
 }
 
-static void test_mtl_maps(void **unused)
+TEST(test_mtl_maps)
 {
-    (void)unused;
     lam_scene *scene;
     const lam_material *m = load_material("newmtl a\nmap_Kd -s 1 1 1 -o 0.5 0 -clamp on my picture.png\nmap_Ka\n"
                                           "map_Bump -bm 0.5 b.png\nrefl -type sphere r.png\nnorm n.png\ndisp -s 2 7\n"
@@ -627,9 +591,8 @@ static void test_mtl_maps(void **unused)
 }
 
 // Options with invalid or absurd numbers: a warning each, and the map without the option.
-static void test_mtl_options(void **unused)
+TEST(test_mtl_options)
 {
-    (void)unused;
     static const struct {
         const char *mtl, *sentence;
     } rows[] = {
@@ -669,9 +632,8 @@ static void test_mtl_options(void **unused)
     }
 }
 
-static void test_mtl_warnings(void **unused)
+TEST(test_mtl_warnings)
 {
-    (void)unused;
     static const struct {
         const char *mtl, *sentence;
     } rows[] = {
@@ -702,9 +664,8 @@ static void test_mtl_warnings(void **unused)
 
 // If the picture would be empty, everything is drawn opaque, because MeshLab writes Tr 1 for opaque materials. One
 // warning states this.
-static void test_clear(void **unused)
+TEST(test_clear)
 {
-    (void)unused;
 #define OPAQUE "; the picture would be empty, so everything is drawn opaque"
     static const struct {
         const char *faces, *mtl;
@@ -735,7 +696,7 @@ static void test_clear(void **unused)
         char text[300];
         lam_error error;
         snprintf(text, sizeof text, "mtllib a.mtl\n" TRIANGLE "%s", rows[i].faces);
-        lam_scene *scene = load_with(text, (lam_load_params){0}, libraries, &error);
+        AUTO_SCENE scene = load_with(text, (lam_load_params){0}, libraries, &error);
         assert_non_null(scene);
         float a = lam_scene_material(scene, 0)->diffuse.a, b = lam_scene_material(scene, 1)->diffuse.a;
         const char *warning = lam_scene_warning(scene, 0);
@@ -743,7 +704,6 @@ static void test_clear(void **unused)
             (warning ? strcmp(warning, rows[i].warning ? rows[i].warning : "") != 0 : rows[i].warning != NULL))
             fail_msg("row %zu: %g, %g, %s", i, (double)a, (double)b, warning ? warning : "no warning");
         assert_null(lam_scene_warning(scene, warning ? 1 : 0));
-        lam_scene_free(scene);
     }
 }
 
@@ -814,9 +774,8 @@ static void expect_equal(const struct lam_scene *a, const struct lam_scene *b)
         assert_string_equal(lam_scene_warning(a, i), lam_scene_warning(b, i));
 }
 
-static void test_threads_and_chunks(void **unused)
+TEST(test_threads_and_chunks)
 {
-    (void)unused;
     lam_error error;
     static const char text[] = MIXED MIXED MIXED MIXED;
     struct lam_scene *plain = load_chunked(text, strlen(text), 1 << 20, NULL, &error);
@@ -843,9 +802,8 @@ static void test_threads_and_chunks(void **unused)
 }
 
 // Every prefix of a file loads or fails with an error, and so does the file with any one byte changed.
-static void test_damage(void **unused)
+TEST(test_damage)
 {
-    (void)unused;
     static const char text[] = MIXED;
     static const char bytes[] = {0, '\n', '\\', '#', '/', '-', ' ', 'f', '9', '\r', (char)0xff};
     for (size_t size = 0; size < sizeof text; size++) {
@@ -867,9 +825,8 @@ static void test_damage(void **unused)
     }
 }
 
-static void test_memory(void **unused)
+TEST(test_memory)
 {
-    (void)unused;
     static const struct library libraries[] = {{"a.mtl", "newmtl x\nKd 1 1 1\nmap_Kd -s 1 1 1 a.png\n"}, {NULL, NULL}};
     for (long countdown = 0; countdown < 1000; countdown++) {
         lam_error error = {0};
@@ -889,9 +846,8 @@ static void test_memory(void **unused)
     fail();
 }
 
-static void test_control(void **unused)
+TEST(test_control)
 {
-    (void)unused;
     lam_cancel cancel = {0};
     lam_cancel_raise(&cancel);
     lam_error error;
@@ -902,37 +858,4 @@ static void test_control(void **unused)
     control = (lam_control){.memory_limit_bytes = 1000};
     assert_null(lam_scene_load_memory(text, strlen(text), "t.obj", NULL, &control, &error));
     assert_int_equal(error.code, LAM_LIMIT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(releases_what_the_caller_opened),
-        cmocka_unit_test(test_face_forms),
-        cmocka_unit_test(test_attributes),
-        cmocka_unit_test(test_missing_normals),
-        cmocka_unit_test(test_polygons),
-        cmocka_unit_test(test_large_polygon),
-        cmocka_unit_test(test_warnings),
-        cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_parts),
-        cmocka_unit_test(test_smoothing),
-        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_origin),
-        cmocka_unit_test(test_mtl),
-        cmocka_unit_test(test_mtl_maps),
-        cmocka_unit_test(test_mtl_options),
-        cmocka_unit_test(test_mtl_exponents),
-        cmocka_unit_test(test_clear),
-        cmocka_unit_test(test_mtl_warnings),
-        cmocka_unit_test(test_threads_and_chunks),
-        cmocka_unit_test(test_damage),
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_mrgb),
-        cmocka_unit_test(test_cloud),
-        cmocka_unit_test(test_mtl_black),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_control),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 // test_obj_large.c: large OBJ files read chunk by chunk give the same scene as files read as a whole.
+#include "test.h"
 #include "large_file.h"
 
 #include "obj.h"
@@ -162,9 +163,8 @@ static bool load_both(void)
 }
 
 // Typical files are read chunk by chunk.
-static void usual_files(void **state)
+TEST(usual_files)
 {
-    (void)state;
     const struct style styles[] = {
         {0},
         {.line_end = "\r\n"},
@@ -194,25 +194,22 @@ static void usual_files(void **state)
 }
 
 // A vertex that no face uses does not affect the bounds.
-static void unused_vertex(void **state)
+TEST(unused_vertex)
 {
-    (void)state;
     for (int quads = 0; quads < 2; quads++) {
         make((struct style){.quads = quads});
         add("v 0 0 99\n");
         assert_true(load_both());
         assert_true(served(2));
         lam_vec3 high;
-        lam_scene *scene = lam_scene_load(path, NULL, NULL, NULL);
+        AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, NULL);
         assert_true(lam_scene_bounds(scene, NULL, &high) && high.z < 1);
-        lam_scene_free(scene);
     }
 }
 
 // Groups, materials and smoothing groups between the faces. The warning about an undefined material contains its line.
-static void statements(void **state)
+TEST(statements)
 {
-    (void)state;
     make((struct style){.parts = true, .quads = true});
     assert_true(load_both());
     assert_true(served(2));
@@ -224,9 +221,8 @@ static void statements(void **state)
 }
 
 // Valid but unusual files are read as a whole.
-static void unusual_files(void **state)
+TEST(unusual_files)
 {
-    (void)state;
     const struct style styles[] = {
         {.far = 1e6},
         {.number = "%.6f 0.5 0.5", .first = "# colours\n"},
@@ -258,9 +254,8 @@ static void unusual_files(void **state)
 }
 
 // Line ends, continuations and comments at every position around the border of two pieces.
-static void edges(void **state)
+TEST(edges)
 {
-    (void)state;
     static const char *const lines[] = {"f 1 2 \\\n3\n", "# a comment \\\nf 4 5 6\n", "v 1 \\\r\n2 3\n", "\n\n\n",
                                         "f 123 4567 89\r\n"};
     make((struct style){0});
@@ -298,18 +293,16 @@ static void edges(void **state)
 }
 
 // Faces of vertices that are not finite are left out, also if the file is read in parts.
-static void not_finite(void **state)
+TEST(not_finite)
 {
-    (void)state;
     make((struct style){0});
     add("v nan 1e39 2\nf 1 2 44101\nf 1 2 3 44101 5\n");
     assert_true(load_both());
     assert_true(served(2));
 }
 
-static void errors_are_those_of_small_files(void **state)
+TEST(errors_are_those_of_small_files)
 {
-    (void)state;
     static const char *const wrong[] = {"f 1 2 44101\n", "f 0 1 2\n",      "f 1 2\n",          "v 1 2\n",
                                         "v 1 2x 2\n",    "f 1 2 x\n",      "v 1 2 3 x\n",      "vn 1 2\n",
                                         "hello\n",       "f 1 2 -44101\n", "f 1 2 99999999\n", "f 1 2 4294967297\n"};
@@ -344,18 +337,16 @@ static void errors_are_those_of_small_files(void **state)
     assert_false(served(2));
 }
 
-static void can_be_stopped(void **state)
+TEST(can_be_stopped)
 {
-    (void)state;
     make((struct style){0});
     write_file();
     check_stops(2 << 20);
 }
 
 // Each allocation fails once: the file is refused, or read as a whole; nothing leaks.
-static void memory(void **state)
+TEST(memory)
 {
-    (void)state;
     make((struct style){.normals = true, .corner = "%d//%d", .quads = true, .first = "o name\ng group\n"});
     write_file();
     int refused = 0;
@@ -367,18 +358,4 @@ static void memory(void **state)
     assert_in_range(refused, 5, 29);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(usual_files),
-        cmocka_unit_test(unused_vertex),
-        cmocka_unit_test(statements),
-        cmocka_unit_test(unusual_files),
-        cmocka_unit_test(edges),
-        cmocka_unit_test(not_finite),
-        cmocka_unit_test(errors_are_those_of_small_files),
-        cmocka_unit_test(can_be_stopped),
-        cmocka_unit_test(memory),
-    };
-    return cmocka_run_group_tests_name("large OBJ files", tests, start, stop);
-}
+FIXTURE(start, stop)

@@ -1,4 +1,5 @@
 // test_obj_lines.c: the fast reader of OBJ lines reads the same numbers as the C library.
+#include "test.h"
 #include "loading.h"
 
 #include "obj.h"
@@ -63,9 +64,8 @@ static void check(size_t size, uint64_t positions, uint64_t triangles)
         assert_true(reader.low[i] == low[i] && reader.high[i] == high[i]);
 }
 
-static void positions(void **state)
+TEST(positions)
 {
-    (void)state;
     static const char *const forms[] = {"%.6f",  "%.1f",  "%.2f", "%.7f", "%.8f", "%.9f", "%.10f", "%.14f",
                                         "%.15f", "%.18f", "%.9g", "%g",   "%.3e", "%.0f", "%+.5f", "%#.0f"};
     static const uint64_t digits[] = {10, 1000000, UINT64_C(1) << 53};
@@ -81,9 +81,8 @@ static void positions(void **state)
 }
 
 // Decimals next to the midpoint of two floats, where the rounding of a product must not decide.
-static void halves(void **state)
+TEST(halves)
 {
-    (void)state;
     size_t size = 0;
     for (int i = 0; i < LINES; i++) {
         text[size++] = 'v';
@@ -101,9 +100,8 @@ static void halves(void **state)
     check(size, LINES, 0);
 }
 
-static void triangles(void **state)
+TEST(triangles)
 {
-    (void)state;
     size_t size = 0;
     for (int i = 0; i < LINES; i++) {
         text[size++] = 'f';
@@ -120,9 +118,8 @@ static void triangles(void **state)
 }
 
 // Texture coordinates, normals, and faces of three to six corners that name what is kept: v/t, v//n or v/t/n.
-static void attributes(void **state)
+TEST(attributes)
 {
-    (void)state;
     enum { CORNERS = 6, COUNT = LINES / 20 };
     static uint32_t corners[3][3 * (CORNERS - 2) * COUNT], read[3][3 * (CORNERS - 2) * COUNT];
     static struct mesh_polygon polygons[COUNT];
@@ -205,9 +202,8 @@ static const uint8_t *read_line_by_line(struct obj_reader *reader, const uint8_t
     return line;
 }
 
-static void damaged_faces(void **state)
+TEST(damaged_faces)
 {
-    (void)state;
     enum { CORNERS = 16 };
     static const char *const forms[] = {"f %u %u %u\n", "f %u/%u %u/%u %u/%u\n", "f %u//%u %u//%u %u//%u\r\n",
                                         "f %u/%u/%u %u/%u/%u %u/%u/%u\n"};
@@ -266,9 +262,8 @@ static void damaged_faces(void **state)
 }
 
 // The fast path refuses lines of another form.
-static void others(void **state)
+TEST(others)
 {
-    (void)state;
     static const struct {
         const char *line;
         int positions, triangles; // that it makes; −1 if it is refused
@@ -352,11 +347,4 @@ static int stop(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(positions),  cmocka_unit_test(halves),        cmocka_unit_test(triangles),
-        cmocka_unit_test(attributes), cmocka_unit_test(damaged_faces), cmocka_unit_test(others),
-    };
-    return cmocka_run_group_tests_name("lines of OBJ files", tests, start, stop);
-}
+FIXTURE(start, stop)

@@ -1,15 +1,7 @@
 // test_occlusion.c: compares ambient occlusion with known results: planes have none, and a floor next to a wall has the
 // integral over all directions; it also tests when a frame has any.
-#include <lambent/lambent.h>
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 enum { SIZE = 256 };
 
@@ -51,12 +43,11 @@ static float *shares(const lam_scene *scene, const lam_camera *camera, lam_draw_
 }
 
 // A plane at any angle, in perspective or not, has exactly all of the light, except for rounding.
-static void test_planes(void **state)
+TEST(test_planes)
 {
-    (void)state;
     for (int turn = 0; turn < 8; turn++)
         for (int orthographic = 0; orthographic < 2; orthographic++) {
-            lam_scene *scene = lam_scene_make(NULL);
+            AUTO_SCENE scene = lam_scene_make(NULL);
             add_rectangle(scene, (lam_vec3){-1, -1, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 2, 0});
             lam_camera camera = {
                 .eye = {2.5 * sin(0.18 * turn), 0.3 * turn, 2.5 * cos(0.18 * turn)}, .up = {0, 1, 0}, .fovy_rad = 0.9};
@@ -76,7 +67,6 @@ static void test_planes(void **state)
             }
             assert_true(seen > SIZE * SIZE / 20);
             free(a);
-            lam_scene_free(scene);
         }
 }
 
@@ -86,7 +76,7 @@ static void check_wall(lam_occlusion method)
 {
     bool rays = method == LAM_OCCLUSION_RAYS;
     const double radius = 0.25;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     add_rectangle(scene, (lam_vec3){-4, 0, 0}, (lam_vec3){0, 0, 8}, (lam_vec3){8, 0, 0});
     add_rectangle(scene, (lam_vec3){-4, 0, 0}, (lam_vec3){8, 0, 0}, (lam_vec3){0, 4, 0});
     lam_camera camera = {.eye = {0, 3, 3}, .target = {0, 0, 0.5}, .up = {0, 1, 0}, .ortho_half_height = 1.5};
@@ -122,12 +112,10 @@ static void check_wall(lam_occlusion method)
     }
     assert_true(checked > 3);
     free(a);
-    lam_scene_free(scene);
 }
 
-static void test_wall(void **state)
+TEST(test_wall)
 {
-    (void)state;
     check_wall(LAM_OCCLUSION_SCREEN);
     check_wall(LAM_OCCLUSION_RAYS);
 }
@@ -191,8 +179,7 @@ static bool explained(lam_device *device, const lam_scene *scene, const lam_came
     lam_error error;
     const lam_draw_params params = {.samples = 1, .occlusion = LAM_OCCLUSION_OFF};
     lam_explanation *e = lam_explain(device, scene, camera, &params, SIZE, SIZE, LAM_RGBA32F, x, y, NULL, &error);
-    if (!e)
-        fail_msg("%s", error.text);
+    SUCCEEDS(e);
     bool shown = e->fragment_count > 0;
     if (shown) {
         const lam_explained_fragment *f = &e->fragments[e->fragment_count - 1];
@@ -209,9 +196,8 @@ static bool explained(lam_device *device, const lam_scene *scene, const lam_came
 static uint32_t random_bits(uint32_t *state) { return *state = *state * 1664525 + 1013904223; }
 
 // Random triangles: the device's rays compared with the integral, at pixels over the picture.
-static void test_rays_integral(void **state)
+TEST(test_rays_integral)
 {
-    (void)state;
     enum { COUNT = 60, POINTS = 48 };
     uint32_t seed = 7;
     float p[COUNT * 9];
@@ -228,7 +214,7 @@ static void test_rays_integral(void **state)
     lam_mesh mesh = {.positions = p, .vertex_count = 3 * COUNT, .triangle_count = COUNT};
     lam_error error;
     for (int orthographic = 0; orthographic < 2; orthographic++) {
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_object object = lam_object_default();
         object.mesh = lam_scene_add_mesh(scene, &mesh, NULL);
         assert_true(object.mesh >= 0 && lam_scene_add_object(scene, &object, NULL) >= 0);
@@ -243,7 +229,7 @@ static void test_rays_integral(void **state)
                                   .occlusion_radius = (float)(0.7 / half),
                                   .occlusion_samples = 512};
         float *shown = shares(scene, &camera, params);
-        lam_device *device = lam_device_cpu(NULL, &error);
+        AUTO_DEVICE device = lam_device_cpu(NULL, &error);
         double bias = 0, darkest = 1;
         int points = 0;
         for (int i = 0; i < POINTS; i++) {
@@ -274,8 +260,6 @@ static void test_rays_integral(void **state)
         if (fabs(bias / points) > 0.004)
             fail_msg("%g too light", bias / points);
         free(shown);
-        lam_device_free(device);
-        lam_scene_free(scene);
     }
 }
 
@@ -296,9 +280,8 @@ static float mean_share(const float *a, double *deviation)
 
 // Known shares: a plane has all of the light, the inside of a closed box none, and a hemispherical bowl ½ everywhere,
 // because all parts of a sphere are equally bright to one another.
-static void test_rays_known(void **state)
+TEST(test_rays_known)
 {
-    (void)state;
     double deviation;
     lam_scene *scene = lam_scene_make(NULL);
     add_rectangle(scene, (lam_vec3){-1, -1, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 2, 0});
@@ -358,9 +341,8 @@ static void test_rays_known(void **state)
 }
 
 // A plate over a floor: a translucent plate blocks the share of its opacity, and a masked one everything or nothing.
-static void test_rays_opacity(void **state)
+TEST(test_rays_opacity)
 {
-    (void)state;
     lam_error error;
     double taken[4];
     const struct {
@@ -368,7 +350,7 @@ static void test_rays_opacity(void **state)
         float alpha;
     } plates[4] = {{LAM_ALPHA_OPAQUE, 1}, {LAM_ALPHA_BLEND, 0.25f}, {LAM_ALPHA_MASK, 0.6f}, {LAM_ALPHA_MASK, 0.4f}};
     for (int i = 0; i < 4; i++) {
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         add_rectangle(scene, (lam_vec3){-2, 0, 2}, (lam_vec3){4, 0, 0}, (lam_vec3){0, 0, -4});
         add_rectangle(scene, (lam_vec3){-0.5, 0.4, 0.5}, (lam_vec3){1, 0, 0}, (lam_vec3){0, 0, -1});
         lam_material m = lam_material_default();
@@ -384,7 +366,6 @@ static void test_rays_opacity(void **state)
         float *a = shares(scene, &camera, params);
         taken[i] = 1 - (double)a[SIZE / 2 * SIZE + SIZE / 2]; // on the floor, under the plate
         free(a);
-        lam_scene_free(scene);
     }
     assert_true(taken[0] > 0.1 && taken[2] == taken[0] && taken[3] == 0);
     assert_true(fabs(taken[1] - 0.25 * taken[0]) < 1e-6);
@@ -392,10 +373,9 @@ static void test_rays_opacity(void **state)
 
 // A plate above a floor, seen at an angle from the front: the visible floor under it is dark. Compares the screen's
 // shares with the ray-traced shares, over the whole picture.
-static void test_screen_beside_rays(void **state)
+TEST(test_screen_beside_rays)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     add_rectangle(scene, (lam_vec3){-2, 0, 2}, (lam_vec3){4, 0, 0}, (lam_vec3){0, 0, -4});
     add_rectangle(scene, (lam_vec3){-1, 0.2, 1}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0, -2});
     add_rectangle(scene, (lam_vec3){-1, 0.2, 1}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0.1, 0});
@@ -420,14 +400,12 @@ static void test_screen_beside_rays(void **state)
         fail_msg("%g apart, %g too light, of %g", apart / count, bias / count, dark / count);
     free(shown[0]);
     free(shown[1]);
-    lam_scene_free(scene);
 }
 
 // Cavity shading leaves planes unchanged, darkens the inner edges of a step and lightens the outer ones.
-static void test_cavity(void **state)
+TEST(test_cavity)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     // Two levels and the wall between them, seen from the front and above.
     add_rectangle(scene, (lam_vec3){-1, 0, 0}, (lam_vec3){2, 0, 0}, (lam_vec3){0, 0, 1});
     add_rectangle(scene, (lam_vec3){-1, 0, 0}, (lam_vec3){0, 0.5, 0}, (lam_vec3){2, 0, 0});
@@ -445,7 +423,6 @@ static void test_cavity(void **state)
     if (lighter < 2 || darker < 2 || even < SIZE / 4)
         fail_msg("%d lighter, %d darker, %d even", lighter, darker, even);
     free(shown);
-    lam_scene_free(scene);
 }
 
 static bool same_picture(const lam_scene *scene, lam_draw_params a, lam_draw_params b)
@@ -456,8 +433,7 @@ static bool same_picture(const lam_scene *scene, lam_draw_params a, lam_draw_par
     lam_image images[2] = {{0}};
     for (int i = 0; i < 2; i++) {
         assert_true(lam_image_make(&images[i], 64, 64, LAM_RGBA32F, &error));
-        if (!lam_draw(device, scene, &camera, i ? &b : &a, &images[i], NULL, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(lam_draw(device, scene, &camera, i ? &b : &a, &images[i], NULL, &error));
     }
     bool same = true;
     for (int i = 0; i < 64 * 64 * 4; i++)
@@ -469,11 +445,10 @@ static bool same_picture(const lam_scene *scene, lam_draw_params a, lam_draw_par
 }
 
 // The studio has occlusion, and lights given by hand have none unless requested; occlusion needs Phong shading.
-static void test_when(void **state)
+TEST(test_when)
 {
-    (void)state;
     lam_error error;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "gyroid", NULL, &error);
     assert_true(object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
@@ -501,9 +476,9 @@ static void test_when(void **state)
     assert_false(same_picture(scene, plain, off));
 
     flat.occlusion = LAM_OCCLUSION_SCREEN;
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     lam_camera camera = lam_camera_fit(scene, 64, 64, NULL);
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, 64, 64, LAM_RGBA8, &error));
     assert_false(lam_draw(device, scene, &camera, &flat, &image, NULL, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
@@ -516,18 +491,4 @@ static void test_when(void **state)
     lam_draw_params wrong = {.occlusion_radius = 11};
     assert_false(lam_draw(device, scene, &camera, &wrong, &image, NULL, &error));
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
-    lam_image_free(&image);
-    lam_device_free(device);
-    lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_planes),        cmocka_unit_test(test_wall),
-        cmocka_unit_test(test_rays_integral), cmocka_unit_test(test_rays_known),
-        cmocka_unit_test(test_rays_opacity),  cmocka_unit_test(test_screen_beside_rays),
-        cmocka_unit_test(test_when),          cmocka_unit_test(test_cavity),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,6 @@
 // test_orbit.c: the orbit of a fitted camera: rotating, moving and zooming.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-
-#include <lambent/lambent.h>
+#include "test.h"
 
 static const double PI_HALF = 1.57079632679489661923;
 
@@ -39,12 +31,11 @@ static void project(const lam_camera *camera, lam_vec3 p, double *x, double *y)
     assert_true(lam_camera_project(camera, 100, 100, at, x, y));
 }
 
-static void all_sides(void **state)
+TEST(all_sides)
 {
-    (void)state;
     for (int up = LAM_UP_X; up < LAM_UP_COUNT; up++)
         for (int side = 0; side < LAM_SIDE_COUNT; side++) {
-            lam_scene *scene = teapot((lam_up)up);
+            AUTO_SCENE scene = teapot((lam_up)up);
             lam_view view = lam_view_of_side((lam_side)side);
             lam_camera fitted = lam_camera_fit(scene, 100, 100, &view);
             lam_orbit orbit = lam_orbit_of(&fitted, scene);
@@ -58,13 +49,11 @@ static void all_sides(void **state)
             camera = lam_orbit_camera(&orbit);
             project(&camera, orbit.target, &x, &y);
             assert_true(fabs(x - 50) < 1e-9 && fabs(y - 50) < 1e-9);
-            lam_scene_free(scene);
         }
 }
 
-static void turns(void **state)
+TEST(turns)
 {
-    (void)state;
     lam_orbit orbit = {.target = {1, 2, 3}, .distance = 4, .fovy_rad = 0.5};
     near_vector(lam_orbit_camera(&orbit).eye, (lam_vec3){1, 2, 7}); // the front
     lam_orbit_turn(&orbit, PI_HALF, 0);
@@ -79,9 +68,8 @@ static void turns(void **state)
     assert_true(orbit.azimuth_rad == PI_HALF);
 }
 
-static void pans_and_zooms(void **state)
+TEST(pans_and_zooms)
 {
-    (void)state;
     for (int flat = 0; flat < 2; flat++) {
         lam_orbit orbit = {.target = {1, 2, 3},
                            .azimuth_rad = 0.7,
@@ -106,14 +94,4 @@ static void pans_and_zooms(void **state)
         orbit.reserved[3] = 1;
         assert_true(lam_orbit_camera(&orbit).reserved[0] != 0); // refused when drawing
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_sides),
-        cmocka_unit_test(turns),
-        cmocka_unit_test(pans_and_zooms),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

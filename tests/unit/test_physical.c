@@ -1,15 +1,9 @@
 // test_physical.c: metallic–roughness materials next to classic ones, and conversions between them.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
+#include "test.h"
 
 #include <lambent/device.h>
+#include <lambent/light.h>
 #include <lambent/words.h>
 
 #include "device_type.h"
@@ -28,9 +22,8 @@ static lam_material physical(float r, float g, float b, float metallic, float ro
 
 static bool near(float a, double b) { return fabs((double)a - b) <= 1e-5 * fmax(1, fabs(b)); }
 
-static void test_as_classic(void **state)
+TEST(test_as_classic)
 {
-    (void)state;
     lam_material from = physical(0.8f, 0.4f, 0.1f, 0.25f, 0.5f), m = lam_material_as_classic(&from);
     double rho = 0.25, alpha = 2 / (rho * rho) - 2, energy = (alpha + 8) / 8; // conventions, "Mapping"
     assert_false(m.physical);
@@ -48,9 +41,8 @@ static void test_as_classic(void **state)
 }
 
 // Converting a physical material and back preserves it.
-static void test_and_back(void **state)
+TEST(test_and_back)
 {
-    (void)state;
     for (int i = 0; i < 1000; i++) {
         float metallic = (float)(i % 10) / 9, roughness = 0.2f + 0.075f * (float)(i / 10 % 10);
         float base = 0.1f + 0.085f * (float)(i / 100);
@@ -88,29 +80,26 @@ static void draw_with(lam_device *device, const lam_scene *scene, lam_reflection
     lam_error error;
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){0, 0, 9};
-    lam_image image;
+    AUTO_IMAGE image = {0};
     assert_true(lam_image_make(&image, WIDTH, HEIGHT, LAM_RGBA32F, &error));
     lam_draw_params params = {.reflection = reflection, .samples = 1};
     assert_true(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     memcpy(out, image.pixels, sizeof(float) * HEIGHT * WIDTH * 4);
-    lam_image_free(&image);
 }
 
 static void draw(const lam_scene *scene, lam_reflection reflection, float out[HEIGHT][WIDTH][4])
 {
-    lam_device *device = lam_device_cpu(NULL, NULL);
+    AUTO_DEVICE device = lam_device_cpu(NULL, NULL);
     draw_with(device, scene, reflection, out);
-    lam_device_free(device);
 }
 
 static float picture[5][HEIGHT][WIDTH][4];
 
-static void test_two_kinds_in_one_scene(void **state)
+TEST(test_two_kinds_in_one_scene)
 {
-    (void)state;
     lam_material metal = physical(1, 0.7f, 0.3f, 1, 0.3f),
                  plastic = lam_material_named(LAM_MATERIAL_RED_PLASTIC, LAM_COLOR_SRGB);
-    lam_scene *scene = two_spheres(&metal, &plastic);
+    AUTO_SCENE scene = two_spheres(&metal, &plastic);
     draw(scene, LAM_REFLECTION_AUTO, picture[0]);
     draw(scene, LAM_REFLECTION_GGX, picture[1]);
     draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[2]);
@@ -129,18 +118,16 @@ static void test_two_kinds_in_one_scene(void **state)
     assert_true(lam_scene_set_material(scene, 0, &classic, &error));
     draw(scene, LAM_REFLECTION_BLINN_PHONG, picture[3]);
     assert_memory_equal(picture[2], picture[3], sizeof picture[2]);
-    lam_scene_free(scene);
 }
 
 // A device keeps the studio of its first scene without lights. Pictures of later scenes, which need its light for other
 // roughnesses, are the same as those of a new device.
-static void test_kept_studio(void **state)
+TEST(test_kept_studio)
 {
-    (void)state;
     lam_material metal = physical(1, 0.7f, 0.3f, 1, 0.3f), dull = physical(0.2f, 0.7f, 0.3f, 0, 0.9f);
     const lam_material *right[] = {&metal, &dull, &metal};
     lam_scene *scenes[3];
-    lam_device *device = lam_device_cpu(NULL, NULL);
+    AUTO_DEVICE device = lam_device_cpu(NULL, NULL);
     const lam_environment *studio = NULL;
     for (int i = 0; i < 3; i++) {
         scenes[i] = two_spheres(&metal, right[i]);
@@ -155,33 +142,29 @@ static void test_kept_studio(void **state)
             lam_scene_free(scenes[i - 1]); // after the next scene is drawn, so that their addresses differ
     }
     lam_scene_free(scenes[2]);
-    lam_device_free(device);
 }
 
-static void test_unlit(void **state)
+TEST(test_unlit)
 {
-    (void)state;
     lam_material flat = lam_material_default(), lit = lam_material_default();
     flat.unlit = true;
     flat.diffuse = (lam_rgba){0.25f, 0.5f, 0.75f, 1};
-    lam_scene *scene = two_spheres(&flat, &lit);
+    AUTO_SCENE scene = two_spheres(&flat, &lit);
     draw(scene, LAM_REFLECTION_AUTO, picture[0]);
     const float *middle = picture[0][HEIGHT / 2][WIDTH / 4], *beside = picture[0][HEIGHT / 2][WIDTH / 4 + 3];
     assert_true(middle[0] == 0.25f && middle[1] == 0.5f && middle[2] == 0.75f);
     assert_memory_equal(middle, beside, 4 * sizeof *middle);
     const float *round = picture[0][HEIGHT / 2][3 * WIDTH / 4];
     assert_true(memcmp(round, round + 16, 3 * sizeof *round) != 0);
-    lam_scene_free(scene);
 }
 
 // If the front and back of an object are of different kinds, the reflection model of the front draws both.
-static void test_back_of_the_other_kind(void **state)
+TEST(test_back_of_the_other_kind)
 {
-    (void)state;
     lam_error error;
     lam_material metal = physical(1, 0.7f, 0.3f, 0.5f, 0.4f),
                  plastic = lam_material_named(LAM_MATERIAL_RED_PLASTIC, LAM_COLOR_SRGB);
-    lam_scene *scene = two_spheres(&metal, &plastic);
+    AUTO_SCENE scene = two_spheres(&metal, &plastic);
     for (int i = 0; i < 2; i++) {
         lam_object object = *lam_scene_object(scene, i);
         object.back_material = 1 - i;
@@ -196,14 +179,12 @@ static void test_back_of_the_other_kind(void **state)
         assert_memory_equal(picture[0][y] + WIDTH / 2, picture[2][y] + WIDTH / 2, sizeof picture[0][y] / 2);
     }
     assert_true(picture[0][HEIGHT / 2][WIDTH / 4][3] == 1);
-    lam_scene_free(scene);
 }
 
 // A square that faces the eye, with normals that point away from it, and light in their direction: neither a metal nor
 // a layer is black.
-static void test_leaning_normals(void **state)
+TEST(test_leaning_normals)
 {
-    (void)state;
     static const float positions[] = {-2, -1, 0, 2, -1, 0, 2, 1, 0, -2, 1, 0};
     static const float normals[] = {-1, 0, -0.2f, -1, 0, -0.2f, -1, 0, -0.8f, -1, 0, -0.8f};
     static const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
@@ -225,7 +206,7 @@ static void test_leaning_normals(void **state)
         m.metallic = layer != 3;
         m.clearcoat = layer == 3;
         m.clearcoat_roughness = 0.8f;
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         lam_object object = lam_object_default();
         object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
         object.material = lam_scene_add_material(scene, &m, &error);
@@ -241,13 +222,11 @@ static void test_leaning_normals(void **state)
             assert_true(pixel[3] == 0 || pixel[0] > 1e-3f);
         }
         assert_true(seen > 500);
-        lam_scene_free(scene);
     }
 }
 
-static void test_words(void **state)
+TEST(test_words)
 {
-    (void)state;
     lam_error error;
     lam_material m = lam_material_default();
     assert_true(lam_material_parse("#ffffff,roughness=0.25", LAM_COLOR_SRGB, &m, &error));
@@ -256,19 +235,4 @@ static void test_words(void **state)
     assert_true(lam_material_parse("#ffffff,shininess=8", LAM_COLOR_SRGB, &m, &error));
     assert_false(m.physical);
     assert_false(lam_material_parse("metallic=2", LAM_COLOR_SRGB, &m, &error));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_as_classic),
-        cmocka_unit_test(test_and_back),
-        cmocka_unit_test(test_two_kinds_in_one_scene),
-        cmocka_unit_test(test_kept_studio),
-        cmocka_unit_test(test_unlit),
-        cmocka_unit_test(test_back_of_the_other_kind),
-        cmocka_unit_test(test_leaning_normals),
-        cmocka_unit_test(test_words),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,6 @@
 // test_pick.c: lam_pick finds the same surface at a pixel's centre as lam_explain and the picture.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
-
+#include "test.h"
 #include "device_fixture.h"
 
 enum { WIDTH = 60, HEIGHT = 44, STEP = 5 }; // pixels between two compared ones
@@ -59,8 +51,7 @@ static int compare(const lam_scene *scene, const lam_camera *camera)
         for (int x = 0; x < WIDTH; x += STEP) {
             const lam_pick_pixel pixel = {.width = WIDTH, .height = HEIGHT, .x = x, .y = y};
             lam_picked picked;
-            if (!lam_pick(scene, camera, &params, &pixel, NULL, &picked, &error))
-                fail_msg("%s", error.text);
+            SUCCEEDS(lam_pick(scene, camera, &params, &pixel, NULL, &picked, &error));
             lam_explanation *e =
                 lam_explain(device, scene, camera, &params, WIDTH, HEIGHT, LAM_RGBA8, x, y, NULL, &error);
             assert_non_null(e);
@@ -88,10 +79,9 @@ static int compare(const lam_scene *scene, const lam_camera *camera)
     return surfaces;
 }
 
-static void as_explained(void **state)
+TEST(as_explained)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     int glass = material_of(scene, LAM_ALPHA_BLEND, 0.25f), hole = material_of(scene, LAM_ALPHA_MASK, 0.25f),
         clear = material_of(scene, LAM_ALPHA_BLEND, 0);
     add(scene, "torus", -1.5, -1);
@@ -118,14 +108,12 @@ static void as_explained(void **state)
     object.transform.m[1][1] *= -1; // and mirrored
     assert_true(lam_scene_set_object(scene, 0, &object, NULL));
     assert_true(compare(scene, &camera) > 5);
-    lam_scene_free(scene);
 }
 
-static void lines_and_points(void **state)
+TEST(lines_and_points)
 {
-    (void)state;
     const float positions[] = {-1, -1, 0, 1, 1, 0, -1, 1, 0, 1, -1, 0, 0, 0.7f, 0};
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_object object = lam_object_default();
     object.mesh =
         lam_scene_add_mesh(scene, &(lam_mesh){.positions = positions, .vertex_count = 4, .line_count = 2}, NULL);
@@ -140,7 +128,6 @@ static void lines_and_points(void **state)
     assert_true(lam_pick(scene, &camera, NULL, &(lam_pick_pixel){41, 41, 20, 20, {0}}, NULL, &picked, NULL));
     assert_int_equal(picked.object, points);
     assert_int_equal(picked.triangle, 4);
-    lam_scene_free(scene);
 }
 
 static void refused(lam_scene *scene, lam_camera camera, lam_pick_pixel pixel, const char *text)
@@ -152,10 +139,9 @@ static void refused(lam_scene *scene, lam_camera camera, lam_pick_pixel pixel, c
     assert_non_null(strstr(error.text, text));
 }
 
-static void bad_arguments(void **state)
+TEST(bad_arguments)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     add(scene, "cube", 0, -1);
     lam_camera camera = lam_camera_fit(scene, WIDTH, HEIGHT, NULL), nowhere = camera;
     nowhere.fovy_rad = 4;
@@ -172,15 +158,6 @@ static void bad_arguments(void **state)
     assert_false(lam_pick(scene, &camera, NULL, &(lam_pick_pixel){10, 10, 5, 5, {0}}, &(lam_control){.cancel = &cancel},
                           &picked, &error));
     assert_int_equal(error.code, LAM_CANCELLED);
-    lam_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_explained),
-        cmocka_unit_test(lines_and_points),
-        cmocka_unit_test(bad_arguments),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

@@ -1,17 +1,11 @@
 // test_picture_limits.c: reading pictures obeys the limits of the call in every format, and allocates no memory for a
 // header that claims too much.
+#include "test.h"
 #include "codec.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
-#include <unistd.h>
-#include <cmocka.h>
 
 #include <jpeglib.h>
 
@@ -126,9 +120,8 @@ static bool decode(int i, struct call_control *call, bool linear, lam_image *ima
 }
 
 // The codecs themselves end within the rows, not only before the first.
-static void test_cancelled(void **state)
+TEST(test_cancelled)
 {
-    (void)state;
     lam_cancel cancel = {0};
     struct call_control call;
     call_start(&call, &(lam_control){.cancel = &cancel});
@@ -159,9 +152,8 @@ static void test_cancelled(void **state)
     assert_int_equal(call.memory_used, 0);
 }
 
-static void test_time(void **state)
+TEST(test_time)
 {
-    (void)state;
     for (int i = 0; i < FORMATS; i++) {
         struct call_control call;
         call_start(&call, &(lam_control){.time_limit_s = 1e-9});
@@ -175,9 +167,8 @@ static void test_time(void **state)
 }
 
 // The pixels are counted while they exist; a limit just below the required memory refuses the picture.
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     for (int i = 0; i < FORMATS; i++) {
         if (!files[i].bytes)
             continue;
@@ -273,9 +264,8 @@ static struct file claim(int i, uint32_t width, uint32_t height)
     return file;
 }
 
-static void test_claims(void **state)
+TEST(test_claims)
 {
-    (void)state;
     for (int i = 0; i < FORMATS; i++) {
         if (!files[i].bytes || i == WEBP) // whose header has no room for such a size
             continue;
@@ -303,9 +293,8 @@ static void test_claims(void **state)
 
 // --- other things than regular files
 
-static void test_kinds(void **state)
+TEST(test_kinds)
 {
-    (void)state;
     char folder[] = "/tmp/lambent-limits-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     lam_image image;
@@ -331,11 +320,4 @@ static void test_kinds(void **state)
     rmdir(folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cancelled), cmocka_unit_test(test_time),  cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_claims),    cmocka_unit_test(test_kinds),
-    };
-    return cmocka_run_group_tests(tests, make_files, free_files);
-}
+FIXTURE(make_files, free_files)

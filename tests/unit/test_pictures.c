@@ -1,17 +1,7 @@
 // test_pictures.c: Radiance, JPEG and 16-bit PNG files are decoded correctly, and broken ones are refused.
+#include "test.h"
 #include "codec.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 #include <jpeglib.h>
 
 // --- Radiance
@@ -53,9 +43,8 @@ static lam_image read_hdr(const struct file *file)
 
 #define HEADER "#?RADIANCE\n# a remark\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n"
 
-static void test_hdr_numbers(void **state)
+TEST(test_hdr_numbers)
 {
-    (void)state;
     // 128·2^(129 − 136) = 1; exponent 0 is black for any mantissas; the largest value; a value below the normal floats.
     static const uint8_t rows[] = {128, 64, 32, 129, 200, 100, 50, 0, 255, 0, 1, 255, 255, 255, 255, 9};
     struct file file = hdr_of(HEADER "-Y 2 +X 2\n", rows, sizeof rows);
@@ -74,9 +63,8 @@ static void test_hdr_numbers(void **state)
     lam_image_free(&image);
 }
 
-static void test_hdr_runs(void **state)
+TEST(test_hdr_runs)
 {
-    (void)state;
     // New runs: 10 pixels; red 10 × 128, green 4 literal values and 6 × 8, blue 9 + 1, exponent 10 × 129.
     static const uint8_t fresh[] = {2, 2, 0, 10, 138, 128, 4, 1, 2, 3, 4, 134, 8, 137, 16, 1, 32, 138, 129};
     struct file file = hdr_of(HEADER "-Y 1 +X 10\n", fresh, sizeof fresh);
@@ -106,9 +94,8 @@ static void hdr_refused(const struct file *file, lam_code code, const char *word
         fail_msg("'%s' does not say '%s'", error.text, word);
 }
 
-static void test_hdr_refusals(void **state)
+TEST(test_hdr_refusals)
 {
-    (void)state;
     static const uint8_t fresh[] = {2, 2, 0, 10, 138, 128, 4, 1, 2, 3, 4, 134, 8, 137, 16, 1, 32, 138, 129};
     struct file whole = hdr_of(HEADER "-Y 1 +X 10\n", fresh, sizeof fresh), file;
     for (size_t size = 11; size < whole.size; size++) {
@@ -187,17 +174,15 @@ static struct jpeg_file make_jpeg(int components, bool progressive)
     return file;
 }
 
-static void test_jpeg_pixels(void **state)
+TEST(test_jpeg_pixels)
 {
-    (void)state;
     for (int kind = 0; kind < 4; kind++) {
         int components = kind & 1 ? 3 : 1;
         struct jpeg_file file = make_jpeg(components, kind & 2);
         lam_image image = {0};
         lam_error error = {0};
         assert_true(codec_jpeg.probe(file.bytes, file.size));
-        if (!codec_jpeg.read(&(struct picture_file){file.bytes, file.size, "test.jpg", NULL}, &image, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(codec_jpeg.read(&(struct picture_file){file.bytes, file.size, "test.jpg", NULL}, &image, &error));
         assert_true(image.width == SIDE && image.height == SIDE && image.format == LAM_RGBA8);
         for (int y = 0; y < SIDE; y++) {
             for (int x = 0; x < SIDE; x++) {
@@ -222,9 +207,8 @@ static void test_jpeg_pixels(void **state)
     }
 }
 
-static void test_jpeg_refusals(void **state)
+TEST(test_jpeg_refusals)
 {
-    (void)state;
     lam_image image = {0};
     lam_error error = {0};
     struct jpeg_file file = make_jpeg(3, false);
@@ -239,9 +223,8 @@ static void test_jpeg_refusals(void **state)
 
 // --- linear light from each format
 
-static void test_linear(void **state)
+TEST(test_linear)
 {
-    (void)state;
     char path[64];
     snprintf(path, sizeof path, "test-pictures-%d.png", (int)getpid());
     lam_image bytes = {0}, linear;
@@ -250,8 +233,7 @@ static void test_linear(void **state)
     memcpy(bytes.pixels, (uint8_t[]){255, 128, 10, 255, 200, 100, 0, 51}, 8);
     assert_true(lam_image_save(&bytes, path, NULL, &error));
     for (int mode = 0; mode < 2; mode++) {
-        if (!lam_image_load_linear(&linear, path, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(lam_image_load_linear(&linear, path, mode ? LAM_COLOR_RAW : LAM_COLOR_SRGB, NULL, &error));
         assert_int_equal(linear.format, LAM_RGBA32F);
         for (int i = 0; i < 8; i++) {
             double x = ((const uint8_t *)bytes.pixels)[i] / 255.0, alpha = i < 4 ? 1 : 0.2;
@@ -269,13 +251,4 @@ static void test_linear(void **state)
     assert_false(lam_image_format_for("x.hdr", &format, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
     assert_false(lam_image_format_for("x.bmp", &format, &error));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hdr_numbers), cmocka_unit_test(test_hdr_runs),      cmocka_unit_test(test_hdr_refusals),
-        cmocka_unit_test(test_jpeg_pixels), cmocka_unit_test(test_jpeg_refusals), cmocka_unit_test(test_linear),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,7 @@
 // test_place.c: the sphere around a scene, moving and rotating it, rigs at their positions, lights in the model's
 // frame, and materials of parts.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
-
-#include <lambent/lambent.h>
+#include "test.h"
 
 static const double PI_HALF = 1.57079632679489661923;
 
@@ -33,9 +24,8 @@ static void near(double found, double expected, double most)
         fail_msg("found %.12g, expected %.12g within %g", found, expected, most);
 }
 
-static void sphere_is_the_models(void **state)
+TEST(sphere_is_the_models)
 {
-    (void)state;
     lam_scene *scene = shape_scene("sphere", 2.5);
     lam_object object = *lam_scene_object(scene, 0);
     object.transform.m[0][3] = 7;
@@ -52,17 +42,15 @@ static void sphere_is_the_models(void **state)
     assert_false(lam_scene_sphere(scene, 1, &centre, &radius));
     assert_true(radius == 0);
     lam_scene_free(scene);
-    lam_scene *empty = lam_scene_make(NULL);
+    AUTO_SCENE empty = lam_scene_make(NULL);
     assert_false(lam_scene_sphere(empty, -1, &centre, &radius));
-    lam_scene_free(empty);
 }
 
 // A curve of points in the order along it, the same in a scattered order, and with other vertex numbers and an unused
 // point far away. The search for the points that determine the camera visits few points of the first, all of the
 // second, and boxes of another size in the third, and must find the same.
-static void camera_does_not_depend_on_the_order(void **state)
+TEST(camera_does_not_depend_on_the_order)
 {
-    (void)state;
     enum { COUNT = 36000, UNUSED = 5000, ORDERS = 3 };
     static float points[ORDERS][3 * (COUNT + 1)] = {[2] = {[3 * UNUSED] = 100}};
     static uint32_t indices[COUNT];
@@ -78,7 +66,7 @@ static void camera_does_not_depend_on_the_order(void **state)
         lam_camera cameras[ORDERS];
         for (int order = 0; order < ORDERS; order++) {
             lam_error error;
-            lam_scene *scene = lam_scene_make(&error);
+            AUTO_SCENE scene = lam_scene_make(&error);
             lam_mesh mesh = {.positions = points[order], .vertex_count = COUNT, .triangle_count = COUNT / 3};
             if (order == 2) {
                 mesh.vertex_count++;
@@ -111,7 +99,6 @@ static void camera_does_not_depend_on_the_order(void **state)
                 farthest = fmax(farthest, fmax(x, y));
             }
             near(farthest, 0.92, 1e-5);
-            lam_scene_free(scene);
         }
         for (int order = 1; order < ORDERS; order++)
             assert_memory_equal(&cameras[0], &cameras[order], sizeof cameras[0]);
@@ -152,12 +139,11 @@ static void projected(const lam_camera *camera, int width, int height, const flo
 }
 
 // Every vertex is inside the picture for any shape, and the vertices fill 92 % of the tighter side.
-static void camera_fits_the_picture(void **state)
+TEST(camera_fits_the_picture)
 {
-    (void)state;
     static const int sizes[][2] = {{300, 600}, {600, 300}, {1, 1000}, {1000, 1}, {256, 256}};
     static const float points[] = {-1, 0, 0.5f, 2, 0.25f, -1, 0, 1.5f, 0, 0.5f, -0.75f, 1, 1, 1, 1, -0.5f, 0.5f, -2};
-    lam_scene *scene = scene_of_points(points, 6);
+    AUTO_SCENE scene = scene_of_points(points, 6);
     for (size_t i = 0; i < 2 * sizeof sizes / sizeof *sizes; i++) {
         int width = sizes[i / 2][0], height = sizes[i / 2][1];
         lam_camera camera = lam_camera_fit(scene, width, height, &(lam_view){.orthographic = i % 2});
@@ -169,13 +155,11 @@ static void camera_fits_the_picture(void **state)
     }
     lam_camera none = lam_camera_fit(scene, 0, -5, NULL), one = lam_camera_fit(scene, 1, 1, NULL);
     assert_memory_equal(&none, &one, sizeof one);
-    lam_scene_free(scene);
 }
 
 // A named side shows the model from the direction of its name, for either up axis.
-static void sides_have_names(void **state)
+TEST(sides_have_names)
 {
-    (void)state;
     static const struct {
         const char *name;
         lam_vec3 y_up, z_up; // from the target to the eye
@@ -183,7 +167,7 @@ static void sides_have_names(void **state)
                     {"left", {-1, 0, 0}, {-1, 0, 0}}, {"right", {1, 0, 0}, {1, 0, 0}},
                     {"top", {0, 1, 0}, {0, 0, 1}},    {"bottom", {0, -1, 0}, {0, 0, -1}},
                     {"iso", {1, 1, 1}, {1, -1, 1}}};
-    lam_scene *scene = shape_scene("sphere", 1);
+    AUTO_SCENE scene = shape_scene("sphere", 1);
     for (size_t i = 0; i < 2 * sizeof expected / sizeof *expected; i++) {
         lam_side side = lam_side_find(expected[i / 2].name);
         assert_true(side < LAM_SIDE_COUNT);
@@ -204,14 +188,12 @@ static void sides_have_names(void **state)
     assert_int_equal(lam_side_find("frnt"), LAM_SIDE_COUNT);
     assert_int_equal(lam_side_find(NULL), LAM_SIDE_COUNT);
     assert_null(lam_side_name(LAM_SIDE_COUNT));
-    lam_scene_free(scene);
 }
 
 // Cameras given as text: omitted keys come from the scene. (tests/cli tests every error.)
-static void cameras_in_words(void **state)
+TEST(cameras_in_words)
 {
-    (void)state;
-    lam_scene *scene = shape_scene("cube", 1);
+    AUTO_SCENE scene = shape_scene("cube", 1);
     lam_mat4 move = lam_mat4_identity();
     move.m[1][3] = 10;
     assert_true(lam_scene_transform(scene, &move, NULL));
@@ -233,13 +215,11 @@ static void cameras_in_words(void **state)
         assert_non_null(strstr(error.text, wrong[i][1]));
         assert_memory_equal(&camera, &before, sizeof camera);
     }
-    lam_scene_free(scene);
 }
 
 // Materials and lights given as text. (tests/cli tests every error.)
-static void materials_in_words(void **state)
+TEST(materials_in_words)
 {
-    (void)state;
     lam_material ruby = lam_material_named(LAM_MATERIAL_RUBY, LAM_COLOR_SRGB), m = lam_material_default();
     lam_error error;
     assert_true(lam_material_parse("Ruby,shininess=9,kd=0.5,opacity=0.25", LAM_COLOR_SRGB, &m, &error));
@@ -261,9 +241,8 @@ static void materials_in_words(void **state)
     }
 }
 
-static void lights_in_words(void **state)
+TEST(lights_in_words)
 {
-    (void)state;
     lam_scene *scene = shape_scene("sphere", 2), *empty = lam_scene_make(NULL);
     lam_mat4 move = lam_mat4_identity();
     move.m[1][3] = 10;
@@ -295,10 +274,9 @@ static void lights_in_words(void **state)
     lam_scene_free(empty);
 }
 
-static void turning_and_moving(void **state)
+TEST(turning_and_moving)
 {
-    (void)state;
-    lam_scene *scene = shape_scene("cube", 1);
+    AUTO_SCENE scene = shape_scene("cube", 1);
     lam_error error;
     lam_mat4 move = lam_mat4_identity();
     move.m[0][3] = 4;
@@ -323,13 +301,11 @@ static void turning_and_moving(void **state)
     assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 0, 0}, 1, &error));
     assert_false(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 1, 0}, (double)NAN, &error));
     assert_memory_equal(&before, &lam_scene_object(scene, 0)->transform, sizeof before);
-    lam_scene_free(scene);
 }
 
-static void rigs_stand_about_the_scene(void **state)
+TEST(rigs_stand_about_the_scene)
 {
-    (void)state;
-    lam_scene *scene = shape_scene("sphere", 2);
+    AUTO_SCENE scene = shape_scene("sphere", 2);
     lam_mat4 move = lam_mat4_identity();
     move.m[1][3] = 10;
     assert_true(lam_scene_transform(scene, &move, NULL));
@@ -349,7 +325,6 @@ static void rigs_stand_about_the_scene(void **state)
     lam_light own = lam_light_default(LAM_LIGHT_POINT);
     assert_int_equal(lam_scene_add_light(scene, &own, NULL), 0);
     assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, false, lights), 0);
-    lam_scene_free(scene);
 }
 
 enum { HILLS_SIDE = 33 };
@@ -390,9 +365,8 @@ static lam_scene *hills(float height)
 }
 
 // The studio lights a terrain from the left and below the view's axis, whatever its axes, and nothing else.
-static void terrains_are_lit_from_below(void **state)
+TEST(terrains_are_lit_from_below)
 {
-    (void)state;
     lam_light lights[LAM_RIG_LIGHTS_MAX];
     lam_scene *terrain = hills(0.4f), *level = hills(0), *steep = hills(4);
     assert_int_equal(lam_scene_rig_lights(terrain, LAM_RIG_AUTO, false, lights), 3);
@@ -418,9 +392,8 @@ static void terrains_are_lit_from_below(void **state)
 
 // Without a ground, curved models have a strong key light and no rim light, however they are rotated. Models with flat
 // faces have the lights of the rig, also if they consist of many triangles.
-static void curved_models_have_their_own_light(void **state)
+TEST(curved_models_have_their_own_light)
 {
-    (void)state;
     static const struct {
         const char *shape;
         bool curved;
@@ -428,7 +401,7 @@ static void curved_models_have_their_own_light(void **state)
     lam_light lights[LAM_RIG_LIGHTS_MAX], studio[LAM_RIG_LIGHTS_MAX];
     const int all = lam_rig_lights(LAM_RIG_STUDIO, studio);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lam_scene *scene = shape_scene(cases[i].shape, 1);
+        AUTO_SCENE scene = shape_scene(cases[i].shape, 1);
         for (int turn = 0; turn < 3; turn++) {
             assert_int_equal(lam_scene_rig_lights(scene, LAM_RIG_AUTO, false, lights), all - cases[i].curved);
             assert_true((lights[0].diffuse.r > studio[0].diffuse.r) == cases[i].curved);
@@ -436,7 +409,6 @@ static void curved_models_have_their_own_light(void **state)
             assert_true(lights[0].diffuse.r == studio[0].diffuse.r);
             assert_true(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){1, 2, 3}, 0.7, NULL));
         }
-        lam_scene_free(scene);
     }
     lam_scene *many = lam_scene_make(NULL), *cut = hills(0);
     lam_object object = lam_object_default();
@@ -453,28 +425,25 @@ static void curved_models_have_their_own_light(void **state)
 static void draw(lam_scene *scene, lam_image *image)
 {
     lam_camera camera = lam_camera_default();
-    lam_device *device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, NULL);
+    AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1}, NULL);
     assert_non_null(device);
     assert_true(lam_image_make(image, 24, 24, LAM_RGBA32F, NULL));
     assert_true(lam_draw(device, scene, &camera, &(lam_draw_params){.samples = 1}, image, NULL, NULL));
-    lam_device_free(device);
 }
 
 // A light in the model's frame moves with the model: it has the same effect as a light of the world at the position to
 // which the transform moves it.
-static void lights_go_with_the_model(void **state)
+TEST(lights_go_with_the_model)
 {
-    (void)state;
     lam_image images[2];
     for (int i = 0; i < 2; i++) {
-        lam_scene *scene = shape_scene("sphere", 1);
+        AUTO_SCENE scene = shape_scene("sphere", 1);
         lam_light light = lam_light_default(LAM_LIGHT_POINT);
         light.frame = i ? LAM_FRAME_WORLD : LAM_FRAME_MODEL;
         light.position = i ? (lam_vec3){3, 1, -1} : (lam_vec3){1, 1, 3};
         assert_int_equal(lam_scene_add_light(scene, &light, NULL), 0);
         assert_true(lam_scene_rotate(scene, (lam_vec3){0, 0, 0}, (lam_vec3){0, 1, 0}, PI_HALF, NULL));
         draw(scene, &images[i]);
-        lam_scene_free(scene);
     }
     const float *a = images[0].pixels, *b = images[1].pixels;
     double most = 0, brightest = 0;
@@ -489,9 +458,8 @@ static void lights_go_with_the_model(void **state)
     lam_image_free(&images[1]);
 }
 
-static void view_matrix(void **state)
+TEST(view_matrix)
 {
-    (void)state;
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){5, 0, 0};
     lam_mat4 view = lam_camera_view_matrix(&camera); // looks along −x: the world's x is the eye's z
@@ -524,12 +492,11 @@ static lam_scene *square_scene(const lam_part *parts, uint32_t part_count)
     return scene;
 }
 
-static void parts_change_their_material(void **state)
+TEST(parts_change_their_material)
 {
-    (void)state;
     lam_part parts[] = {{.name = "a", .triangle_count = 1, .material = -1},
                         {.name = "b", .first_triangle = 1, .triangle_count = 1, .material = -1}};
-    lam_scene *scene = square_scene(parts, 2);
+    AUTO_SCENE scene = square_scene(parts, 2);
     lam_material gold = lam_material_named(LAM_MATERIAL_GOLD, LAM_COLOR_SRGB);
     assert_int_equal(lam_scene_add_material(scene, &gold, NULL), 0);
     assert_true(lam_scene_set_part_material(scene, 0, 1, 0, NULL));
@@ -544,26 +511,4 @@ static void parts_change_their_material(void **state)
     assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     lam_scene_add_warning(scene, "one");
     assert_string_equal(lam_scene_warning(scene, 0), "one");
-    lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest all[] = {
-        cmocka_unit_test(sphere_is_the_models),
-        cmocka_unit_test(camera_does_not_depend_on_the_order),
-        cmocka_unit_test(camera_fits_the_picture),
-        cmocka_unit_test(sides_have_names),
-        cmocka_unit_test(cameras_in_words),
-        cmocka_unit_test(materials_in_words),
-        cmocka_unit_test(lights_in_words),
-        cmocka_unit_test(turning_and_moving),
-        cmocka_unit_test(rigs_stand_about_the_scene),
-        cmocka_unit_test(lights_go_with_the_model),
-        cmocka_unit_test(view_matrix),
-        cmocka_unit_test(parts_change_their_material),
-        cmocka_unit_test(terrains_are_lit_from_below),
-        cmocka_unit_test(curved_models_have_their_own_light),
-    };
-    return cmocka_run_group_tests(all, NULL, NULL);
 }

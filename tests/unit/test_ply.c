@@ -1,8 +1,7 @@
 // test_ply.c: PLY: all formats and layouts, polygons, strips, colours, normals, origins, and errors. The file has more
 // than 600 lines because it contains a table-like test for each feature and error message of one format.
+#include "test.h"
 #include "loading.h"
-
-#include <math.h>
 
 #define HEADER(FORMAT) "ply\nformat " FORMAT " 1.0\n"
 #define XYZ            "property float x\nproperty float y\nproperty float z\n"
@@ -16,10 +15,9 @@ static const char ascii[] =
 
 static const lam_mesh *mesh_of(const lam_scene *scene) { return lam_scene_mesh(scene, 0); }
 
-static void test_ascii(void **state)
+TEST(test_ascii)
 {
-    (void)state;
-    lam_scene *scene = load_text(ascii, "a.ply");
+    AUTO_SCENE scene = load_text(ascii, "a.ply");
     const lam_mesh *mesh = mesh_of(scene);
     assert_string_equal(lam_scene_format(scene), "ply");
     assert_int_equal(lam_scene_up(scene), LAM_UP_Y);
@@ -28,7 +26,6 @@ static void test_ascii(void **state)
     assert_int_equal(mesh->triangle_count, 2);
     assert_corner(mesh, 0, 2, 1, 1, 0);
     assert_corner(mesh, 1, 2, 0, 1, 0);
-    lam_scene_free(scene);
 }
 
 // One mesh in every format: vertices with extra properties before, between and after, an element in between with lists,
@@ -93,9 +90,8 @@ static void make_everything(struct made *file, const char *format)
     }
 }
 
-static void test_everything(void **state)
+TEST(test_everything)
 {
-    (void)state;
     static const char *const formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     for (int i = 0; i < 3; i++) {
         struct made file;
@@ -134,9 +130,8 @@ static const float square[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 static const uint32_t square_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
 
 // A vertex that no face uses does not affect the bounds.
-static void test_unused_vertex(void **state)
+TEST(test_unused_vertex)
 {
-    (void)state;
     for (uint32_t last = 2; last < 4; last++) {
         struct made file = {0};
         put_square(&file, "binary_little_endian", "property float x\nproperty float y\nproperty float z\n",
@@ -150,16 +145,14 @@ static void test_unused_vertex(void **state)
                 put_u32(&file, corners[k]);
         }
         lam_vec3 low;
-        lam_scene *scene = load(&file, "a.ply");
+        AUTO_SCENE scene = load(&file, "a.ply");
         assert_true(lam_scene_bounds(scene, &low, NULL) && low.z == (last == 3 ? -9 : 0));
-        lam_scene_free(scene);
     }
 }
 
 // The layout of most files, and the same with other types and properties around the list.
-static void test_binary_triangles(void **state)
+TEST(test_binary_triangles)
 {
-    (void)state;
     static const char *const formats[] = {"binary_little_endian", "binary_big_endian"};
     for (int big = 0; big < 2; big++) {
         for (int layout = 0; layout < 4; layout++) {
@@ -205,9 +198,8 @@ static void test_binary_triangles(void **state)
 }
 
 // Faces of other kinds that take as many bytes as triangles.
-static void test_mixed_of_triangle_size(void **state)
+TEST(test_mixed_of_triangle_size)
 {
-    (void)state;
     struct made file = {0};
     put_square(&file, "binary_little_endian", XYZ, FACE("2"));
     for (int i = 0; i < 12; i++)
@@ -226,10 +218,9 @@ static void test_mixed_of_triangle_size(void **state)
     check_allocations(file.bytes, file.size, "a.ply");
 }
 
-static void test_vertex_attributes(void **state)
+TEST(test_vertex_attributes)
 {
-    (void)state;
-    lam_scene *scene = load_text(HEADER("ascii") "element vertex 3\nproperty float nz\n" XYZ
+    AUTO_SCENE scene = load_text(HEADER("ascii") "element vertex 3\nproperty float nz\n" XYZ
                                                  "property float nx\nproperty float ny\nproperty float tx\n"
                                                  "property float ty\nproperty float tz\nproperty float u\n"
                                                  "property float v\n" FACE("1") "end_header\n"
@@ -250,12 +241,10 @@ static void test_vertex_attributes(void **state)
         assert_near((double)mesh->tangents[i], (double)tangents[i], 1e-7);
     assert_int_equal(mesh->texcoord_count, 3);
     assert_memory_equal(mesh->texcoords, texcoords, sizeof texcoords);
-    lam_scene_free(scene);
 }
 
-static void test_colors_bytes(void **state)
+TEST(test_colors_bytes)
 {
-    (void)state;
     static const char text[] =
         HEADER("ascii") "element vertex 3\n" XYZ "property uchar red\nproperty uchar green\nproperty uchar blue\n" FACE(
             "1") "end_header\n0 0 0 255 0 7\n1 0 0 1 2 3\n0 1 0 9 8 7\n3 0 1 2\n";
@@ -274,9 +263,8 @@ static void test_colors_bytes(void **state)
 
 // Numbers of every type are colours from 0 to 1 after their range is recognised, and then linear, by the sRGB curve unless
 // raw. `rgb` is the colour of the first vertex, the brightest.
-static void test_colors_ranges(void **state)
+TEST(test_colors_ranges)
 {
-    (void)state;
     static const struct {
         const char *type, *alpha, *first, *rest, *warning;
         double rgb[3], opacity;
@@ -331,7 +319,7 @@ static void test_colors_ranges(void **state)
                                          "1") "end_header\n0 0 0 %s\n1 0 0 %s\n0 1 0 %s\n3 0 1 2\n",
                      rows[i].type, rows[i].type, rows[i].type, rows[i].alpha, rows[i].first, rows[i].rest,
                      rows[i].rest);
-            lam_scene *scene = load_with(text, strlen(text), "a.ply",
+            AUTO_SCENE scene = load_with(text, strlen(text), "a.ply",
                                          &(lam_load_params){.color = raw ? LAM_COLOR_RAW : LAM_COLOR_SRGB});
             const char *warning = lam_scene_warning(scene, 0);
             const float *colors = mesh_of(scene)->colors;
@@ -342,14 +330,12 @@ static void test_colors_ranges(void **state)
                 assert_near((double)colors[c], raw ? s : linear, 1e-6);
             }
             assert_near((double)colors[3], rows[i].opacity, 1e-6);
-            lam_scene_free(scene);
         }
 }
 
 // Packed colours of the Point Cloud Library and base colours of Gaussian splats, and the warning about the rest.
-static void test_colors_special(void **state)
+TEST(test_colors_special)
 {
-    (void)state;
     static const struct {
         const char *properties, *numbers, *warning;
         uint8_t bytes[4]; // sRGB
@@ -377,7 +363,7 @@ static void test_colors_special(void **state)
         snprintf(text, sizeof text, HEADER("ascii") "element vertex 1\n" XYZ "%s%send_header\n0 0 0 %s\n%s",
                  rows[i].properties, rows[i].bytes[3] ? "" : "element camera 1\nproperty int a\nproperty int b\n",
                  rows[i].numbers, rows[i].bytes[3] ? "" : "1 2\n");
-        lam_scene *scene = load_text(text, "a.ply");
+        AUTO_SCENE scene = load_text(text, "a.ply");
         const lam_mesh *mesh = mesh_of(scene);
         if (rows[i].warning)
             assert_string_equal(lam_scene_warning(scene, 0), rows[i].warning);
@@ -392,14 +378,12 @@ static void test_colors_special(void **state)
             assert_memory_equal(mesh->colors, rows[i].bytes, 4);
         else
             assert_null(mesh->colors);
-        lam_scene_free(scene);
     }
 }
 
 // Texture coordinates of vertices and of the corners of faces, and the numbers of the faces' textures.
-static void test_textures(void **state)
+TEST(test_textures)
 {
-    (void)state;
     static const char text[] =
         HEADER("ascii") "comment TextureFile one.ppm\ncomment TextureFile two words.ppm\nelement vertex 4\n" XYZ
                         "element face 4\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
@@ -410,7 +394,7 @@ static void test_textures(void **state)
     static const lam_part parts[] = {{.triangle_count = 3, .material = 1},
                                      {.first_triangle = 3, .triangle_count = 1, .material = 0},
                                      {.first_triangle = 4, .triangle_count = 1, .material = -1}};
-    lam_scene *scene = load_text(text, "a.ply");
+    AUTO_SCENE scene = load_text(text, "a.ply");
     const lam_mesh *mesh = mesh_of(scene);
     assert_int_equal(mesh->triangle_count, 5);
     for (size_t i = 0; i < 15; i++)
@@ -424,13 +408,11 @@ static void test_textures(void **state)
     assert_int_equal(lam_scene_material_count(scene), 2);
     assert_string_equal(lam_scene_material(scene, 1)->map_names[LAM_MAP_DIFFUSE], "two words.ppm");
     assert_non_null(strstr(lam_scene_warning(scene, 0), "one.ppm"));
-    lam_scene_free(scene);
 }
 
 // Colours and normals of faces, repeated for the triangles of a polygon.
-static void test_face_attributes(void **state)
+TEST(test_face_attributes)
 {
-    (void)state;
     static const char text[] =
         HEADER("ascii") "element vertex 4\n" XYZ "element face 2\nproperty list uchar int vertex_indices\n"
                         "property uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -453,11 +435,10 @@ static void test_face_attributes(void **state)
     check_allocations(text, sizeof text - 1, "a.ply");
 }
 
-static void test_concave_polygon(void **state)
+TEST(test_concave_polygon)
 {
-    (void)state;
     // An L of six corners: a fan from its first corner would cover the notch.
-    lam_scene *scene = load_text(
+    AUTO_SCENE scene = load_text(
         HEADER("ascii") "element vertex 6\n" XYZ FACE("1") "end_header\n"
                                                            "2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n6 0 1 2 3 4 5\n",
         "a.ply");
@@ -471,12 +452,10 @@ static void test_concave_polygon(void **state)
         area += twice / 2;
     }
     assert_near(area, 3, 1e-12);
-    lam_scene_free(scene);
 }
 
-static void test_strips(void **state)
+TEST(test_strips)
 {
-    (void)state;
     static const char text[] = HEADER("ascii") "element vertex 6\n" XYZ
                                                "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
                                                "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n"
@@ -493,9 +472,8 @@ static void test_strips(void **state)
 
 // A part with details of a millimetre, 500 km from zero: doubles in binary, and decimals in ASCII although its type is
 // float.
-static void test_far_from_zero(void **state)
+TEST(test_far_from_zero)
 {
-    (void)state;
     static const double points[3][3] = {
         {500000.0001, 7e6, 0}, {500000.0012, 7000000.001, 0}, {500000.0023, 7e6, 0.001}};
     struct made file = {0};
@@ -533,9 +511,8 @@ static void test_far_from_zero(void **state)
     lam_scene_free(near);
 }
 
-static void test_header_errors(void **state)
+TEST(test_header_errors)
 {
-    (void)state;
     refuse_text("plyformat ascii 1.0\n", "a.ply", "a.ply:1: found 'plyformat', expected \"ply\"");
     refuse_text("ply\nformat text 1.0\n", "a.ply",
                 "a.ply:2: found 'text', expected ascii, binary_little_endian or binary_big_endian");
@@ -580,9 +557,8 @@ static void test_header_errors(void **state)
 }
 
 // Blender once wrote its comment without "comment".
-static void test_unknown_header_lines(void **state)
+TEST(test_unknown_header_lines)
 {
-    (void)state;
     static const char *const formats[] = {"ascii", "binary_little_endian"};
     for (int i = 0; i < 2; i++) {
         char text[512];
@@ -597,20 +573,18 @@ static void test_unknown_header_lines(void **state)
             length += sprintf(text + length, "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
         else
             length += (int)(memcpy(text + length, corners, 36), memcpy(text + length + 36, face, 13), 49);
-        lam_scene *scene = load_with(text, (size_t)length, "a.ply", NULL);
+        AUTO_SCENE scene = load_with(text, (size_t)length, "a.ply", NULL);
         assert_int_equal(lam_scene_triangle_count(scene), 1);
         assert_string_equal(lam_scene_warning(scene, 0),
                             "a.ply:3: found 'Created', expected format, comment, element, property or end_header; the "
                             "line is ignored, and others");
         assert_null(lam_scene_warning(scene, 1));
-        lam_scene_free(scene);
     }
 }
 
 // A row usually ends with its line, but may continue on the next one.
-static void test_numbers_left_over(void **state)
+TEST(test_numbers_left_over)
 {
-    (void)state;
 #define THREE HEADER("ascii") "element vertex 3\n" XYZ
     refuse_text(THREE FACE("1") "end_header\n0 0 0\n1 0 0 7 8\n0 1 0\n3 0 1 2\n", "a.ply",
                 "a.ply:11: vertex 2 of 3: found '7' after z, its last property, expected the end of the line");
@@ -637,9 +611,8 @@ static void test_numbers_left_over(void **state)
 }
 
 // If all colours are transparent, they become opaque, because the picture would otherwise be empty.
-static void test_clear_colors(void **state)
+TEST(test_clear_colors)
 {
-    (void)state;
     static const struct {
         const char *text;
         int clear; // for three alpha values
@@ -651,7 +624,7 @@ static void test_clear_colors(void **state)
         {THREE FACE("1") RGBA("uchar") "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9 9 9 0\n", 3},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lam_scene *scene = load_text(rows[i].text, "a.ply");
+        AUTO_SCENE scene = load_text(rows[i].text, "a.ply");
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         bool floats = mesh->colors_format == LAM_COLORS_LINEAR_F32;
         for (uint32_t c = 0; c < mesh->color_count; c++) {
@@ -665,13 +638,11 @@ static void test_clear_colors(void **state)
                 "a.ply: every material or colour is fully transparent (alpha 0); the picture would be empty, "
                 "so everything is drawn opaque");
         assert_null(lam_scene_warning(scene, rows[i].clear == 3));
-        lam_scene_free(scene);
     }
 }
 
-static void test_body_errors(void **state)
+TEST(test_body_errors)
 {
-    (void)state;
     refuse_text(HEADER("ascii") "element vertex 4\n" FACE("1") "end_header\n3 0 1 2\n", "a.ply",
                 "a.ply:3: element vertex has no property x, expected x, y and z");
 #define VERTICES HEADER("ascii") "element vertex 4\n" XYZ
@@ -703,9 +674,8 @@ static void test_body_errors(void **state)
                 "a.ply: the file contains faces and no vertices, expected element vertex");
 }
 
-static void test_binary_errors(void **state)
+TEST(test_binary_errors)
 {
-    (void)state;
     struct made file = {0};
     put_square(&file, "binary_little_endian", XYZ, FACE("2"));
     size_t body = file.size;
@@ -759,9 +729,8 @@ static void test_binary_errors(void **state)
 }
 
 // Many pieces of every kind give the same result with every number of threads.
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     enum { VERTICES_ACROSS = 130, FACES_ACROSS = VERTICES_ACROSS - 1 };
     size_t room = 4 << 20;
     char *text = malloc(room), *at = text;
@@ -785,9 +754,8 @@ static void test_threads(void **state)
     free(text);
 }
 
-static void test_models(void **state)
+TEST(test_models)
 {
-    (void)state;
     static const struct model models[] = {
         {"ply/derived/gallery.ply", 1189155},
         {"ply/derived/koala_normals.ply", 99994},
@@ -811,33 +779,4 @@ static void test_models(void **state)
         {"ply/trimesh/fixed_top.ply", 4772},
     };
     check_models(models, sizeof models / sizeof *models);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ascii),
-        cmocka_unit_test(test_everything),
-        cmocka_unit_test(test_unused_vertex),
-        cmocka_unit_test(test_binary_triangles),
-        cmocka_unit_test(test_mixed_of_triangle_size),
-        cmocka_unit_test(test_vertex_attributes),
-        cmocka_unit_test(test_colors_bytes),
-        cmocka_unit_test(test_colors_ranges),
-        cmocka_unit_test(test_colors_special),
-        cmocka_unit_test(test_textures),
-        cmocka_unit_test(test_face_attributes),
-        cmocka_unit_test(test_concave_polygon),
-        cmocka_unit_test(test_strips),
-        cmocka_unit_test(test_far_from_zero),
-        cmocka_unit_test(test_header_errors),
-        cmocka_unit_test(test_unknown_header_lines),
-        cmocka_unit_test(test_numbers_left_over),
-        cmocka_unit_test(test_clear_colors),
-        cmocka_unit_test(test_body_errors),
-        cmocka_unit_test(test_binary_errors),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_models),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 // test_png.c: PNG files decode to the picture from which they were made, and have the same bytes on every machine. The
 // file has more than 600 lines because the encoder's steps, each with a second implementation here, share their test
 // pictures.
+#include "test.h"
 #include "fnv.h"
 #include "checksum.h"
 #include "deflate.h"
@@ -8,18 +9,9 @@
 
 #include <lambent/image.h>
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <dlfcn.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
-#include <unistd.h>
 
-#include <cmocka.h>
 #include <spng.h>
 
 static uint64_t random_state;
@@ -81,8 +73,7 @@ static uint32_t pixel_of(enum content content, int x, int y, int width, int heig
 static void make_picture(lam_image *image, int width, int height, enum content content)
 {
     lam_error error;
-    if (!lam_image_make(image, width, height, LAM_RGBA8, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_image_make(image, width, height, LAM_RGBA8, &error));
     random_state = (uint64_t)width * 1000003u + (uint64_t)height * 17 + content;
     uint32_t pixel = 0;
     for (int y = 0; y < height; y++)
@@ -97,8 +88,7 @@ static lam_bytes encode_as(const lam_image *image, int threads, lam_compress com
     lam_error error;
     lam_bytes bytes;
     lam_save_params params = {.threads = threads, .compress = compress};
-    if (!lam_image_encode(image, "png", &params, &bytes, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_image_encode(image, "png", &params, &bytes, &error));
     return bytes;
 }
 
@@ -128,20 +118,17 @@ static void decode_and_compare(const lam_bytes *bytes, const lam_image *image, c
 
 static void round_trip(int width, int height, enum content content)
 {
-    lam_image image;
+    AUTO_IMAGE image = {0};
     make_picture(&image, width, height, content);
-    lam_bytes bytes = encode(&image, 1);
+    AUTO_BYTES bytes = encode(&image, 1);
     decode_and_compare(&bytes, &image, content_names[content]);
     const uint8_t *data = bytes.data;
     static const uint8_t end[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
     assert_memory_equal(data + bytes.size - 12, end, 12);
-    lam_bytes_free(&bytes);
-    lam_image_free(&image);
 }
 
-static void decodes_to_the_source(void **state)
+TEST(decodes_to_the_source)
 {
-    (void)state;
     static const int sizes[][2] = {{1, 1},   {2, 1},    {1, 2},     {3, 3},   {4, 7},    {5, 64},   {15, 16},
                                    {16, 15}, {17, 17},  {31, 9},    {33, 2},  {63, 65},  {86, 86},  {87, 3},
                                    {88, 5},  {129, 97}, {255, 257}, {300, 3}, {515, 70}, {1024, 64}};
@@ -150,9 +137,8 @@ static void decodes_to_the_source(void **state)
             round_trip(sizes[i][0], sizes[i][1], content);
 }
 
-static void decodes_at_the_limits_of_size(void **state)
+TEST(decodes_at_the_limits_of_size)
 {
-    (void)state;
     for (int content = 0; content < CONTENTS; content++) {
         round_trip(65535, 1, content);
         round_trip(1, 65535, content);
@@ -162,11 +148,10 @@ static void decodes_at_the_limits_of_size(void **state)
 }
 
 // Every length of a run from 1 to 700 bytes and more, in both pixel sizes, at several offsets.
-static void holds_runs_of_every_length(void **state)
+TEST(holds_runs_of_every_length)
 {
-    (void)state;
     for (int opaque = 0; opaque < 2; opaque++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         lam_error error;
         assert_true(lam_image_make(&image, 256, 256, LAM_RGBA8, &error));
         for (int y = 0; y < 256; y++)
@@ -177,21 +162,18 @@ static void holds_runs_of_every_length(void **state)
                 value |= opaque ? 0xFF000000u : 0x80000000u;
                 memcpy((uint8_t *)image.pixels + (y * 256 + x) * 4, &value, 4);
             }
-        lam_bytes bytes = encode(&image, 1);
+        AUTO_BYTES bytes = encode(&image, 1);
         decode_and_compare(&bytes, &image, "staircase");
         assert_true(bytes.size < 256 * 40);
-        lam_bytes_free(&bytes);
-        lam_image_free(&image);
     }
 }
 
-static void threads_change_nothing(void **state)
+TEST(threads_change_nothing)
 {
-    (void)state;
     static const int sizes[][2] = {{1024, 700}, {333, 1001}, {65535, 5}, {7, 50000}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int content = NOISE; content < CONTENTS; content++) {
-            lam_image image;
+            AUTO_IMAGE image = {0};
             make_picture(&image, sizes[i][0], sizes[i][1], content);
             lam_bytes one = encode(&image, 1), two = encode(&image, 2), five = encode(&image, 5);
             assert_int_equal(one.size, two.size);
@@ -201,15 +183,13 @@ static void threads_change_nothing(void **state)
             lam_bytes_free(&one);
             lam_bytes_free(&two);
             lam_bytes_free(&five);
-            lam_image_free(&image);
         }
 }
 
 // One hash for each picture, the same for every compiler, build type and instruction set. They change only if the
 // encoder is meant to write other bytes; in this case, also check the sizes.
-static void bytes_are_the_recorded_ones(void **state)
+TEST(bytes_are_the_recorded_ones)
 {
-    (void)state;
     static const struct {
         enum content content;
         size_t size;
@@ -222,17 +202,15 @@ static void bytes_are_the_recorded_ones(void **state)
     };
     int wrong = 0;
     for (size_t i = 0; i < sizeof recorded / sizeof *recorded; i++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         make_picture(&image, 509, 211, recorded[i].content);
-        lam_bytes bytes = encode(&image, 2);
+        AUTO_BYTES bytes = encode(&image, 2);
         uint64_t hash = hash_of(bytes.data, bytes.size);
         if (hash != recorded[i].hash || bytes.size != recorded[i].size) {
             print_message("%s: %zu bytes, 0x%016llx\n", content_names[recorded[i].content], bytes.size,
                           (unsigned long long)hash);
             wrong++;
         }
-        lam_bytes_free(&bytes);
-        lam_image_free(&image);
     }
     assert_int_equal(wrong, 0);
 }
@@ -257,9 +235,8 @@ static bool have_best(void)
 }
 
 // The best compression: strips of several rows and of one; the same pixels in fewer bytes, for any number of threads.
-static void best_files_decode(void **state)
+TEST(best_files_decode)
 {
-    (void)state;
     if (!have_best())
         skip();
     static const int sizes[][2] = {{1, 1},   {3, 3},    {5, 64},    {16, 15},  {87, 3},
@@ -269,7 +246,7 @@ static void best_files_decode(void **state)
             const bool large = sizes[i][0] * sizes[i][1] > 100000;
             if (large && content != RUNS && content != OPAQUE_NOISE) // others are slow
                 continue;
-            lam_image image;
+            AUTO_IMAGE image = {0};
             make_picture(&image, sizes[i][0], sizes[i][1], content);
             lam_bytes bytes = encode_as(&image, 1, LAM_COMPRESS_BEST), fast = encode(&image, 1);
             decode_and_compare(&bytes, &image, content_names[content]);
@@ -277,24 +254,21 @@ static void best_files_decode(void **state)
                 fail_msg("%s, %d×%d: %zu bytes, %zu by the fast way", content_names[content], sizes[i][0], sizes[i][1],
                          bytes.size, fast.size);
             if (large) {
-                lam_bytes three = encode_as(&image, 3, LAM_COMPRESS_BEST);
+                AUTO_BYTES three = encode_as(&image, 3, LAM_COMPRESS_BEST);
                 assert_int_equal(bytes.size, three.size);
                 assert_memory_equal(bytes.data, three.data, bytes.size);
-                lam_bytes_free(&three);
             }
             lam_bytes_free(&bytes);
             lam_bytes_free(&fast);
-            lam_image_free(&image);
         }
 }
 
 // The time limit is reached during the picture, and the call ends long before it would be done.
-static void best_keeps_its_time(void **state)
+TEST(best_keeps_its_time)
 {
-    (void)state;
     if (!have_best())
         skip();
-    lam_image image;
+    AUTO_IMAGE image = {0};
     make_picture(&image, 3000, 2000, GREY); // some 15 seconds of work
     lam_control control = {.time_limit_s = 0.2};
     lam_save_params params = {.control = &control, .threads = 1, .compress = LAM_COMPRESS_BEST};
@@ -307,7 +281,6 @@ static void best_keeps_its_time(void **state)
     assert_int_equal(error.code, LAM_LIMIT);
     assert_null(bytes.data);
     assert_true(end.tv_sec - start.tv_sec < 5);
-    lam_image_free(&image);
 }
 
 static void *no_memory(size_t size)
@@ -317,9 +290,8 @@ static void *no_memory(size_t size)
 }
 
 // Running out of memory in libdeflate is also an error.
-static void best_without_memory(void **state)
+TEST(best_without_memory)
 {
-    (void)state;
     if (!have_best())
         skip();
     void *library = dlopen("libdeflate.so.0", RTLD_NOW | RTLD_LOCAL);
@@ -327,7 +299,7 @@ static void best_without_memory(void **state)
     void (*set_allocator)(void *(*)(size_t), void (*)(void *));
     *(void **)&set_allocator = dlsym(library, "libdeflate_set_memory_allocator");
     assert_non_null(set_allocator);
-    lam_image image;
+    AUTO_IMAGE image = {0};
     make_picture(&image, 300, 200, NOISE);
     lam_save_params params = {.compress = LAM_COMPRESS_BEST};
     lam_bytes bytes;
@@ -339,14 +311,12 @@ static void best_without_memory(void **state)
     assert_int_equal(error.code, LAM_MACHINE);
     assert_null(bytes.data);
     dlclose(library);
-    lam_image_free(&image);
 }
 
 // A cancelled call, with either compression, gives an error and no bytes.
-static void stops_when_cancelled(void **state)
+TEST(stops_when_cancelled)
 {
-    (void)state;
-    lam_image image;
+    AUTO_IMAGE image = {0};
     make_picture(&image, 400, 300, GRADIENT);
     const int last = have_best() ? LAM_COMPRESS_BEST : LAM_COMPRESS_FAST;
     for (int compress = LAM_COMPRESS_FAST; compress <= last; compress++) {
@@ -360,7 +330,6 @@ static void stops_when_cancelled(void **state)
         assert_int_equal(error.code, LAM_CANCELLED);
         assert_null(bytes.data);
     }
-    lam_image_free(&image);
 }
 
 static const uint8_t *find_chunk(const lam_bytes *bytes, const char *type)
@@ -374,10 +343,9 @@ static const uint8_t *find_chunk(const lam_bytes *bytes, const char *type)
     return NULL;
 }
 
-static void chunks_say_what_is_in_it(void **state)
+TEST(chunks_say_what_is_in_it)
 {
-    (void)state;
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_bytes bytes;
     make_picture(&image, 40, 30, GRADIENT);
     assert_true(lam_image_encode(&image, "png", NULL, &bytes, NULL));
@@ -392,7 +360,6 @@ static void chunks_say_what_is_in_it(void **state)
     assert_true(lam_image_encode(&image, "png", &(lam_save_params){.raw = true}, &bytes, NULL));
     assert_null(find_chunk(&bytes, "sRGB"));
     lam_bytes_free(&bytes);
-    lam_image_free(&image);
 }
 
 static int color_type(const lam_image *image, int threads, lam_compress compress)
@@ -406,9 +373,8 @@ static int color_type(const lam_image *image, int threads, lam_compress compress
 
 enum { TYPE_GREY = 0, TYPE_RGB = 2, TYPE_GREY_ALPHA = 4, TYPE_RGBA = 6 };
 
-static void the_fewest_channels_are_written(void **state)
+TEST(the_fewest_channels_are_written)
 {
-    (void)state;
     static const int expected[CONTENTS] = {
         [CLEAR] = TYPE_GREY_ALPHA,    [OPAQUE_NOISE] = TYPE_RGB, [NOISE] = TYPE_RGBA, [GRADIENT] = TYPE_RGBA,
         [OPAQUE_GRADIENT] = TYPE_RGB, [RUNS] = TYPE_RGBA,        [FLAT] = TYPE_RGB,   [LAST_PIXEL] = TYPE_RGBA,
@@ -419,27 +385,24 @@ static void the_fewest_channels_are_written(void **state)
         int file = mkstemps(path, 4);
         assert_true(file >= 0);
         close(file);
-        lam_image image;
+        AUTO_IMAGE image = {0};
         make_picture(&image, 90, 40, content);
         for (int compress = LAM_COMPRESS_FAST; compress <= (best ? LAM_COMPRESS_BEST : LAM_COMPRESS_FAST); compress++) {
             assert_int_equal(color_type(&image, 1, (lam_compress)compress), expected[content]);
             lam_save_params params = {.compress = (lam_compress)compress};
             assert_true(lam_image_save(&image, path, &params, NULL));
             assert_true(lam_image_is_from_lambent(path));
-            lam_image back;
+            AUTO_IMAGE back = {0};
             assert_true(lam_image_load(&back, path, NULL, NULL));
             assert_memory_equal(back.pixels, image.pixels, 90 * 40 * 4);
-            lam_image_free(&back);
         }
         unlink(path);
-        lam_image_free(&image);
     }
 }
 
 // A picture of one pixel; and a single pixel, first or last, that the others' channels cannot represent.
-static void one_pixel_decides(void **state)
+TEST(one_pixel_decides)
 {
-    (void)state;
     static const struct {
         uint32_t pixel;
         int alone, in_grey, in_grey_alpha, in_rgb;
@@ -460,19 +423,17 @@ static void one_pixel_decides(void **state)
         const int expected[3] = {rows[i].in_grey, rows[i].in_grey_alpha, rows[i].in_rgb};
         for (int k = 0; k < 3; k++)
             for (int last = 0; last < 2; last++) {
-                lam_image image;
+                AUTO_IMAGE image = {0};
                 make_picture(&image, WIDTH, HEIGHT, contents[k]);
                 ((uint32_t *)image.pixels)[last ? WIDTH * HEIGHT - 1 : 0] = pixel;
                 for (int threads = 1; threads <= 3; threads += 2)
                     assert_int_equal(color_type(&image, threads, LAM_COMPRESS_FAST), expected[k]);
-                lam_image_free(&image);
             }
     }
 }
 
-static void checksums_are_the_published_ones(void **state)
+TEST(checksums_are_the_published_ones)
 {
-    (void)state;
     struct crc_tables tables;
     crc_tables_make(&tables);
     assert_int_equal(crc_of(&tables, (const uint8_t *)"123456789", 9),
@@ -485,9 +446,8 @@ static void checksums_are_the_published_ones(void **state)
 }
 
 // Compares a row with the definition of Adler-32, byte by byte, for all pixel sizes and every tail.
-static void adler_of_rows(void **state)
+TEST(adler_of_rows)
 {
-    (void)state;
     uint32_t *row = calloc(65536 + 16, 4);
     assert_non_null(row);
     random_state = 5;
@@ -524,9 +484,8 @@ static int plain_paeth(int a, int b, int c)
 }
 
 // Compares the filters with the specification, for every combination of left, above and above left in steps.
-static void filters_as_specified(void **state)
+TEST(filters_as_specified)
 {
-    (void)state;
     enum { WIDTH = 53 };
     uint8_t rows[2][WIDTH * 4];
     uint32_t out[(WIDTH + 3) / 4 * 4], fewer[(WIDTH + 3) / 4 * 4];
@@ -624,17 +583,15 @@ static void compare_ends_of_zeros(int bytes_per_pixel)
     arena_free(&arena);
 }
 
-static void ends_of_zeros_change_nothing(void **state)
+TEST(ends_of_zeros_change_nothing)
 {
-    (void)state;
     for (int bytes_per_pixel = 1; bytes_per_pixel <= 4; bytes_per_pixel++)
         compare_ends_of_zeros(bytes_per_pixel);
 }
 
 // Codes of limited length: complete (Kraft's sum is 1), within the limit, and more frequent ones are never longer.
-static void codes_are_complete(void **state)
+TEST(codes_are_complete)
 {
-    (void)state;
     random_state = 3;
     for (int round = 0; round < 400; round++) {
         uint32_t counts[286] = {0};
@@ -672,12 +629,11 @@ static void codes_are_complete(void **state)
 }
 
 // Each allocation fails once: the result is an error, and nothing leaks (which a leak checker verifies).
-static void survives_without_memory(void **state)
+TEST(survives_without_memory)
 {
-    (void)state;
     const int last = have_best() ? LAM_COMPRESS_BEST : LAM_COMPRESS_FAST;
     for (int compress = LAM_COMPRESS_FAST; compress <= last; compress++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         make_picture(&image, compress ? 100 : 1024, 300, GRADIENT);
         int failures = 0;
         for (long countdown = 0;; countdown++) {
@@ -696,31 +652,5 @@ static void survives_without_memory(void **state)
             failures++;
         }
         assert_true(failures >= 4);
-        lam_image_free(&image);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(checksums_are_the_published_ones),
-        cmocka_unit_test(adler_of_rows),
-        cmocka_unit_test(filters_as_specified),
-        cmocka_unit_test(ends_of_zeros_change_nothing),
-        cmocka_unit_test(codes_are_complete),
-        cmocka_unit_test(decodes_to_the_source),
-        cmocka_unit_test(decodes_at_the_limits_of_size),
-        cmocka_unit_test(holds_runs_of_every_length),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(bytes_are_the_recorded_ones),
-        cmocka_unit_test(the_fewest_channels_are_written),
-        cmocka_unit_test(one_pixel_decides),
-        cmocka_unit_test(best_files_decode),
-        cmocka_unit_test(best_keeps_its_time),
-        cmocka_unit_test(best_without_memory),
-        cmocka_unit_test(stops_when_cancelled),
-        cmocka_unit_test(chunks_say_what_is_in_it),
-        cmocka_unit_test(survives_without_memory),
-    };
-    return cmocka_run_group_tests_name("png", tests, NULL, NULL);
 }

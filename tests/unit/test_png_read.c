@@ -1,16 +1,10 @@
 // test_png_read.c: pictures read in one step (png_read.c) have libspng's pixels, and files that libspng refuses are
 // refused.
+#include "test.h"
 #include "dynamic_library.h"
 #include "pixels.h"
 #include "png_encoding.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 #include <spng.h>
 #include <zlib.h>
 
@@ -138,14 +132,13 @@ static const struct {
 } kinds[] = {{0, 1}, {2, 3}, {6, 4}};
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static void test_files(void **state)
+TEST(test_files)
 {
-    (void)state;
     static uint8_t expected[WIDTH * HEIGHT * 4];
     for (int kind = 0; kind < KINDS; kind++)
         for (enum fault fault = NOTHING; fault < FAULTS; fault++) {
             struct file file = make_file(kinds[kind].color_type, kinds[kind].channels, fault);
-            lam_image image;
+            AUTO_IMAGE image = {0};
             lam_error error = {0};
             bool ok = picture_decode(&(struct picture_file){file.bytes, file.size, "a.png", NULL}, &image, &error);
             if (reference(&file, expected) != (fault <= LAST_SOUND) || ok != (fault <= LAST_SOUND))
@@ -154,20 +147,18 @@ static void test_files(void **state)
                 assert_memory_equal(image.pixels, expected, sizeof expected);
             else if (!strstr(error.text, "a.png: PNG pixels: "))
                 fail_msg("kind %d, fault %d: %s", kind, (int)fault, error.text);
-            lam_image_free(&image);
             free(file.bytes);
         }
 }
 
 // Without alpha, three bytes per pixel if the caller accepts them: the same numbers.
-static void test_opaque(void **state)
+TEST(test_opaque)
 {
-    (void)state;
     static uint8_t expected[WIDTH * HEIGHT * 4];
     for (int kind = 0; kind < KINDS; kind++)
         for (enum fault fault = NOTHING; fault <= LAST_SOUND; fault++) {
             struct file file = make_file(kinds[kind].color_type, kinds[kind].channels, fault);
-            lam_image image;
+            AUTO_IMAGE image = {0};
             struct picture_file picture = {file.bytes, file.size, "a.png", NULL};
             bool wide;
             assert_true(picture_decode_wide(&picture, &wide, &image, NULL));
@@ -176,15 +167,13 @@ static void test_opaque(void **state)
             assert_int_equal(image.format, bytes == 4 ? LAM_RGBA8 : LAM_RGB8);
             for (int i = 0; i < WIDTH * HEIGHT; i++)
                 assert_memory_equal((uint8_t *)image.pixels + i * bytes, expected + 4 * i, (size_t)bytes);
-            lam_image_free(&image);
             free(file.bytes);
         }
 }
 
 // Files with a fault, or with data after their pixels, are not read in one step.
-static void test_at_once(void **state)
+TEST(test_at_once)
 {
-    (void)state;
     void *library = library_open("libdeflate.so.0", false, NULL);
     if (!library) {
         print_message("libdeflate is not installed\n");
@@ -197,7 +186,7 @@ static void test_at_once(void **state)
             struct call_control call;
             call_start(&call, &(lam_control){.memory_limit_bytes = FILE_BYTES});
             struct picture_file picture = {file.bytes, file.size, "a.png", &call};
-            lam_image image;
+            AUTO_IMAGE image = {0};
             size_t extra = png_whole_extra(WIDTH, HEIGHT, LAM_RGBA8, kinds[kind].channels);
             assert_true(image_make_larger(&image, WIDTH, HEIGHT, LAM_RGBA8, extra, NULL));
             bool expected = fault <= TEXT_CRC || fault == JUNK_BEHIND_END;
@@ -207,14 +196,6 @@ static void test_at_once(void **state)
             call_start(&call, &(lam_control){.memory_limit_bytes = 1000});
             assert_false(png_read_whole(&picture, kinds[kind].channels, &image));
             assert_true(call_should_continue(&call) && !call.refused && call.memory_used == 0);
-            lam_image_free(&image);
             free(file.bytes);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_files), cmocka_unit_test(test_opaque),
-                                       cmocka_unit_test(test_at_once)};
-    return cmocka_run_group_tests_name("png-read", tests, NULL, NULL);
 }

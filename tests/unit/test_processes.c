@@ -1,13 +1,8 @@
 // test_processes.c: a process ends with its parent, even if the parent ended before the process could request this.
-#include <setjmp.h>
-#include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include "test.h"
 
-#include <cmocka.h>
+#include <signal.h>
+#include <sys/wait.h>
 
 #include "interrupt.h"
 
@@ -43,9 +38,8 @@ static int start(bool late, pid_t *child)
     return pipes[0];
 }
 
-static void killed_with_its_parent(void **state)
+TEST(killed_with_its_parent)
 {
-    (void)state;
     pid_t child;
     char byte;
     int answers = start(false, &child);
@@ -59,22 +53,12 @@ static void killed_with_its_parent(void **state)
     close(answers);
 }
 
-static void parent_that_has_ended_before(void **state)
+TEST(parent_that_has_ended_before)
 {
-    (void)state;
     pid_t child;
     char byte;
     int answers = start(true, &child);
     waitpid(child, NULL, 0);
     assert_int_equal(read(answers, &byte, 1), 0); // the end: it has written nothing
     close(answers);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(killed_with_its_parent),
-        cmocka_unit_test(parent_that_has_ended_before),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,18 +1,11 @@
 // test_rays.c: rays in the hierarchy give the same answer as testing every triangle separately, for any scene.
+#include "test.h"
+
 #include <lambent/scene.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #define LANES 8
 #include "ray_lanes.h"
+#include "rays.h"
 
 static uint64_t seed = 1;
 
@@ -60,14 +53,12 @@ static void build(struct soup *s, int threads, const lam_mat4 *transform)
     lam_camera camera = lam_camera_fit(s->scene, 100, 100, NULL);
     s->frame = (struct frame){0};
     lam_draw_params params = {.shadows = true};
-    if (!frame_build(&s->frame, s->scene, &camera, &params, 100, 100, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(frame_build(&s->frame, s->scene, &camera, &params, 100, 100, NULL, &error));
     struct pool *pool = pool_make(threads);
     bool built;
     memset(&s->memory, 0, sizeof s->memory);
     s->hierarchy = hierarchy_of_frame(&s->memory, &s->frame, pool, NULL, &built, &error);
-    if (!s->hierarchy)
-        fail_msg("%s", error.text);
+    SUCCEEDS(s->hierarchy);
     assert_true(built);
     // An unchanged scene is not built again.
     assert_true(hierarchy_of_frame(&s->memory, &s->frame, pool, NULL, &built, &error) == s->hierarchy && !built);
@@ -181,9 +172,8 @@ static void check_rays(const struct soup *s, int rounds)
 
 static struct soup soup;
 
-static void test_random(void **unused)
+TEST(test_random)
 {
-    (void)unused;
     static const double sizes[] = {1, 1e-20, 1e20};
     for (uint32_t count = 1; count < 3000; count = count * 3 + 1) {
         random_soup(&soup, count, sizes[count % 3]);
@@ -233,9 +223,8 @@ static uint32_t check_node(const struct hierarchy *h, uint32_t child, uint32_t c
     return sum + count;
 }
 
-static void test_tree(void **unused)
+TEST(test_tree)
 {
-    (void)unused;
     static uint8_t seen[TRIANGLES_MAX];
     static struct ray_node nodes[TRIANGLES_MAX];
     static struct ray_triangle triangles[TRIANGLES_MAX];
@@ -291,9 +280,8 @@ static bool fits(size_t limit, size_t *used)
 
 // The memory limit counts the memory used while the hierarchy is built: the cells of large ranges, and a group of
 // triangles with the same middle while it is sorted.
-static void test_memory_limit(void **unused)
+TEST(test_memory_limit)
 {
-    (void)unused;
     for (int same_middles = 0; same_middles < 2; same_middles++) {
         seed = 5;
         random_soup(&soup, TRIANGLES_MAX, 1);
@@ -316,9 +304,8 @@ static void test_memory_limit(void **unused)
 }
 
 // Triangles with the same three positions, in any order, have the lowest number among them as their twin.
-static void test_twins(void **unused)
+TEST(test_twins)
 {
-    (void)unused;
     static const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     random_soup(&soup, 300, 1);
     for (uint32_t i = 0; i < 300; i++)
@@ -347,9 +334,8 @@ static void test_twins(void **unused)
 }
 
 // A closed surface of thin triangles around a point: no ray from there leaves it, even through its edges and corners.
-static void test_watertight(void **unused)
+TEST(test_watertight)
 {
-    (void)unused;
     enum { ROUND = 40, DOWN = 20 };
     static float p[DOWN + 1][ROUND][3];
     for (int j = 0; j <= DOWN; j++)
@@ -391,9 +377,8 @@ static void test_watertight(void **unused)
 }
 
 // Whether a ray crosses a triangle, computed exactly: corners and rays on a grid, in integers.
-static void test_exact(void **unused)
+TEST(test_exact)
 {
-    (void)unused;
     int hits = 0;
     for (int round = 0; round < 20000; round++) {
         struct ray_triangle triangle = {.twin = 3};
@@ -445,9 +430,8 @@ static void test_exact(void **unused)
 
 // Triangles of one plane in general position, whose corners are rounded to floats: rays from points of one cross no
 // other. They do cross a triangle slightly above the plane, by a few times the rounding of a corner.
-static void test_coplanar(void **unused)
+TEST(test_coplanar)
 {
-    (void)unused;
     enum { PLANE = 30 };
     int crossed = 0;
     for (int round = 0; round < 200; round++) {
@@ -516,20 +500,9 @@ static void test_coplanar(void **unused)
     assert_true(crossed > 1000);
 }
 
-static void test_nothing(void **unused)
+TEST(test_nothing)
 {
-    (void)unused;
     struct hierarchy none = {.scale = 1};
     struct ray_lanes ray = {.end = {1}, .direction = {{0}, {1}}};
     assert_int_equal(any_hit(&none, &ray, 0xff, NULL, NULL), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_exact),    cmocka_unit_test(test_random),       cmocka_unit_test(test_tree),
-        cmocka_unit_test(test_twins),    cmocka_unit_test(test_memory_limit), cmocka_unit_test(test_watertight),
-        cmocka_unit_test(test_coplanar), cmocka_unit_test(test_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

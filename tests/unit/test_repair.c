@@ -1,7 +1,6 @@
 // test_repair.c: vertices that are not finite and normals without a direction, in every format (scene_repair.c).
+#include "test.h"
 #include "gltf_document.h"
-
-#include <math.h>
 
 // The unit square in the plane z = 0. Its other vertices, 4 and 5, are not finite or not used.
 #define PLY(VERTICES, FACES, MORE)                                                                                     \
@@ -38,9 +37,8 @@ static const struct row {
      1, 1, 1, 0},
 };
 
-static void test_positions(void **state)
+TEST(test_positions)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         for (int threads = 1; threads <= 3; threads += 2) {
             const struct row *row = &rows[i];
@@ -75,9 +73,8 @@ static void test_positions(void **state)
 }
 
 // Colours, smoothing groups, materials and texture coordinates stay with their triangles.
-static void test_attributes(void **state)
+TEST(test_attributes)
 {
-    (void)state;
     lam_scene *scene = load_text(PLY("5", "3", "") "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                                    "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\ninf 0 0\n3 0 1 2 1 2 3\n"
                                                    "3 0 1 4 4 5 6\n3 0 2 3 7 8 9\n",
@@ -100,9 +97,8 @@ static void test_attributes(void **state)
 }
 
 // All normals of the square's corners are (0, 0, 1), except the file's own where `own` is set.
-static void test_normals(void **state)
+TEST(test_normals)
 {
-    (void)state;
     static const struct {
         const char *name, *text;
         int bad, all; // in the warning
@@ -122,7 +118,7 @@ static void test_normals(void **state)
          false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lam_scene *scene = load_text(cases[i].text, cases[i].name);
+        AUTO_SCENE scene = load_text(cases[i].text, cases[i].name);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         char expected[200];
         snprintf(expected, sizeof expected,
@@ -138,14 +134,12 @@ static void test_normals(void **state)
             bool own = cases[i].own && mesh->indices[c] == 0;
             assert_near((double)n[own ? 0 : 2] / length, 1, 1e-6);
         }
-        lam_scene_free(scene);
     }
 }
 
 // Points without a normal become a mesh without normals, which is unlit.
-static void test_points(void **state)
+TEST(test_points)
 {
-    (void)state;
     lam_scene *scene = load_text(CLOUD "0 0 0 0 0 1\n1 0 0 nan 0 1\n0 1 0 1 0 0\n", "a.ply");
     assert_int_equal(lam_scene_object_count(scene), 2);
     assert_int_equal(lam_scene_mesh(scene, 0)->point_count, 2);
@@ -161,9 +155,8 @@ static void test_points(void **state)
 }
 
 // glTF: meshes that share their vertices; normals as floats and as normalised bytes; flat normals replace missing ones.
-static void test_gltf(void **state)
+TEST(test_gltf)
 {
-    (void)state;
     for (int bytes = 0; bytes < 2; bytes++)
         for (int bad = 0; bad < 2; bad++) {
             static const float corners[15] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 9, 9, 0};
@@ -193,7 +186,7 @@ static void test_gltf(void **state)
                         "[\"KHR_mesh_quantization\"]"
                       : "");
             make_text(&document, json);
-            lam_scene *scene = load_text(document.text, "a.gltf");
+            AUTO_SCENE scene = load_text(document.text, "a.gltf");
             assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 2);
             assert_int_equal(lam_scene_mesh(scene, 1)->triangle_count, !bad);
             assert_true(lam_scene_mesh(scene, 0)->normals[2] == 1);
@@ -202,15 +195,5 @@ static void test_gltf(void **state)
                 "a.gltf: 5 of 5 normals are zero or not finite; they are computed, or left out for lines "
                 "and points");
             assert_null(lam_scene_warning(scene, bad + 1));
-            lam_scene_free(scene);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_positions), cmocka_unit_test(test_attributes), cmocka_unit_test(test_normals),
-        cmocka_unit_test(test_points),    cmocka_unit_test(test_gltf),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 // test_sandbox.c: tries forbidden operations from inside the program's sandbox: files outside, links, programs,
 // sockets, other processes, 32-bit system calls; and allowed operations. Each attempt is a separate process, which
 // enters the sandbox and ends with its error number.
+#include "test.h"
 #include "sandbox.h"
 
 #include <errno.h>
@@ -8,13 +9,7 @@
 #include <linux/openat2.h>
 #include <pthread.h>
 #include <sched.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/mount.h>
@@ -27,9 +22,6 @@
 #include <sys/uio.h>
 #include <sys/un.h>
 #include <sys/wait.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 static char top[] = "/tmp/lambent-sandbox-XXXXXX"; // with the folders in, out and secret
 static struct sandbox_state offered;
@@ -364,9 +356,8 @@ static void need_sandbox(void)
     skip();
 }
 
-static void test_attempts(void **state)
+TEST(test_attempts)
 {
-    (void)state;
     need_sandbox();
     int wrong = 0;
     for (size_t i = 0; i < sizeof attempts / sizeof *attempts; i++) {
@@ -394,9 +385,8 @@ static int with_filter(const struct attempt *attempt, unsigned kind)
     return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
 }
 
-static void test_filter_alone(void **state)
+TEST(test_filter_alone)
 {
-    (void)state;
     need_sandbox();
     static const struct attempt alone[] = {ATTEMPT(read_inside, 0),        ATTEMPT(secret, 0),
                                            ATTEMPT(empty_model, EACCES),   ATTEMPT(empty_model_again, ENOSYS),
@@ -434,9 +424,8 @@ static int ends_process(void)
 
 static int stop_parent(void) { return error_of(kill(getppid(), SIGSTOP)); }
 
-static void test_server(void **state)
+TEST(test_server)
 {
-    (void)state;
     need_sandbox();
     static const struct attempt served[] = {ATTEMPT(read_inside, 0),           ATTEMPT(thread_inside, 0),
                                             ATTEMPT(make_process, 0),          ATTEMPT(stricter_process, 0),
@@ -457,9 +446,8 @@ static void test_server(void **state)
 }
 
 // The attempts are valid: without the sandbox, they succeed.
-static void test_without(void **state)
+TEST(test_without)
 {
-    (void)state;
     static const struct attempt free_ones[] = {ATTEMPT(secret, 0),
                                                ATTEMPT(system_file, 0),
                                                ATTEMPT(dots, 0),
@@ -507,9 +495,8 @@ static int older_thread(void)
     return error;
 }
 
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     need_sandbox();
     static const struct attempt attempt = ATTEMPT(older_thread, ENOSYS);
     int status = status_of(&attempt, false, SANDBOX_DRAWS);
@@ -527,9 +514,8 @@ static int call_of_32_bits(void)
     return result == getpid() ? 0 : 251;
 }
 
-static void test_32_bits(void **state)
+TEST(test_32_bits)
 {
-    (void)state;
     need_sandbox();
     static const struct attempt attempt = ATTEMPT(call_of_32_bits, 0);
     int status = status_of(&attempt, true, SANDBOX_DRAWS);
@@ -538,9 +524,8 @@ static void test_32_bits(void **state)
 }
 #endif
 
-static void test_text(void **state)
+TEST(test_text)
 {
-    (void)state;
     char text[SANDBOX_TEXT_SIZE];
     assert_string_equal(sandbox_text(&(struct sandbox_state){.landlock = 3, .filter = true}, text),
                         "Landlock 3 and seccomp");
@@ -552,15 +537,4 @@ static void test_text(void **state)
     assert_true(offered.reason || (offered.landlock && offered.filter));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_attempts), cmocka_unit_test(test_filter_alone), cmocka_unit_test(test_server),
-        cmocka_unit_test(test_without),  cmocka_unit_test(test_threads),
-#if defined(__x86_64__)
-        cmocka_unit_test(test_32_bits),
-#endif
-        cmocka_unit_test(test_text),
-    };
-    return cmocka_run_group_tests(tests, make_files, remove_files);
-}
+FIXTURE(make_files, remove_files)

@@ -1,8 +1,7 @@
-// test_scene_file.c: scene files: every key, every error, truncated files, failed allocations, and writing.
+// test_scene_file.c: scene files: objects, errors, truncated files, failed allocations, and writing. tests/cli/doors.py tests
+// the keys of lights, materials, cameras and settings.
+#include "test.h"
 #include "loading.h"
-
-#include <math.h>
-#include <unistd.h>
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
@@ -45,9 +44,8 @@ static lam_scene *good(const char *text)
 
 #define BALL "\"objects\": [{\"shape\": \"sphere\", \"slices\": 4, \"stacks\": 2}]"
 
-static void test_defaults(void **unused)
+TEST(test_defaults)
 {
-    (void)unused;
     lam_scene *scene = good("{\"lambent\": 1, " BALL "}");
     lam_picture_settings settings;
     assert_true(lam_scene_picture_settings(scene, &settings));
@@ -60,60 +58,12 @@ static void test_defaults(void **unused)
     assert_false(ball->one_sided);
     assert_string_equal(lam_scene_format(scene), "scene");
     lam_scene_free(scene);
-    lam_scene *plain = lam_scene_make(NULL);
+    AUTO_SCENE plain = lam_scene_make(NULL);
     assert_false(lam_scene_picture_settings(plain, &settings));
-    lam_scene_free(plain);
 }
 
-static void test_picture(void **unused)
+TEST(test_objects)
 {
-    (void)unused;
-    lam_scene *scene =
-        good("{\"lambent\": 1, \"image\": {\"size\": [30, 20], \"samples\": 8, \"background\": "
-             "\"#80808080\", \"color_mode\": \"raw\", "
-             "\"exposure\": 0}, \"camera\": {\"eye\": [1, 2, 3], \"target\": [0, 1, 0], \"up\": [0, 0, 1], "
-             "\"ortho_half_height\": 2, \"near\": -1, \"far\": 5}, \"ambient\": [0.1, 0.2, 0.3], "
-             "\"shading\": \"flat\", "
-             "\"reflection\": \"kajiya-kay\", \"stage\": \"vertex\", \"viewer\": \"infinite\", "
-             "\"flat_normal\": \"vertex\", "
-             "\"match_highlights\": true, \"single_scattering\": true, \"gl1\": true, \"up\": \"z\", \"light_cutoff\": "
-             "0.25, \"lights\": "
-             "[], " BALL "}");
-    lam_picture_settings s;
-    assert_true(lam_scene_picture_settings(scene, &s));
-    assert_int_equal(s.present, LAM_SETTING_SIZE | LAM_SETTING_SAMPLES | LAM_SETTING_BACKGROUND | LAM_SETTING_COLOR |
-                                    LAM_SETTING_EXPOSURE | LAM_SETTING_CAMERA | LAM_SETTING_LIGHTS);
-    static const char *const given[] = {"shading",          "reflection",        "stage", "viewer",      "flat_normal",
-                                        "match_highlights", "single_scattering", "gl1",   "light_cutoff"};
-    uint64_t rows = 0;
-    for (size_t i = 0; i < sizeof given / sizeof *given; i++)
-        rows |= UINT64_C(1) << lam_draw_setting_find(given[i]);
-    assert_true(s.draw_present == rows);
-    assert_true(s.draw.light_cutoff == 0.25f);
-    assert_true(s.width == 30 && s.height == 20 && s.draw.samples == 8);
-    assert_true(s.draw.background.r == (float)(128.0 / 255) && s.draw.background.a == (float)(128.0 / 255));
-    assert_int_equal(s.draw.color, LAM_COLOR_RAW);
-    assert_true(s.camera.eye.z == 3 && s.camera.target.y == 1 && s.camera.up.z == 1 &&
-                s.camera.ortho_half_height == 2 && s.camera.near_plane == -1 && s.camera.far_plane == 5);
-    assert_true(s.draw.shading == LAM_SHADING_FLAT && s.draw.reflection == LAM_REFLECTION_KAJIYA_KAY &&
-                s.draw.stage == LAM_STAGE_VERTEX && s.draw.viewer == LAM_VIEWER_INFINITE &&
-                s.draw.flat_normal == LAM_FLAT_NORMAL_VERTEX && s.draw.match_highlights && s.draw.single_scattering &&
-                s.draw.gl1);
-    assert_int_equal(s.draw.rig, LAM_RIG_NONE);
-    assert_int_equal(lam_scene_up(scene), LAM_UP_Z);
-    assert_true(lam_scene_ambient(scene).b == 0.3f);
-    lam_scene_free(scene);
-
-    scene = good("{\"lambent\": 1, \"camera\": {\"fovy\": 60}, \"stage\": \"application\", " BALL "}");
-    lam_scene_picture_settings(scene, &s);
-    assert_true(fabs(s.camera.fovy_rad - acos(0.5)) < 1e-15 && s.camera.eye.z == 4 && s.camera.near_plane == 0);
-    assert_int_equal(s.draw.shading, LAM_SHADING_GOURAUD);
-    lam_scene_free(scene);
-}
-
-static void test_objects(void **unused)
-{
-    (void)unused;
     lam_scene *scene =
         good("{\"lambent\": 1, \"materials\": {\"m\": {\"diffuse\": [0.1, 0.2, 0.3, 0.5], \"specular\": "
              "\"white\", "
@@ -158,48 +108,8 @@ static void test_objects(void **unused)
     lam_scene_free(scene);
 }
 
-static void test_lights(void **unused)
+TEST(test_errors)
 {
-    (void)unused;
-    lam_scene *scene = good(
-        "{\"lambent\": 1, " BALL ", \"lights\": [{\"type\": \"ambient\", \"color\": [1, 1, 1], \"intensity\": 0.5}, "
-        "{\"type\": \"hemisphere\", \"sky\": [1, 0, 0], \"ground\": [0, 1, 0], \"up\": [1, 0, 0], \"frame\": "
-        "\"camera\"}, "
-        "{\"name\": \"p\", \"type\": \"point\", \"position\": [2, 4, 6, 2], \"attenuation\": [0, 0, 1], "
-        "\"range\": 9, \"shadows\": false, \"radius\": 0.5}, "
-        "{\"type\": \"point\", \"position\": [1, 2, 3, 0]}, {\"type\": \"directional\", \"position\": [0, 1, "
-        "0, 0]}, "
-        "{\"type\": \"directional\", \"direction\": [1, 0, 0], \"color\": [1, 0.5, 0], \"intensity\": 2, "
-        "\"specular\": [0, 0, 1], \"radius\": 30}, "
-        "{\"type\": \"spot\", \"position\": [1, 1, 1], \"target\": [1, 0, 1], \"cutoff\": 30, \"exponent\": "
-        "2}, "
-        "{\"type\": \"spot\", \"inner\": 10, \"outer\": 20, \"frame\": \"object\", \"object\": \"sphere\"}, "
-        "{\"type\": \"spot\", \"exponent\": 4}, {\"type\": \"spot\"}, {\"type\": \"spot\", \"cutoff\": "
-        "180}]}");
-    const lam_light *l[11];
-    for (int i = 0; i < 11; i++)
-        l[i] = lam_scene_light(scene, i);
-    assert_true(l[0]->ambient.r == 0.5f);
-    assert_true(l[1]->sky.r == 1 && l[1]->ground.g == 1 && l[1]->up.x == 1 && l[1]->frame == LAM_FRAME_CAMERA);
-    assert_true(l[2]->position.x == 1 && l[2]->position.z == 3 && l[2]->attenuation.quadratic == 1 &&
-                l[2]->attenuation.constant == 0 && l[2]->range == 9);
-    assert_true(l[3]->type == LAM_LIGHT_DIRECTIONAL && l[3]->direction.x == -1 && l[3]->direction.z == -3);
-    assert_true(l[2]->no_shadows && l[2]->radius == 0.5f && !l[3]->no_shadows && l[3]->radius == 0);
-    assert_true(l[4]->direction.y == -1);
-    assert_true(fabs((double)l[5]->angular_radius_rad - asin(0.5)) < 1e-7 && l[5]->radius == 0);
-    assert_true(l[5]->diffuse.r == 2 && l[5]->diffuse.g == 1 && l[5]->specular.r == 0 && l[5]->specular.b == 1);
-    assert_true(l[6]->direction.y == -1 && fabs((double)l[6]->cutoff_rad - asin(0.5)) < 1e-7 && l[6]->exponent == 2);
-    assert_true(l[7]->outer_rad > l[7]->inner_rad && l[7]->inner_rad > 0.17f && l[7]->cutoff_rad == 0);
-    assert_string_equal(l[7]->object, "sphere");
-    assert_true(l[8]->cutoff_rad == 0 && l[8]->exponent == 4);
-    assert_true(fabs((double)l[9]->cutoff_rad - atan(1)) < 1e-7 && l[9]->exponent == 0);
-    assert_true(l[10]->cutoff_rad > 3.14f);
-    lam_scene_free(scene);
-}
-
-static void test_errors(void **unused)
-{
-    (void)unused;
     static const struct {
         const char *text, *sentence;
     } rows[] = {
@@ -218,46 +128,16 @@ static void test_errors(void **unused)
         {"{\"lambent\": 1, \"objects\": []}",
          "s.json: objects: found a list of 0, expected a list of at least one object"},
         WITH("\"lihgts\": []", "lihgts: unknown key; did you mean 'lights'?"),
-        WITH("\"image\": {\"size\": [0, 2]}", "image.size[0]: found 0, expected pixels from 1 to 65535"),
         WITH("\"image\": {\"size\": [2.5, 2]}", "image.size[0]: found 2.5, expected pixels from 1 to 65535"),
-        WITH("\"image\": {\"samples\": 3}", "image.samples: found 3, expected 1, 2, 4, 8 or 16"),
-        WITH("\"image\": {\"color\": \"raw\", \"color_mode\": \"raw\"}",
-             "image: contains both color_mode and color, expected only one"),
         WITH("\"image\": {\"color_mode\": \"rwa\"}",
              "image.color_mode: found \"rwa\", expected srgb or raw; did you mean 'raw'?"),
         WITH("\"image\": {\"color\": \"rwa\"}",
              "image.color: found \"rwa\", expected srgb or raw; did you mean 'raw'?"),
-        WITH("\"image\": {\"background\": [0, 0, 0, 2]}",
-             "image.background[3]: found 2, expected a number from 0 to 1"),
-        WITH("\"camera\": {\"fovy\": 180}", "camera.fovy: found 180, expected degrees above 0 and below 180"),
-        WITH("\"camera\": {\"near\": 1}", "camera: has only near, expected both of near and far, or neither"),
-        WITH("\"camera\": {\"near\": 3, \"far\": 2}", "camera: near is 3 and far is 2, expected 0 < near < far"),
-        WITH("\"camera\": {\"fovy\": 30, \"ortho_half_height\": 1}",
-             "camera: contains both fovy and ortho_half_height, expected only one"),
-        WITH("\"camera\": {\"eye\": [0, 0, 0]}", "camera: eye and target are the same point"),
-        WITH("\"camera\": {\"up\": [0, 0, 0]}", "camera.up: found 0, 0, 0, expected a direction"),
-        WITH("\"camera\": {\"eye\": [0, 0]}", "camera.eye: found a list of 2, expected a list of 3 numbers"),
-        WITH("\"camera\": {\"eye\": [0, 0, \"x\"]}", "camera.eye[2]: found \"x\", expected a number"),
         WITH("\"camera\": 5", "camera: found 5, expected an object, { … }"),
-        WITH("\"ambient\": [0, -1, 0]", "ambient[1]: found -1, expected a number of at least 0"),
-        WITH("\"ambient\": \"blurple\"",
-             "ambient: found \"blurple\", expected a colour: \"#rrggbb\", a name such as \"white\", or "
-             "a list of linear numbers"),
-        WITH("\"gl1\": 1", "gl1: found 1, expected true or false"),
-        WITH("\"stage\": \"vertex\", \"shading\": \"phong\"",
-             "stage: Phong shading needs the stage fragment; application and vertex work with flat and gouraud"),
-        WITH("\"stage\": \"fragment\", \"shading\": \"gouraud\"",
-             "stage: Gouraud shading needs the stage application or vertex; fragment works with flat and "
-             "phong"),
-        WITH("\"environment\": {\"rotation\": 5}", "environment: expected one of faces, equirectangular and builtin"),
         WITH("\"environment\": {\"faces\": [\"a\"]}",
              "environment.faces: found a list of 1, expected six names of pictures: +x, -x, +y, -y, +z, -z"),
-        WITH("\"materials\": {\"m\": {\"shininess\": -1}}",
-             "materials.m.shininess: found -1, expected a number of at least 0"),
         WITH("\"materials\": {\"m\": {\"shinines\": 1}}",
              "materials.m.shinines: unknown key; did you mean 'shininess'?"),
-        WITH("\"materials\": {\"m\": {\"ambient\": \"#11223344\"}}",
-             "materials.m.ambient: contains an alpha, expected a colour without alpha"),
         WITH("\"materials\": []", "materials: found a list of 0, expected an object of named materials"),
         OBJECT("\"name\": \"x\"", ": contains neither shape nor file, expected one of them"),
         OBJECT(SPHERE "\"file\": \"a.obj\"", ": contains both shape and file, expected only one"),
@@ -295,30 +175,6 @@ static void test_errors(void **unused)
         LIGHT("\"type\": \"sun\"",
               ".type: found \"sun\", expected ambient, hemisphere, point, directional or spot; did you "
               "mean 'directional'?"),
-        LIGHT("\"type\": \"point\", \"power\": 4", ".power: unknown key; did you mean 'intensity'?"),
-        LIGHT("\"type\": \"point\", \"cutoff\": 4", ".cutoff: a point light has no 'cutoff'"),
-        LIGHT("\"type\": \"point\", \"attenuation\": [0, 0, 0]",
-              ".attenuation: all three numbers are 0, expected a + b d + c d^2 to be more than 0"),
-        LIGHT("\"type\": \"point\", \"attenuation\": [1, -2, 0]",
-              ".attenuation[1]: found -2, expected a number of at least 0"),
-        LIGHT("\"type\": \"point\", \"range\": -2", ".range: found -2, expected a number of at least 0"),
-        LIGHT(
-            "\"type\": \"directional\", \"position\": [1, 2, 3]",
-            ".position: a directional light has a direction, a position whose fourth number is 0, or a position and a "
-            "target"),
-        LIGHT("\"type\": \"spot\", \"position\": [1, 2, 3, 0]",
-              ".position: the fourth number is 0, but a spot light needs a position"),
-        LIGHT("\"type\": \"point\", \"position\": [0, 0, 0, 0]", ".position: found 0, 0, 0, 0, expected a direction"),
-        LIGHT("\"type\": \"spot\", \"inner\": 30, \"outer\": 20",
-              ".inner: found 30, expected less than outer, which is 20"),
-        LIGHT("\"type\": \"spot\", \"inner\": 30", ": inner is given without outer, expected both"),
-        LIGHT("\"type\": \"spot\", \"cutoff\": 120",
-              ".cutoff: found 120, expected degrees above 0 and up to 90, or 180"),
-        LIGHT("\"type\": \"spot\", \"cutoff\": 20, \"outer\": 20",
-              ": inner and outer cannot be combined with cutoff or exponent"),
-        LIGHT("\"type\": \"spot\", \"direction\": [0, 0, 0]", ".direction: found 0, 0, 0, expected a direction"),
-        LIGHT("\"type\": \"point\", \"frame\": \"object\", \"object\": \"cube\"", ".object: no object is named 'cube'"),
-        LIGHT("\"type\": \"point\", \"object\": \"sphere\"", ".object: is allowed only with \"frame\": \"object\""),
         LIGHT("\"type\": \"point\", \"intensity\": 1e30, \"color\": [1e30, 0, 0]",
               ": point light: diffuse.r is inf, expected a finite number of 0 or more"),
         WITH("\"lights\": {}", "lights: found an object, expected a list of lights, [ … ]"),
@@ -348,9 +204,8 @@ static const char whole[] =
     "{\"shape\": \"cube\", \"slices\": 3, \"stacks\": 1, \"normals\": \"smooth\"}], "
     "\"lights\": [{\"name\": \"l\", \"type\": \"point\", \"frame\": \"object\", \"object\": \"x\"}]}";
 
-static void test_prefixes(void **unused)
+TEST(test_prefixes)
 {
-    (void)unused;
     char text[sizeof whole];
     for (size_t length = 0; length < sizeof whole - 1; length++) {
         memcpy(text, whole, length);
@@ -362,9 +217,8 @@ static void test_prefixes(void **unused)
     lam_scene_free(good(whole));
 }
 
-static void test_memory(void **unused)
+TEST(test_memory)
 {
-    (void)unused;
     for (long i = 0;; i++) {
         lam_error error = {0};
         arena_fail_after(i);
@@ -384,9 +238,8 @@ static void test_memory(void **unused)
 }
 
 // Everything that a scene can contain is restored bit for bit.
-static void test_writing(void **unused)
+TEST(test_writing)
 {
-    (void)unused;
     char folder[] = "/tmp/lambent-scene-XXXXXX", path[64], model[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/s.json", folder);
@@ -395,7 +248,7 @@ static void test_writing(void **unused)
     fputs(TRIANGLE "f 1 2 3\n", file);
     fclose(file);
     lam_error error = {0};
-    lam_scene *scene = lam_scene_load(model, NULL, NULL, &error);
+    AUTO_SCENE scene = lam_scene_load(model, NULL, NULL, &error);
     lam_shape_params segments = {.radius = 0.1 + 0.2, .slices = 5, .stacks = 3};
     lam_object object = lam_object_default();
     object.mesh = lam_scene_add_shape(scene, "torus", &segments, &error);
@@ -436,33 +289,12 @@ static void test_writing(void **unused)
                                .background = {0.1f, 0.2f, 0.3f, 0.4f},
                                .color = LAM_COLOR_RAW,
                                .shading = LAM_SHADING_FLAT,
-                               .reflection = LAM_REFLECTION_PHONG,
                                .stage = LAM_STAGE_VERTEX,
-                               .viewer = LAM_VIEWER_INFINITE,
-                               .flat_normal = LAM_FLAT_NORMAL_VERTEX,
-                               .gl1 = true,
                                .rig = LAM_RIG_NONE,
                                .light_cutoff = -1,
-                               .match_highlights = true,
                                .reference = 64,
-                               .shadows = true,
-                               .flat_terminator = true,
-                               .shadow_samples = 5,
-                               .wireframe = true,
-                               .no_surfaces = true,
-                               .edges = LAM_EDGES_CREASE | LAM_EDGES_SILHOUETTE,
-                               .hidden_lines = LAM_HIDDEN_LINES_SHOW,
-                               .edge_angle_rad = 0.71234567f,
-                               .edge_width = 1.7f,
-                               .wireframe_width = 0.3f,
-                               .edge_color = {0.1f, 0.2f, 1.0f / 3, 0.5f},
-                               .wireframe_color = {0, 0, 0, 1},
                                .ground = LAM_GROUND_COLOR,
-                               .ground_color = {0.1f, 1.0f / 3, 0},
-                               .occlusion = LAM_OCCLUSION_RAYS,
-                               .occlusion_radius = 0.3f,
-                               .occlusion_samples = 9,
-                               .single_scattering = true};
+                               .ground_color = {0.1f, 1.0f / 3, 0}};
     // Every row of the table with a value other than its default. The ones above are consistent with each other.
     for (int i = 0; lam_draw_setting(i); i++) {
         const lam_setting *setting = lam_draw_setting(i);
@@ -492,8 +324,7 @@ static void test_writing(void **unused)
     s.camera.far_plane = 100;
     assert_true(lam_scene_save(scene, &s, path, &error));
     lam_scene *back = lam_scene_load(path, NULL, NULL, &error);
-    if (!back)
-        fail_msg("%s", error.text);
+    SUCCEEDS(back);
     lam_picture_settings t;
     assert_true(lam_scene_picture_settings(back, &t));
     assert_int_equal(t.present, s.present);
@@ -506,20 +337,7 @@ static void test_writing(void **unused)
     }
     assert_memory_equal(&t.draw.samples, &s.draw.samples, sizeof s.draw.samples);
     assert_memory_equal(&t.draw.background, &s.draw.background, sizeof s.draw.background);
-    assert_true(t.draw.color == s.draw.color && t.draw.shading == s.draw.shading &&
-                t.draw.reflection == s.draw.reflection && t.draw.stage == s.draw.stage &&
-                t.draw.viewer == s.draw.viewer && t.draw.flat_normal == s.draw.flat_normal && t.draw.gl1 &&
-                t.draw.match_highlights && t.draw.single_scattering && t.draw.rig == LAM_RIG_NONE &&
-                t.draw.light_cutoff < 0 && t.draw.reference == 64);
-    assert_true(t.draw.ground == LAM_GROUND_COLOR);
-    assert_memory_equal(&t.draw.ground_color, &s.draw.ground_color, sizeof s.draw.ground_color);
-    assert_true(t.draw.wireframe && t.draw.no_surfaces && t.draw.edges == s.draw.edges &&
-                t.draw.hidden_lines == LAM_HIDDEN_LINES_SHOW && t.draw.edge_width == 1.7f &&
-                t.draw.wireframe_width == 0.3f && t.draw.edge_angle_rad == s.draw.edge_angle_rad);
-    assert_memory_equal(&t.draw.wireframe_color, &s.draw.wireframe_color, 2 * sizeof s.draw.edge_color);
-    assert_true(t.draw.shadows && t.draw.flat_terminator && t.draw.shadow_samples == 5);
-    assert_true(t.draw.occlusion == LAM_OCCLUSION_RAYS && t.draw.occlusion_radius == 0.3f &&
-                t.draw.occlusion_samples == 9);
+    assert_true(t.draw.color == s.draw.color && t.draw.rig == LAM_RIG_NONE);
     assert_memory_equal(&t.camera.eye, &s.camera.eye, sizeof s.camera.eye);
     assert_true(fabs(t.camera.fovy_rad - s.camera.fovy_rad) <= 1.2e-16);
     assert_true(t.camera.near_plane == 0.1 && t.camera.far_plane == 100 && t.width == 7 && t.height == 9);
@@ -560,18 +378,7 @@ static void test_writing(void **unused)
     assert_false(lam_scene_save(scene, NULL, "/nowhere/x.json", &error));
     assert_int_equal(error.code, LAM_CANNOT_WRITE);
     assert_false(lam_scene_save(NULL, NULL, path, &error));
-    lam_scene_free(scene);
     unlink(path);
     unlink(model);
     rmdir(folder);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults), cmocka_unit_test(test_picture), cmocka_unit_test(test_objects),
-        cmocka_unit_test(test_lights),   cmocka_unit_test(test_errors),  cmocka_unit_test(test_prefixes),
-        cmocka_unit_test(test_memory),   cmocka_unit_test(test_writing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
 // test_scene_models.c: the files that scene files name: data shared by objects, and the allowed folders.
+#include "test.h"
 #include "loading.h"
 #include "temporary_folder.h"
 
 #include <sys/stat.h>
-#include <unistd.h>
 
 #define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
@@ -60,9 +60,8 @@ static const char *material_of(const lam_scene *scene, int object, int part, lam
 #define A "{\"file\": \"a.obj\"}"
 
 // The same model is read once, and objects that do not change it share one mesh.
-static void test_shared(void **unused)
+TEST(test_shared)
 {
-    (void)unused;
     static const struct {
         const char *objects;
         int meshes, materials, models;
@@ -91,7 +90,7 @@ static void test_shared(void **unused)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct counts counts;
-        lam_scene *scene = load_objects(rows[i].objects, &counts);
+        AUTO_SCENE scene = load_objects(rows[i].objects, &counts);
         if (lam_scene_mesh_count(scene) != rows[i].meshes || lam_scene_material_count(scene) != rows[i].materials ||
             counts.models != rows[i].models)
             fail_msg("row %zu: %d meshes, %d materials, %d models opened", i, lam_scene_mesh_count(scene),
@@ -104,14 +103,12 @@ static void test_shared(void **unused)
         // Meshes that are not shared share their vertices if possible.
         for (int k = 0; k < lam_scene_object_count(scene); k++)
             assert_non_null(lam_scene_mesh(scene, lam_scene_object(scene, k)->mesh)->normals);
-        lam_scene_free(scene);
     }
 }
 
 // An object's changes do not affect the others.
-static void test_changes(void **unused)
+TEST(test_changes)
 {
-    (void)unused;
     struct counts counts;
     lam_scene *scene =
         load_objects(CHANGED(3) ", " PARTS ", " A ", {\"file\": \"a.obj\", \"tangents\": \"field\"}", &counts);
@@ -134,9 +131,8 @@ static void test_changes(void **unused)
 }
 
 // A scene file describes its own transparency: unlike a model file, a scene may be fully transparent.
-static void test_clear(void **unused)
+TEST(test_clear)
 {
-    (void)unused;
     static const char *const rows[] = {
         "{\"file\": \"a.obj\", \"materials\": {\"red\": {\"opacity\": 0}, \"blue\": {\"opacity\": 0}}}",
         "{\"shape\": \"cube\", \"material\": {\"diffuse\": [1, 1, 1, 0]}}",
@@ -144,18 +140,16 @@ static void test_clear(void **unused)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct counts counts;
-        lam_scene *scene = load_objects(rows[i], &counts);
+        AUTO_SCENE scene = load_objects(rows[i], &counts);
         for (int k = 0; lam_scene_warning(scene, k); k++)
             assert_null(strstr(lam_scene_warning(scene, k), "opaque"));
         assert_true(lam_scene_material(scene, 0)->diffuse.a == 0);
-        lam_scene_free(scene);
     }
 }
 
 // Objects that share a mesh are written separately, and are restored.
-static void test_written(void **unused)
+TEST(test_written)
 {
-    (void)unused;
     char shared[] = "/tmp/lambent-shared-XXXXXX", path[2][64], model[64];
     assert_non_null(mkdtemp(shared));
     snprintf(model, sizeof model, "%s/m.obj", shared);
@@ -172,12 +166,10 @@ static void test_written(void **unused)
     fclose(file);
     lam_error error;
     lam_scene *scene = lam_scene_load(path[0], NULL, NULL, &error), *back;
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     assert_true(lam_scene_save(scene, NULL, path[1], &error));
     back = lam_scene_load(path[1], NULL, NULL, &error);
-    if (!back)
-        fail_msg("%s", error.text);
+    SUCCEEDS(back);
     assert_int_equal(lam_scene_object_count(back), 5);
     assert_int_equal(lam_scene_mesh_count(back), 2);
     for (int i = 0; i < 5; i++) {
@@ -196,9 +188,8 @@ static void test_written(void **unused)
 }
 
 // A thousand objects of one model need little more memory than one, even with changes of their own.
-static void test_memory(void **unused)
+TEST(test_memory)
 {
-    (void)unused;
     enum { OBJECTS = 1000 };
     for (int kind = 0; kind < 2; kind++) {
         char *text = malloc(OBJECTS * 100 + 100), *at = text + sprintf(text, "{\"lambent\": 1, \"objects\": [");
@@ -211,12 +202,10 @@ static void test_memory(void **unused)
         lam_load_params params = {.threads = 1, .open = open_beside, .user = &counts};
         lam_control control = {.memory_limit_bytes = 24 << 20};
         lam_error error;
-        lam_scene *scene = lam_scene_load_memory(text, strlen(text), "s.json", &params, &control, &error);
-        if (!scene)
-            fail_msg("%s", error.text);
+        AUTO_SCENE scene = lam_scene_load_memory(text, strlen(text), "s.json", &params, &control, &error);
+        SUCCEEDS(scene);
         assert_int_equal(lam_scene_object_count(scene), OBJECTS);
         assert_int_equal(counts.models, kind);
-        lam_scene_free(scene);
         free(text);
     }
 }
@@ -253,9 +242,8 @@ static int make_folder(void **state)
 
 // The files that a load looks for: the model, files that it names, and files of a scene file's models; also missing
 // ones.
-static void test_files(void **unused)
+TEST(test_files, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     write_bytes("in/m.obj", "mtllib sub/m.mtl\nmtllib none.mtl\n" TRIANGLE "usemtl a\nf 1 2 3\n");
     write_bytes("in/sub/m.mtl", "newmtl a\nmap_Kd ./sub/../m.ppm\nmap_Kd sky.ppm\n");
     write_bytes("in/s.json", "{\"lambent\": 1, \"objects\": [{\"file\": \"m.obj\"}, {\"file\": \"m.obj\"}], "
@@ -266,7 +254,7 @@ static void test_files(void **unused)
         {"in/s.json", "in/m.obj", "in/none.mtl", "in/sky.ppm", "in/sub/m.mtl", "in/sub/sky.ppm"}};
     for (int i = 0; i < 2; i++) {
         lam_error error;
-        lam_scene *scene = lam_scene_load(in_folder(models[i]), NULL, NULL, &error);
+        AUTO_SCENE scene = lam_scene_load(in_folder(models[i]), NULL, NULL, &error);
         if (!scene)
             fail_msg("%s: %s", models[i], error.text);
         for (int k = 0; k < 6; k++) {
@@ -278,20 +266,17 @@ static void test_files(void **unused)
         }
         assert_null(lam_scene_file(scene, 6));
         assert_null(lam_scene_file(scene, -1));
-        lam_scene_free(scene);
     }
     assert_null(lam_scene_file(NULL, 0));
     struct counts counts;
-    lam_scene *scene = load_objects(A, &counts);
+    AUTO_SCENE scene = load_objects(A, &counts);
     assert_string_equal(lam_scene_file(scene, 0), "a.mtl"); // the names passed to the function
     assert_string_equal(lam_scene_file(scene, 1), "a.obj");
-    lam_scene_free(scene);
 }
 
 // A scene file's own folder is the root for its models and pictures; models_anywhere lifts this.
-static void test_root(void **unused)
+TEST(test_root, .setup_func = make_folder, .teardown_func = remove_folder)
 {
-    (void)unused;
     char absolute_in[100], absolute_out[100];
     snprintf(absolute_in, sizeof absolute_in, "%s", in_folder("in/sub/m.obj"));
     snprintf(absolute_out, sizeof absolute_out, "%s", in_folder("m.obj"));
@@ -348,9 +333,8 @@ static void test_root(void **unused)
 }
 
 // The caller's function gets names within the folder, for models, their files, and pictures; others are refused.
-static void test_function(void **unused)
+TEST(test_function)
 {
-    (void)unused;
     struct counts counts = {0};
     lam_load_params params = {.threads = 1, .open = open_beside, .user = &counts, .models_anywhere = true};
     static const char good[] =
@@ -358,8 +342,7 @@ static void test_function(void **unused)
         "\".//in/./a.obj\"}]}";
     lam_error error;
     lam_scene *scene = lam_scene_load_memory(good, sizeof good - 1, "s.json", &params, NULL, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    SUCCEEDS(scene);
     assert_true(counts.models == 1 && counts.materials == 1 && counts.pictures == 1);
     assert_non_null(lam_scene_environment(scene));
     assert_string_equal(lam_scene_warning(scene, 0),
@@ -381,15 +364,4 @@ static void test_function(void **unused)
     // Without a function and without a folder, nothing can be opened.
     assert_null(lam_scene_load_memory(good, sizeof good - 1, "s.json", NULL, NULL, &error));
     assert_non_null(strstr(error.text, "cannot be opened: the model has no folder"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shared),   cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_clear),    cmocka_unit_test(test_written),
-        cmocka_unit_test(test_memory),   cmocka_unit_test_setup_teardown(test_root, make_folder, remove_folder),
-        cmocka_unit_test(test_function), cmocka_unit_test_setup_teardown(test_files, make_folder, remove_folder),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

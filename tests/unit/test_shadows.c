@@ -1,19 +1,8 @@
 // test_shadows.c: the share of light that passes blocking surfaces, in pictures and explanations.
+#include "test.h"
 #include "device_fixture.h"
 
 #include <lambent/explain.h>
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { SIZE = 64 };
 
@@ -68,8 +57,7 @@ static lam_explained_light explained(const lam_scene *scene, lam_draw_params par
 {
     int px = (int)((x + 4) / 8 * SIZE), py = (int)((z + 4) / 8 * SIZE);
     lam_explanation *e = lam_explain(device, scene, &camera, &params, SIZE, SIZE, LAM_RGBA32F, px, py, NULL, &error);
-    if (!e)
-        fail_msg("%s", error.text);
+    SUCCEEDS(e);
     const lam_explained_fragment *f = &e->fragments[e->fragment_count - 1]; // the floor: opaque surfaces come last
     lam_explained_light light = f->points[0].lights[0];
     lam_explanation_free(e);
@@ -79,10 +67,9 @@ static lam_explained_light explained(const lam_scene *scene, lam_draw_params par
 // --- layers
 
 // Translucent plates over one another multiply; masked ones pass everything or nothing; an opaque one passes nothing.
-static void test_layers(void **unused)
+TEST(test_layers)
 {
-    (void)unused;
-    lam_scene *scene = floor_scene();
+    AUTO_SCENE scene = floor_scene();
     const float alphas[] = {0.25f, 0.5f, 0.125f};
     for (int i = 0; i < 3; i++)
         add_plate(scene, 1, 1, -2 + 2 * i, alphas[i]); // apart
@@ -112,16 +99,14 @@ static void test_layers(void **unused)
     m.alpha_mode = LAM_ALPHA_OPAQUE; // for any alpha
     assert_true(lam_scene_set_material(scene, 5, &m, &error));
     assert_true(explained(scene, with, 1.05, 0).passed.r == 0);
-    lam_scene_free(scene);
 }
 
 // The sides of a plate may pass different shares: the side that the light hits decides.
-static void test_sides(void **unused)
+TEST(test_sides)
 {
-    (void)unused;
     for (int mirrored = 0; mirrored < 2; mirrored++)
         for (int below = 0; below < 2; below++) {
-            lam_scene *scene = floor_scene();
+            AUTO_SCENE scene = floor_scene();
             int plate = add_plate(scene, 2, 10, 0, 0.25f);
             lam_object o = *lam_scene_object(scene, plate);
             lam_material m = *lam_scene_material(scene, o.material);
@@ -136,16 +121,14 @@ static void test_sides(void **unused)
             lam_light l = *sun();
             lam_scene_add_light(scene, &l, &error);
             assert_true(explained(scene, with, 3, 0).passed.r == (below ? 0.5f : 0.75f));
-            lam_scene_free(scene);
         }
 }
 
 // --- which objects cast shadows, and where
 
-static void test_lights(void **unused)
+TEST(test_lights)
 {
-    (void)unused;
-    lam_scene *scene = floor_scene();
+    AUTO_SCENE scene = floor_scene();
     add_plate(scene, 2, 3, 0, 1);
     lam_light l = *sun();
     lam_scene_add_light(scene, &l, &error);
@@ -179,27 +162,23 @@ static void test_lights(void **unused)
     }
     // Two lights at one position: each loses its own terms.
     lam_scene_add_light(scene, &l, &error);
-    lam_image sum = draw(scene, with);
+    AUTO_IMAGE sum = draw(scene, with);
     lam_draw_params one = with;
     one.output = LAM_OUTPUT_LIGHT;
-    lam_image light = draw(scene, one);
+    AUTO_IMAGE light = draw(scene, one);
     for (int i = 0; i < SIZE * SIZE; i++) {
         const float *s = (const float *)sum.pixels + 4 * i, *p = (const float *)light.pixels + 4 * i;
         assert_true(fabs((double)s[0] - 2 * (double)p[0] - 0.3 * (double)lam_material_default().ambient.r) < 1e-5);
     }
-    lam_image_free(&light);
-    lam_image_free(&sum);
     lam_image_free(&bare);
-    lam_scene_free(scene);
 }
 
 // A point, a spot and a directional light cast the same shadow; culled objects also cast it; an object behind the light
 // does not.
-static void test_kinds(void **unused)
+TEST(test_kinds)
 {
-    (void)unused;
     for (int kind = LAM_LIGHT_POINT; kind <= LAM_LIGHT_SPOT; kind++) {
-        lam_scene *scene = floor_scene();
+        AUTO_SCENE scene = floor_scene();
         int plate = add_plate(scene, 1, 2, 1, 1);
         lam_light l = lam_light_default((lam_light_type)kind);
         l.direction = (lam_vec3){0, -1, 0};
@@ -211,11 +190,10 @@ static void test_kinds(void **unused)
             o.cull = (lam_cull)i;
             lam_scene_set_object(scene, plate, &o, &error);
             lam_draw_params params = with;
-            lam_image image = draw(scene, params);
+            AUTO_IMAGE image = draw(scene, params);
             const float *under = (const float *)image.pixels + 4 * (SIZE / 2 * SIZE + SIZE * 5 / 8);
             // From above, the plate hides its own shadow, unless it is culled.
             assert_true(o.cull == LAM_CULL_BACK || o.cull == LAM_CULL_NONE ? under[0] > 0.1f : under[0] == 0);
-            lam_image_free(&image);
         }
         if (kind != LAM_LIGHT_DIRECTIONAL) {
             l.position.y = 1.5;
@@ -225,16 +203,14 @@ static void test_kinds(void **unused)
             lam_scene_set_object(scene, plate, &o, &error);
             assert_true(explained(scene, with, 1, 0).passed.r == 1);
         }
-        lam_scene_free(scene);
     }
 }
 
 // --- soft shadows
 
-static void test_soft(void **unused)
+TEST(test_soft)
 {
-    (void)unused;
-    lam_scene *scene = floor_scene();
+    AUTO_SCENE scene = floor_scene();
     add_plate(scene, 2000, 4, 1000, 1); // its edge is above x = 0
     lam_light l = *sun();
     l.direction = (lam_vec3){0, -1, 0};
@@ -267,7 +243,6 @@ static void test_soft(void **unused)
     params.shadow_samples = 256;
     assert_true(fabs((double)explained(scene, params, 0.07, 0).passed.r - 0.5) < 0.1);
     assert_true(explained(scene, params, -1.2, 0).passed.r == 1 && explained(scene, params, 1.2, 0).passed.r == 0);
-    lam_scene_free(scene);
 }
 
 // --- acne and the terminator
@@ -284,12 +259,11 @@ static int count_dark(const lam_image *shadowed, const lam_image *bare, float le
 
 // A single convex body has no shadow except its own dark side: with the correction, no point is shadowed where n·l > 0;
 // without it, the terminator of a coarse ball is shadowed, but not with flat shading.
-static void test_convex(void **unused)
+TEST(test_convex)
 {
-    (void)unused;
     for (int size = -20; size <= 20; size += 20)
         for (int slices = 8; slices <= 64; slices *= 2) {
-            lam_scene *scene = lam_scene_make(&error);
+            AUTO_SCENE scene = lam_scene_make(&error);
             lam_shape_params shape = {.slices = slices, .stacks = slices / 2};
             lam_object o = lam_object_default();
             o.mesh = lam_scene_add_shape(scene, "sphere", &shape, &error);
@@ -327,15 +301,13 @@ static void test_convex(void **unused)
             assert_int_equal(count_dark(&b, &a, 0), 0);
             lam_image_free(&a);
             lam_image_free(&b);
-            lam_scene_free(scene);
         }
 }
 
 // Models from files: single pixels that are dark among lit neighbours. Most of them are tips of real shadows; rays that
 // hit their own surface would cause many times as many.
-static void test_models(void **unused)
+TEST(test_models)
 {
-    (void)unused;
     static const char *const names[] = {"obj/cat/cat-low-resolution.obj",
                                         "obj/koala/koala.obj",
                                         "obj/boat/boat.obj",
@@ -353,7 +325,7 @@ static void test_models(void **unused)
     for (size_t m = 0; m < sizeof names / sizeof *names; m++) {
         char path[512];
         snprintf(path, sizeof path, "%s/%s", folder ? folder : ".", names[m]);
-        lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
+        AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, &error);
         if (!scene)
             continue;
         models++;
@@ -385,7 +357,6 @@ static void test_models(void **unused)
             }
         lam_image_free(&image[0]);
         lam_image_free(&image[1]);
-        lam_scene_free(scene);
     }
     if (!models)
         skip();
@@ -394,10 +365,9 @@ static void test_models(void **unused)
 }
 
 // A box on the floor: the shadow begins at its foot, and the floor next to it is lit up to the edge.
-static void test_contact(void **unused)
+TEST(test_contact)
 {
-    (void)unused;
-    lam_scene *scene = floor_scene();
+    AUTO_SCENE scene = floor_scene();
     lam_object o = lam_object_default();
     o.mesh = lam_scene_add_shape(scene, "cube", NULL, &error);
     o.transform.m[0][0] = o.transform.m[1][1] = o.transform.m[2][2] = 0.5;
@@ -412,14 +382,12 @@ static void test_contact(void **unused)
         assert_true(explained(scene, with, 1.6, z).passed.r == 1);
         assert_true(explained(scene, with, -0.56, z).passed.r == 1);
     }
-    lam_scene_free(scene);
 }
 
 // Two plates at the same place, such as the sides of a sheet: neither shadows the other.
-static void test_twins(void **unused)
+TEST(test_twins)
 {
-    (void)unused;
-    lam_scene *scene = floor_scene();
+    AUTO_SCENE scene = floor_scene();
     add_plate(scene, 8, 0, 0, 1);
     lam_light l = *sun();
     lam_scene_add_light(scene, &l, &error);
@@ -427,7 +395,6 @@ static void test_twins(void **unused)
     assert_memory_equal(a.pixels, b.pixels, SIZE * SIZE * 16);
     lam_image_free(&a);
     lam_image_free(&b);
-    lam_scene_free(scene);
 }
 
 // Adds overlapping triangles in one plane, in general position: the corners of two pentagons, whose coordinates are
@@ -460,11 +427,10 @@ static void add_pentagons(lam_scene *scene, double turn, double spread, lam_vec3
 
 // None of them shadows another for any position of the light: above, beside, or below, where spread normals still face
 // it.
-static void test_coplanar(void **unused)
+TEST(test_coplanar)
 {
-    (void)unused;
     for (int turn = 1; turn < 17; turn++) {
-        lam_scene *scene = lam_scene_make(&error);
+        AUTO_SCENE scene = lam_scene_make(&error);
         lam_vec3 n;
         double middle = 2 * 0.35 * turn;
         add_pentagons(scene, 0.35 * turn, turn % 2 ? 0 : 0.2, &n);
@@ -480,38 +446,32 @@ static void test_coplanar(void **unused)
         }
         for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
             lam_draw_params params = {.samples = 1, .shading = (lam_shading)shading};
-            lam_image without = draw(scene, params);
+            AUTO_IMAGE without = draw(scene, params);
             params.shadows = true;
-            lam_image shadowed = draw(scene, params);
+            AUTO_IMAGE shadowed = draw(scene, params);
             assert_int_equal(count_dark(&shadowed, &without, 0), 0);
-            lam_image_free(&without);
-            lam_image_free(&shadowed);
         }
-        lam_scene_free(scene);
     }
 }
 
 // A sheet right above another shadows it, unless it is closer than the rounding of numbers. It is culled, so that one
 // sees through it.
-static void test_near_sheet(void **unused)
+TEST(test_near_sheet)
 {
-    (void)unused;
     for (int apart = 0; apart < 2; apart++) {
-        lam_scene *scene = floor_scene();
+        AUTO_SCENE scene = floor_scene();
         int sheet = add_plate(scene, 1, apart ? 1e-12 : 1e-20, 0.5, 1);
         lam_object o = *lam_scene_object(scene, sheet);
         o.cull = LAM_CULL_FRONT;
         assert_true(lam_scene_set_object(scene, sheet, &o, &error) && lam_scene_add_light(scene, sun(), &error) >= 0);
         assert_true(explained(scene, with, 0.5, 0.2).passed.r == (apart ? 0 : 1));
-        lam_scene_free(scene);
     }
 }
 
 // Limits: a memory limit that the hierarchy exceeds, and parameters out of range.
-static void test_refused(void **unused)
+TEST(test_refused)
 {
-    (void)unused;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_shape_params shape = {.slices = 400, .stacks = 400};
     lam_object o = lam_object_default();
     o.mesh = lam_scene_add_shape(scene, "sphere", &shape, &error);
@@ -519,8 +479,8 @@ static void test_refused(void **unused)
     lam_light l = *sun();
     lam_scene_add_light(scene, &l, &error);
     camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
-    lam_device *own = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
-    lam_image image = {0};
+    AUTO_DEVICE own = lam_device_cpu(&(lam_cpu_params){.threads = 1}, &error);
+    AUTO_IMAGE image = {0};
     lam_image_make(&image, SIZE, SIZE, LAM_RGBA8, &error);
     lam_draw_params params = {.samples = 1};
     lam_control control = {.memory_limit_bytes = 24 << 20};
@@ -539,18 +499,6 @@ static void test_refused(void **unused)
         assert_false(lam_draw(own, scene, &camera, &params, &image, NULL, &error));
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
     }
-    lam_image_free(&image);
-    lam_device_free(own);
-    lam_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers),  cmocka_unit_test(test_sides),    cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_kinds),   cmocka_unit_test(test_soft),     cmocka_unit_test(test_convex),
-        cmocka_unit_test(test_contact), cmocka_unit_test(test_twins),    cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_models),  cmocka_unit_test(test_coplanar), cmocka_unit_test(test_near_sheet),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

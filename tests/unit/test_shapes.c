@@ -1,17 +1,7 @@
 // test_shapes.c: built-in shapes, and tessellation of parametric and implicit surfaces. The file has more than 600
 // lines because it lists the properties of each shape, and contains the checks that all shapes share.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "test.h"
 #include "arena.h"
 #include "shapes.h"
 
@@ -227,9 +217,8 @@ static const lam_mesh *make(lam_scene *scene, const char *name, const lam_shape_
     return lam_scene_mesh(scene, index);
 }
 
-static void test_shapes(void **state)
+TEST(test_shapes)
 {
-    (void)state;
     assert_int_equal(lam_shape_count(), sizeof expected / sizeof *expected);
     lam_scene *scene = lam_scene_make(NULL);
     int wrong = 0;
@@ -271,10 +260,9 @@ static void test_shapes(void **state)
     assert_int_equal(lam_shape_find(NULL), -1);
 }
 
-static void test_shape_options(void **state)
+TEST(test_shape_options)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     for (int i = 0; i < lam_shape_count(); i++) {
         // The coarsest, an odd and a finer tessellation are also closed.
         static const lam_shape_params tries[] = {{.slices = 3, .stacks = 3},
@@ -315,37 +303,32 @@ static void test_shape_options(void **state)
     assert_non_null(strstr(error.text, "at least 3"));
     assert_int_equal(lam_scene_add_shape(NULL, "sphere", NULL, &error), -1);
     assert_int_equal(lam_scene_add_shape(scene, NULL, NULL, &error), -1);
-    lam_scene_free(scene);
 }
 
 // Any number of threads gives the same mesh.
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     for (int i = 0; i < lam_shape_count(); i++) {
         static const int threads[] = {1, 2, 5};
         uint64_t hashes[3];
         for (int k = 0; k < 3; k++) {
-            lam_scene *scene = lam_scene_make(NULL);
+            AUTO_SCENE scene = lam_scene_make(NULL);
             hashes[k] = hash_mesh(make(scene, lam_shape_name(i),
                                        &(lam_shape_params){.slices = 150, .stacks = 131, .threads = threads[k]}));
-            lam_scene_free(scene);
         }
         assert_true(hashes[0] == hashes[1] && hashes[0] == hashes[2]);
     }
     lam_error error;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     assert_int_equal(lam_scene_add_shape(scene, "torus", &(lam_shape_params){.threads = 1025}, &error), -1);
     assert_non_null(strstr(error.text, "threads"));
-    lam_scene_free(scene);
 }
 
 // For any coarseness, no side of a triangle occurs twice in one direction. In a tube that is so coarse that it is flat,
 // both sheets are in one place and share all sides.
-static void test_coarsest_segments(void **state)
+TEST(test_coarsest_segments)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     for (int i = 0; i < lam_shape_count() * 6 * 3; i++) {
         lam_shape_params params = {.slices = 3 + i % 6, .stacks = 1 + i / 6 % 3};
         lam_error error = {0};
@@ -369,14 +352,13 @@ static void test_coarsest_segments(void **state)
         free(edges);
         free(same);
     }
-    lam_scene_free(scene);
 }
 
 // A sphere's triangles approach it. When the segments double, the error between face normals and vertex normals halves,
 // and the error between the face normal and the mean of the vertex normals falls to a quarter.
 static void sphere_errors(int slices, double *at_vertices, double *at_middle)
 {
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     const lam_mesh *mesh = make(scene, "sphere", &(lam_shape_params){.slices = slices, .stacks = slices / 2});
     *at_vertices = *at_middle = 0;
     for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -397,12 +379,10 @@ static void sphere_errors(int slices, double *at_vertices, double *at_middle)
         *at_middle += fabs(1 - length(mean) / 3) / mesh->triangle_count;
         assert_true(length(cross(middle, mean)) / (length(middle) * length(mean)) < 1e-6);
     }
-    lam_scene_free(scene);
 }
 
-static void test_convergence(void **state)
+TEST(test_convergence)
 {
-    (void)state;
     double before_vertices = 0, before_middle = 0;
     for (int slices = 16; slices <= 256; slices *= 2) {
         double vertices, middle;
@@ -450,10 +430,9 @@ static lam_vec3 ball_gradient(void *user, lam_vec3 p)
     return (lam_vec3){2 * p.x, 2 * p.y, 2 * p.z};
 }
 
-static void test_unit_sphere(void **state)
+TEST(test_unit_sphere)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_error error = {0};
     int yes = 1;
     // With the limit direction at the poles, and with derivatives that vanish there.
@@ -499,7 +478,6 @@ static void test_unit_sphere(void **state)
             assert_true(length(minus(p, normal(mesh, c))) < 3e-7);
         }
     }
-    lam_scene_free(scene);
 }
 
 // Every case of the table, by random values on the lattice: closed meshes without an edge in more than two triangles.
@@ -531,9 +509,8 @@ static lam_vec3 noise_gradient(void *user, lam_vec3 p)
         noise_value(user, (lam_vec3){p.x, p.y, p.z + h}) - noise_value(user, (lam_vec3){p.x, p.y, p.z - h})};
 }
 
-static void test_every_cell_case(void **state)
+TEST(test_every_cell_case)
 {
-    (void)state;
     enum { N = 24 };
     static signed char sign[N * N * N];
     uint32_t random = 1;
@@ -545,14 +522,13 @@ static void test_every_cell_case(void **state)
         struct noise noise = {N, sign};
         lam_implicit surface = {
             .value = noise_value, .gradient = noise_gradient, .user = &noise, .maximum = {N, N, N}, .cells = N};
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_error error = {0};
         assert_int_equal(lam_scene_add_implicit(scene, &surface, NULL, &error), 0);
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         assert_true(mesh->triangle_count > 10000);
         assert_int_equal(open_edges(mesh), 0);
         assert_true(volume(mesh) > 0);
-        lam_scene_free(scene);
     }
 }
 
@@ -568,10 +544,9 @@ static void cone_point(void *user, double u, double v, lam_surface_point *out)
 }
 
 // A tip is not a smooth pole: each triangle's corner there has the normal of its own side.
-static void test_tip(void **state)
+TEST(test_tip)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     // (v, u) in this order makes ∂p/∂u × ∂p/∂v point outward, so the tip is a column that coincides, not a row.
     lam_parametric cone = parametric(cone_point, 2 * M_PI, 1, 16, 4, true);
     assert_int_equal(lam_scene_add_parametric(scene, &cone, NULL, NULL), 0);
@@ -585,7 +560,6 @@ static void test_tip(void **state)
               face = cross(minus(position(mesh, c / 3 * 3 + 1), a), minus(position(mesh, c / 3 * 3 + 2), a));
         assert_true(dot(face, n) > 0.98 * length(face));
     }
-    lam_scene_free(scene);
 }
 
 static void triangle_patch(void *user, double u, double v, lam_surface_point *out)
@@ -596,10 +570,9 @@ static void triangle_patch(void *user, double u, double v, lam_surface_point *ou
     out->dp_dv = (lam_vec3){0, u, 0};
 }
 
-static void test_column_pole_and_origin(void **state)
+TEST(test_column_pole_and_origin)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_parametric patch = parametric(triangle_patch, 1, 1, 3, 4, false);
     patch.v_min = -1;
     assert_int_equal(lam_scene_add_parametric(scene, &patch, NULL, NULL), 0);
@@ -611,7 +584,6 @@ static void test_column_pole_and_origin(void **state)
         assert_true(normal(mesh, c).z > 0.999999);
     assert_true(fabs(mesh->origin[2] + (double)mesh->positions[2] - 1e7) < 1e-6);
     assert_true(fabs((double)mesh->positions[2]) < 1);
-    lam_scene_free(scene);
 }
 
 static void infinite_point(void *user, double u, double v, lam_surface_point *out)
@@ -623,10 +595,9 @@ static void infinite_point(void *user, double u, double v, lam_surface_point *ou
 
 static double nan_value(void *user, lam_vec3 p) { return p.x < 0 ? (double)NAN : ball_value(user, p); }
 
-static void test_bad_formulas(void **state)
+TEST(test_bad_formulas)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     lam_error error;
     lam_parametric good = parametric(user_sphere, 1, 1, 4, 4, false);
     lam_parametric bad[6];
@@ -681,13 +652,11 @@ static void test_bad_formulas(void **state)
     assert_int_equal(lam_scene_add_implicit(scene, &ball, &(lam_control){.memory_limit_bytes = 4 << 20}, &error), -1);
     assert_int_equal(error.code, LAM_LIMIT);
     assert_int_equal(lam_scene_mesh_count(scene), 1);
-    lam_scene_free(scene);
 }
 
 // Of several bad points, the first one is reported, whichever thread finds it.
-static void test_bad_points_of_threads(void **state)
+TEST(test_bad_points_of_threads)
 {
-    (void)state;
     lam_parametric bad = parametric(infinite_point, 1, 1, 150, 150, false);
     struct arena arena;
     lam_error errors[2] = {0};
@@ -706,13 +675,12 @@ static void test_bad_points_of_threads(void **state)
 }
 
 // If an allocation fails, the call gives an error and nothing else.
-static void test_allocations_fail(void **state)
+TEST(test_allocations_fail)
 {
-    (void)state;
     for (int shape = 0; shape < lam_shape_count(); shape++) {
         bool done = false;
         for (long k = 0; !done && k < 200; k++) {
-            lam_scene *scene = lam_scene_make(NULL);
+            AUTO_SCENE scene = lam_scene_make(NULL);
             lam_error error = {0};
             arena_fail_after(k);
             int index = lam_scene_add_shape(scene, lam_shape_name(shape),
@@ -723,7 +691,6 @@ static void test_allocations_fail(void **state)
                 assert_int_equal(error.code, LAM_MACHINE);
                 assert_int_equal(lam_scene_mesh_count(scene), 0);
             }
-            lam_scene_free(scene);
         }
         assert_true(done);
     }
@@ -731,9 +698,8 @@ static void test_allocations_fail(void **state)
 
 // --- The teapot
 
-static void test_teapot_data(void **state)
+TEST(test_teapot_data)
 {
-    (void)state;
     // Some of the 306 published points, as printed in the list (numbers from 1).
     assert_true(teapot_body[3][0].radius == 1.5 && teapot_body[3][0].step == 0.84 &&
                 teapot_body[3][0].height == 2.4);                                    // 13, 14
@@ -752,9 +718,8 @@ static void test_teapot_data(void **state)
 
 // The shared teapot.obj consists of the same patches divided into 10 × 10: the vertices with 10 segments per patch are
 // its vertices.
-static void test_teapot_against_file(void **state)
+TEST(test_teapot_against_file)
 {
-    (void)state;
     const char *models = getenv("LAMBENT_MODELS");
     char path[4096];
     snprintf(path, sizeof path, "%s/obj/teapot/teapot.obj", models ? models : "../shared/models");
@@ -772,7 +737,7 @@ static void test_teapot_against_file(void **state)
             count++;
     fclose(file);
     assert_int_equal(count, 3644);
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     const lam_mesh *mesh = make(scene, "teapot", &(lam_shape_params){.slices = 40, .stacks = 10});
     assert_int_equal(mesh->triangle_count,
                      6320); // 32 patches of 200, minus 10 at each of the 8 that end in a pole
@@ -793,14 +758,12 @@ static void test_teapot_against_file(void **state)
     assert_true(worst < 2e-6); // the file has six decimals
     for (size_t k = 0; k < count; k++)
         assert_true(found[k]);
-    lam_scene_free(scene);
 }
 
 // Poles and joints of the teapot: the lid's top faces up, the bottom faces down, and normals do not jump across joints.
-static void test_teapot_normals(void **state)
+TEST(test_teapot_normals)
 {
-    (void)state;
-    lam_scene *scene = lam_scene_make(NULL);
+    AUTO_SCENE scene = lam_scene_make(NULL);
     const lam_mesh *mesh = make(scene, "teapot", NULL);
     double low[3], high[3];
     bounds(mesh, low, high);
@@ -833,13 +796,11 @@ static void test_teapot_normals(void **state)
     }
     free(first);
     free(same);
-    lam_scene_free(scene);
 }
 
 // circle(): exact at quarters, mirrored, and accurate.
-static void test_circle(void **state)
+TEST(test_circle)
 {
-    (void)state;
     for (int n = 3; n < 400; n++)
         for (int i = -n; i <= 2 * n; i++) {
             struct circle_point p = circle(i, n), back = circle(-i, n);
@@ -850,27 +811,4 @@ static void test_circle(void **state)
         }
     struct circle_point quarter = circle(2, 8), half = circle(4, 8);
     assert_true(quarter.c == 0 && quarter.s == 1 && half.c == -1 && half.s == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_circle),
-        cmocka_unit_test(test_shapes),
-        cmocka_unit_test(test_shape_options),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_coarsest_segments),
-        cmocka_unit_test(test_convergence),
-        cmocka_unit_test(test_unit_sphere),
-        cmocka_unit_test(test_every_cell_case),
-        cmocka_unit_test(test_tip),
-        cmocka_unit_test(test_column_pole_and_origin),
-        cmocka_unit_test(test_bad_formulas),
-        cmocka_unit_test(test_bad_points_of_threads),
-        cmocka_unit_test(test_allocations_fail),
-        cmocka_unit_test(test_teapot_data),
-        cmocka_unit_test(test_teapot_against_file),
-        cmocka_unit_test(test_teapot_normals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,17 +1,7 @@
 // test_show.c: pictures of terms add up to the picture; pictures of quantities contain the documented numbers and
 // encodings.
+#include "test.h"
 #include "scenes.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "device_fixture.h"
 
@@ -102,9 +92,8 @@ static void check_scene(const char *name, lam_scene *scene, const lam_camera *ca
     lam_image_free(&picture);
 }
 
-static void test_demos(void **state)
+TEST(test_demos)
 {
-    (void)state;
     for (int i = 0; i < demo_count; i++) {
         struct demo demo;
         lam_error error = {0};
@@ -165,9 +154,8 @@ static lam_scene *full_scene(bool colors)
     return scene;
 }
 
-static void test_every_method(void **state)
+TEST(test_every_method)
 {
-    (void)state;
     for (int colors = 0; colors < 2; colors++)
         for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++)
             for (int model = LAM_REFLECTION_NONE; model < LAM_REFLECTION_COUNT; model++)
@@ -176,7 +164,7 @@ static void test_every_method(void **state)
                                               .reflection = (lam_reflection)model,
                                               .samples = gl1 ? 1 : 4,
                                               .gl1 = gl1 && shading == LAM_SHADING_PHONG};
-                    lam_scene *scene = full_scene(colors);
+                    AUTO_SCENE scene = full_scene(colors);
                     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
                     char name[80];
                     snprintf(name, sizeof name, "colours %d, shading %d, model %d, gl1 %d", colors, shading, model,
@@ -185,18 +173,16 @@ static void test_every_method(void **state)
                     if (params.gl1)
                         lam_scene_set_ambient(scene, (lam_rgb){0});
                     check_scene(name, scene, &camera, params);
-                    lam_scene_free(scene);
                 }
 }
 
 // The other lights, and terms that belong to no light, do not affect it.
-static void test_one_light(void **state)
+TEST(test_one_light)
 {
-    (void)state;
-    lam_scene *scene = full_scene(false);
+    AUTO_SCENE scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
     lam_draw_params params = {.samples = 1, .output = LAM_OUTPUT_LIGHT, .output_light = 4};
-    lam_image image = {0};
+    AUTO_IMAGE image = {0};
     lam_error error;
     assert_true(lam_image_make(&image, 16, 16, LAM_RGBA8, NULL));
     assert_false(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
@@ -213,8 +199,6 @@ static void test_one_light(void **state)
     assert_int_equal(lam_draw_lights(scene, LAM_RIG_AUTO, false, lights, 2), 4);
     assert_string_equal(lights[1].name, "lamp");
     assert_int_equal(lam_draw_lights(scene, LAM_RIG_STUDIO, true, NULL, 0), 8);
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // --- quantities: a rectangle across the picture at z = 0, whose left half is seen from behind, over a second one at z
@@ -255,9 +239,8 @@ struct expected {
 // 8 bits of the background {1, 0.5, 0, 0.4}: sRGB and not premultiplied, as in the picture.
 #define BACK {255, 188, 0, 102}
 
-static void test_numbers(void **state)
+TEST(test_numbers)
 {
-    (void)state;
     static const struct expected all[] = {
         {LAM_OUTPUT_NORMALS, {0, 0, 1, 1}, {0, 0, 1, 1}, {0}, {128, 128, 255, 255}, {128, 128, 255, 255}, BACK},
         {LAM_OUTPUT_DEPTH, {4, 4, 4, 1}, {4, 4, 4, 1}, {0}, {255, 255, 255, 255}, {255, 255, 255, 255}, BACK},
@@ -294,7 +277,7 @@ static void test_numbers(void **state)
     };
     static const lam_shading shadings[] = {LAM_SHADING_PHONG, LAM_SHADING_GOURAUD, LAM_SHADING_FLAT};
     lam_camera camera;
-    lam_scene *scene = two_sheets(&camera);
+    AUTO_SCENE scene = two_sheets(&camera);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         for (size_t k = 0; k < 3 * 2; k++) {
             const struct expected *e = &all[i];
@@ -302,8 +285,8 @@ static void test_numbers(void **state)
                                       .shading = shadings[k / 2],
                                       .samples = k % 2 ? 4 : 1,
                                       .background = {1, 0.5f, 0, 0.4f}};
-            lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
-            lam_image bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
+            AUTO_IMAGE floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
+            AUTO_IMAGE bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
             const int at[3] = {40 * 60 + 15, 20 * 60 + 40, 2 * 60 + 2}; // left below, right above, outside
             const float *const values[] = {e->left, e->right, e->outside};
             const uint8_t *const codes[] = {e->left_code, e->right_code, e->outside_code};
@@ -318,22 +301,18 @@ static void test_numbers(void **state)
                         fail_msg("%s, place %d, channel %d: byte %d, expected %d", lam_output_name(e->show), p, c, code,
                                  codes[p][c]);
                 }
-            lam_image_free(&floats);
-            lam_image_free(&bytes);
         }
-    lam_scene_free(scene);
 }
 
 // 8 bits of depth cover the scene's vertices, visible or not, from any eye position; the camera's planes limit the
 // range. If floats cannot distinguish the ends of the range, every depth is near.
-static void test_depth_range(void **state)
+TEST(test_depth_range)
 {
-    (void)state;
     static const struct {
         double near_plane, far_plane, scale_z, expected_near, expected_far;
     } cases[] = {{0, 0, 1, 7, 9}, {0, 0, 0.25, 7.75, 8.25}, {7.5, 100, 1, 7.5, 9}, {1, 7.9, 1, 7, 7.9}};
     for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         lam_object object = lam_object_default();
         object.mesh = lam_scene_add_shape(scene, "sphere", &(lam_shape_params){.slices = 128, .stacks = 64}, NULL);
         object.transform.m[2][2] = cases[i / 2].scale_z;
@@ -358,15 +337,13 @@ static void test_depth_range(void **state)
             assert_int_equal(middle, 255);
         lam_image_free(&floats);
         lam_image_free(&bytes);
-        lam_scene_free(scene);
     }
 }
 
-static void test_ids(void **state)
+TEST(test_ids)
 {
-    (void)state;
     lam_camera camera;
-    lam_scene *scene = two_sheets(&camera);
+    AUTO_SCENE scene = two_sheets(&camera);
     camera.eye.z = -4; // from behind: the lower half shows object 1
     lam_draw_params params = {.output = LAM_OUTPUT_IDS, .samples = 4};
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),
@@ -393,17 +370,15 @@ static void test_ids(void **state)
     assert_memory_not_equal(colors[1][0], colors[1][1], 3);
     lam_image_free(&floats);
     lam_image_free(&bytes);
-    lam_scene_free(scene);
 }
 
 // The pixels whose linear numbers exceed 1, and the excess.
-static void test_clipped(void **state)
+TEST(test_clipped)
 {
-    (void)state;
     lam_camera camera;
-    lam_scene *scene = two_sheets(&camera);
+    AUTO_SCENE scene = two_sheets(&camera);
     lam_draw_params params = {.samples = 4, .exposure = 0.6};
-    lam_image picture = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
+    AUTO_IMAGE picture = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F);
     params.output = LAM_OUTPUT_CLIPPED;
     lam_image floats = draw(scene, &camera, &params, 60, 60, LAM_RGBA32F),
               bytes = draw(scene, &camera, &params, 60, 60, LAM_RGBA8);
@@ -422,18 +397,15 @@ static void test_clipped(void **state)
         marked += over;
     }
     assert_true(marked > 1000 && marked < 60 * 60);
-    lam_image_free(&picture);
     lam_image_free(&floats);
     lam_image_free(&bytes);
-    lam_scene_free(scene);
 }
 
 // Coverage is the picture's alpha; tangents are unit vectors perpendicular to the normals; depth is the distance from
 // the eye.
-static void test_relations(void **state)
+TEST(test_relations)
 {
-    (void)state;
-    lam_scene *scene = full_scene(false);
+    AUTO_SCENE scene = full_scene(false);
     lam_camera camera = lam_camera_fit(scene, 96, 72, NULL);
     lam_draw_params params = {.samples = 8};
     lam_image picture = draw_show(scene, &camera, params, LAM_OUTPUT_PICTURE, 0);
@@ -466,12 +438,10 @@ static void test_relations(void **state)
     lam_image *all[] = {&picture, &coverage, &normals, &tangents, &n_h, &n_l};
     for (int i = 0; i < 6; i++)
         lam_image_free(all[i]);
-    lam_scene_free(scene);
 }
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     for (int i = 0; i < LAM_OUTPUT_COUNT; i++) {
         assert_non_null(lam_output_name((lam_output)i));
         for (int k = 0; k < i; k++)
@@ -482,12 +452,4 @@ static void test_names(void **state)
     assert_false(lam_output_is_light(LAM_OUTPUT_NORMALS) || lam_output_is_light(LAM_OUTPUT_CLIPPED));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_demos),   cmocka_unit_test(test_every_method), cmocka_unit_test(test_one_light),
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_depth_range),  cmocka_unit_test(test_ids),
-        cmocka_unit_test(test_clipped), cmocka_unit_test(test_names),        cmocka_unit_test(test_relations),
-    };
-    return cmocka_run_group_tests_name("show", tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

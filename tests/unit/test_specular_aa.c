@@ -1,14 +1,7 @@
 // test_specular_aa.c: specular antialiasing: compares small pictures of bumpy surfaces with one sample per pixel with
 // the means of large ones.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
+#include "test.h"
 
 #include <lambent/device.h>
 #include <lambent/material.h>
@@ -66,8 +59,7 @@ static lam_image draw(const lam_scene *scene, int side, lam_draw_params params)
     params.samples = 1;
     params.occlusion = LAM_OCCLUSION_OFF; // which depends on the picture's size
     assert_true(lam_image_make(&image, side, side, LAM_RGBA32F, &error));
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
     lam_device_free(device);
     return image;
 }
@@ -98,12 +90,11 @@ static double difference(const lam_image *small, const lam_image *large)
 }
 
 // It moves pixels closer to the means over their area, which the exact equations give in a large picture.
-static void test_nearer(void **state)
+TEST(test_nearer)
 {
-    (void)state;
     for (int mapped = 0; mapped < 2; mapped++) {
         lam_texture *texture = bumps();
-        lam_scene *scene = scene_of(mapped, texture);
+        AUTO_SCENE scene = scene_of(mapped, texture);
         lam_image large = draw(scene, FINE, (lam_draw_params){.specular_aa = LAM_SPECULAR_AA_OFF}),
                   exact = draw(scene, SIDE, (lam_draw_params){.specular_aa = LAM_SPECULAR_AA_OFF}),
                   smooth = draw(scene, SIDE, (lam_draw_params){.specular_aa = LAM_SPECULAR_AA_ON}),
@@ -116,17 +107,15 @@ static void test_nearer(void **state)
         lam_image_free(&exact);
         lam_image_free(&smooth);
         lam_image_free(&automatic);
-        lam_scene_free(scene);
         lam_texture_free(texture);
     }
 }
 
 // Flat surfaces keep their bits, and shading at vertices is an error.
-static void test_flat(void **state)
+TEST(test_flat)
 {
-    (void)state;
     lam_error error;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     assert_int_equal(lam_scene_add_shape(scene, "cube", NULL, &error), 0);
     lam_material material = lam_material_default();
     material.physical = true;
@@ -137,21 +126,13 @@ static void test_flat(void **state)
     lam_image exact = draw(scene, SIDE, (lam_draw_params){.rig = LAM_RIG_STUDIO, .specular_aa = LAM_SPECULAR_AA_OFF}),
               flat = draw(scene, SIDE, (lam_draw_params){.rig = LAM_RIG_STUDIO, .specular_aa = LAM_SPECULAR_AA_ON});
     assert_memory_equal(exact.pixels, flat.pixels, SIDE * SIDE * 16);
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     lam_camera camera = lam_camera_default();
     lam_draw_params params = {.shading = LAM_SHADING_GOURAUD, .specular_aa = LAM_SPECULAR_AA_ON};
     assert_false(lam_draw(device, scene, &camera, &params, &flat, NULL, &error));
     assert_non_null(strstr(error.text, "specular antialiasing widens highlights at each pixel"));
     params = (lam_draw_params){.specular_aa = LAM_SPECULAR_AA_COUNT};
     assert_false(lam_draw(device, scene, &camera, &params, &flat, NULL, &error));
-    lam_device_free(device);
     lam_image_free(&exact);
     lam_image_free(&flat);
-    lam_scene_free(scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_nearer), cmocka_unit_test(test_flat)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

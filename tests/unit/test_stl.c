@@ -1,7 +1,6 @@
 // test_stl.c: STL: recognising binary and ASCII files, colours, parts, and errors.
+#include "test.h"
 #include "loading.h"
-
-#include <math.h>
 
 static const char one_facet[] = "solid thing\n"
                                 "  facet normal 0 0 1\n"
@@ -47,10 +46,9 @@ static void assert_color(const lam_mesh *mesh, uint32_t triangle, int r, int g, 
     assert_int_equal(color[3], 255);
 }
 
-static void test_ascii(void **state)
+TEST(test_ascii)
 {
-    (void)state;
-    lam_scene *scene = load_text(one_facet, "a.stl");
+    AUTO_SCENE scene = load_text(one_facet, "a.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_string_equal(lam_scene_format(scene), "stl");
     assert_int_equal(lam_scene_up(scene), LAM_UP_Z);
@@ -60,14 +58,12 @@ static void test_ascii(void **state)
     assert_corner(mesh, 0, 2, 0, 20, -0.25);
     assert_int_equal(mesh->part_count, 1);
     assert_string_equal(mesh->parts[0].name, "thing");
-    lam_scene_free(scene);
 }
 
 // Keywords in any case, lines broken anywhere, every line end, a byte order mark, normals that are not numbers, a facet
 // outside a solid, an empty solid, invalid UTF-8 in a name.
-static void test_ascii_oddities(void **state)
+TEST(test_ascii_oddities)
 {
-    (void)state;
     static const char text[] =
         "\xef\xbb\xbf\t SOLID two words\there \r\nFACET normal nan -nan(ind) nan OUTER\vloop vertex 1 2 3 "
         "Vertex 4 5 6\r"
@@ -75,7 +71,7 @@ static void test_ascii_oddities(void **state)
         "solid empty\nendsolid empty\n"
         "facet normal outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n"
         "solid caf\xe9\nfacet outer loop vertex 0 0 0 vertex 2 0 0 vertex 0 1 0 endloop endfacet\nendsolid\n";
-    lam_scene *scene = load_text(text, "odd.stl");
+    AUTO_SCENE scene = load_text(text, "odd.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->triangle_count, 3);
     assert_corner(mesh, 0, 2, 7, 8, 9);
@@ -88,13 +84,11 @@ static void test_ascii_oddities(void **state)
         assert_int_equal(mesh->parts[i].first_triangle, i);
         assert_int_equal(mesh->parts[i].triangle_count, 1);
     }
-    lam_scene_free(scene);
 }
 
 // A file that ends between two facets may be truncated.
-static void test_ascii_without_end(void **state)
+TEST(test_ascii_without_end)
 {
-    (void)state;
 #define ONE "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
     static const struct {
         const char *text, *warning; // NULL: none
@@ -123,19 +117,17 @@ static void test_ascii_without_end(void **state)
          "short"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lam_scene *scene = load_text(rows[i].text, "a.stl");
+        AUTO_SCENE scene = load_text(rows[i].text, "a.stl");
         const char *warning = lam_scene_warning(scene, 0);
         if (rows[i].warning ? !warning || strcmp(warning, rows[i].warning) != 0 : warning != NULL)
             fail_msg("row %zu: %s", i, warning ? warning : "no warning");
         assert_null(lam_scene_warning(scene, 1));
-        lam_scene_free(scene);
     }
 }
 
 // A text with a zero byte is not a binary file.
-static void test_ascii_with_zero(void **state)
+TEST(test_ascii_with_zero)
 {
-    (void)state;
     static const char text[] = "solid a\n" ONE ONE "endsolid a\n";
     char changed[sizeof text];
     int lines = 1;
@@ -160,22 +152,19 @@ static void test_ascii_with_zero(void **state)
     free(large);
 }
 
-static void test_ascii_in_one_line(void **state)
+TEST(test_ascii_in_one_line)
 {
-    (void)state;
-    lam_scene *scene = load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
+    AUTO_SCENE scene = load_text("solid all of it facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 "
                                  "endloop endfacet endsolid",
                                  "line.stl");
     const lam_mesh *mesh = lam_scene_mesh(scene, 0);
     assert_int_equal(mesh->triangle_count, 1);
     assert_string_equal(mesh->parts[0].name, "all of it");
-    lam_scene_free(scene);
 }
 
 // A part with details of a millimetre, 500 km from zero.
-static void test_ascii_far_from_zero(void **state)
+TEST(test_ascii_far_from_zero)
 {
-    (void)state;
     lam_scene *scene =
         load_text("solid far\nfacet normal 0 0 1\nouter loop\nvertex 500000.0001 0 0.5\n"
                   "vertex 500000.0012 0.001 0.5\nvertex 500000.0023 0 0.5\nendloop\nendfacet\nendsolid\n",
@@ -188,9 +177,8 @@ static void test_ascii_far_from_zero(void **state)
     lam_scene_free(scene);
 }
 
-static void test_ascii_errors(void **state)
+TEST(test_ascii_errors)
 {
-    (void)state;
     refuse_text("Dear reader,\nthis is a letter and no model at all, though its name says so, and it is long "
                 "enough for "
                 "a header.\n",
@@ -217,9 +205,8 @@ static void test_ascii_errors(void **state)
                 "a.stl:2: facet 1: found 'triangle', expected \"facet\", \"endsolid\" or \"solid\"");
 }
 
-static void test_binary(void **state)
+TEST(test_binary)
 {
-    (void)state;
     // A header that begins with "solid", and a name that contains "facet", do not make it ASCII.
     struct made file = {0};
     put_header(&file, "solid facet endsolid", 2);
@@ -246,9 +233,8 @@ static void test_binary(void **state)
     lam_scene_free(scene);
 }
 
-static void test_binary_errors(void **state)
+TEST(test_binary_errors)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "solid cut", 3);
     put_facet(&file, 0, 0);
@@ -266,9 +252,8 @@ static void test_binary_errors(void **state)
 
 // Facets with a corner that is not finite are left out, for any number of threads, with shared vertices (stl_shared.c) or
 // without. The NaN of facet 7 has the bits of an unused entry of stl_shared.c.
-static void test_not_finite(void **state)
+TEST(test_not_finite)
 {
-    (void)state;
     for (uint32_t facets = 30000; facets <= 70000; facets += 40000) {
         size_t size = 84 + 50 * (size_t)facets;
         uint8_t *bytes = calloc(1, size);
@@ -286,20 +271,18 @@ static void test_not_finite(void **state)
                      "a.stl: %u vertices have coordinates that are not finite; %u triangles, lines or points that use "
                      "them are left out",
                      left_out, left_out);
-            lam_scene *scene = load_with(bytes, size, "a.stl", &(lam_load_params){.threads = threads});
+            AUTO_SCENE scene = load_with(bytes, size, "a.stl", &(lam_load_params){.threads = threads});
             assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, facets - left_out);
             assert_string_equal(lam_scene_warning(scene, 0), expected);
             assert_null(lam_scene_warning(scene, 1));
             assert_corner(lam_scene_mesh(scene, 0), 7, 2, 0, 1, 1); // facet 8
-            lam_scene_free(scene);
         }
         free(bytes);
     }
 }
 
-static void test_colors_viscam(void **state)
+TEST(test_colors_viscam)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "viscam", 3);
     put_facet(&file, 0, 0x8000 | 31 << 10);     // red
@@ -318,9 +301,8 @@ static void test_colors_viscam(void **state)
     lam_scene_free(scene);
 }
 
-static void test_colors_magics(void **state)
+TEST(test_colors_magics)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "made by somebody COLOR=\x10\x20\x30\xff,MATERIAL=", 2);
     put_facet(&file, 0, 31);     // red: its own
@@ -342,24 +324,21 @@ static void test_colors_magics(void **state)
 }
 
 // Attribute words that are not colours: counters, and random words, some with bit 15 set.
-static void test_colors_junk(void **state)
+TEST(test_colors_junk)
 {
-    (void)state;
     static const uint16_t words[][3] = {{0, 0, 0}, {1, 2, 3}, {0x8123, 0x0456, 0x1789}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         struct made file = {0};
         put_header(&file, "junk", 3);
         for (int f = 0; f < 3; f++)
             put_facet(&file, f, words[i][f]);
-        lam_scene *scene = load(&file, "a.stl");
+        AUTO_SCENE scene = load(&file, "a.stl");
         assert_null(lam_scene_mesh(scene, 0)->colors);
-        lam_scene_free(scene);
     }
 }
 
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     enum { FACETS = 20011 };
     size_t size = 84 + 50 * FACETS;
     uint8_t *bytes = calloc(1, size);
@@ -379,9 +358,8 @@ static void test_threads(void **state)
     free(bytes);
 }
 
-static void test_cut_anywhere(void **state)
+TEST(test_cut_anywhere)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "solid binary COLOR=abcd", 2);
     put_facet(&file, 0, 1);
@@ -390,9 +368,8 @@ static void test_cut_anywhere(void **state)
     check_prefixes(one_facet, sizeof one_facet - 1, "a.stl");
 }
 
-static void test_out_of_memory(void **state)
+TEST(test_out_of_memory)
 {
-    (void)state;
     struct made file = {0};
     put_header(&file, "COLOR=abcd", 2);
     put_facet(&file, 0, 1);
@@ -401,9 +378,8 @@ static void test_out_of_memory(void **state)
     check_allocations(one_facet, sizeof one_facet - 1, "a.stl");
 }
 
-static void test_models(void **state)
+TEST(test_models)
 {
-    (void)state;
     static const struct model models[] = {
         {"stl/derived/fish.stl", 21568},
         {"stl/derived/koala.stl", 99994},
@@ -425,28 +401,4 @@ static void test_models(void **state)
         {"stl/ur3/wrist2.stl", 3671},
     };
     check_models(models, sizeof models / sizeof *models);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ascii),
-        cmocka_unit_test(test_ascii_oddities),
-        cmocka_unit_test(test_ascii_without_end),
-        cmocka_unit_test(test_ascii_with_zero),
-        cmocka_unit_test(test_ascii_in_one_line),
-        cmocka_unit_test(test_ascii_far_from_zero),
-        cmocka_unit_test(test_ascii_errors),
-        cmocka_unit_test(test_binary),
-        cmocka_unit_test(test_binary_errors),
-        cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_colors_viscam),
-        cmocka_unit_test(test_colors_magics),
-        cmocka_unit_test(test_colors_junk),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_cut_anywhere),
-        cmocka_unit_test(test_out_of_memory),
-        cmocka_unit_test(test_models),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

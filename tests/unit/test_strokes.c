@@ -1,8 +1,7 @@
 // test_strokes.c: lines and points: their width in pixels, clipping, light, colours, the camera's fit, and their files.
+#include "test.h"
 #include "device_fixture.h"
 #include "loading.h"
-
-#include <math.h>
 
 enum { SIDE = 64 };
 
@@ -36,9 +35,8 @@ static double area(const lam_image *image)
 }
 
 // Every width in pixels, at any distance and in any direction.
-static void widths(void **state)
+TEST(widths)
 {
-    (void)state;
     static const double distances[] = {2, 20};
     for (int i = 0; i < 2; i++)
         for (int diagonal = 0; diagonal < 2; diagonal++) {
@@ -46,33 +44,28 @@ static void widths(void **state)
             const float p[6] = {(float)-half, (float)(diagonal ? -half : 0), 0,
                                 (float)half,  (float)(diagonal ? half : 0),  0};
             lam_mesh line = {.positions = p, .vertex_count = 2, .line_count = 1};
-            lam_scene *scene = scene_of(&line);
+            AUTO_SCENE scene = scene_of(&line);
             lam_camera camera = facing(d);
             double length = SIDE / 2.0 * (diagonal ? sqrt(2) : 1);
             for (double width = 1; width < 9; width += 1.5) {
-                lam_image image = draw(scene, &camera, (lam_draw_params){.line_width = (float)width});
+                AUTO_IMAGE image = draw(scene, &camera, (lam_draw_params){.line_width = (float)width});
                 assert_true(fabs(area(&image) - length * width) < 0.06 * length * width);
-                lam_image_free(&image);
             }
-            lam_scene_free(scene);
         }
     static const float one[3] = {0, 0, 0};
     lam_mesh point = {.positions = one, .vertex_count = 1, .point_count = 1};
-    lam_scene *scene = scene_of(&point);
+    AUTO_SCENE scene = scene_of(&point);
     lam_camera camera = facing(3);
     for (double size = 2; size < 20; size += 3) {
-        lam_image image = draw(scene, &camera, (lam_draw_params){.point_size = (float)size});
+        AUTO_IMAGE image = draw(scene, &camera, (lam_draw_params){.point_size = (float)size});
         double wanted = size < 4 ? size * size : 3.14159265 / 4 * size * size; // a square, or the area of a disc
         assert_true(fabs(area(&image) - wanted) < 0.03 * wanted + 0.01);
-        lam_image_free(&image);
     }
-    lam_scene_free(scene);
 }
 
 // A line from behind the eye ends at the near plane, with the interpolated colour of the whole line.
-static void clipping(void **state)
+TEST(clipping)
 {
-    (void)state;
     static const float p[6] = {0, -0.5f, 6, 0, -0.5f, -6};
     static const float colors[8] = {0, 0, 0, 1, 1, 1, 1, 1};
     lam_mesh mesh = {.positions = p,
@@ -81,7 +74,7 @@ static void clipping(void **state)
                      .color_count = 2,
                      .colors_format = LAM_COLORS_LINEAR_F32,
                      .line_count = 1};
-    lam_scene *scene = scene_of(&mesh);
+    AUTO_SCENE scene = scene_of(&mesh);
     lam_material white = lam_material_default();
     white.diffuse = (lam_rgba){1, 1, 1, 1};
     assert_true(lam_scene_set_default_material(scene, &white, NULL));
@@ -108,14 +101,12 @@ static void clipping(void **state)
     image = draw(scene, &camera, (lam_draw_params){.line_width = 3});
     assert_true(area(&image) == 0);
     lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // Lines without normals are unlit, with their emission; lines with normals are lit, from any side and with flat
 // shading.
-static void light(void **state)
+TEST(light)
 {
-    (void)state;
     static const float p[6] = {-1, 0, 0, 1, 0, 0}, up[6] = {0, 1, 0, 0, 1, 0};
     lam_mesh mesh = {.positions = p, .vertex_count = 2, .line_count = 1};
     lam_material m = lam_material_default();
@@ -128,26 +119,23 @@ static void light(void **state)
     for (int lit = 0; lit < 2; lit++) {
         mesh.normals = lit ? up : NULL;
         mesh.normal_count = lit ? 2 : 0;
-        lam_scene *scene = scene_of(&mesh);
+        AUTO_SCENE scene = scene_of(&mesh);
         assert_true(lam_scene_set_default_material(scene, &m, NULL) && lam_scene_add_light(scene, &above, NULL) >= 0);
         lam_camera camera = facing(3);
         for (int shading = LAM_SHADING_PHONG; shading <= LAM_SHADING_FLAT; shading++) {
             lam_draw_params params = {.line_width = 4, .samples = 1, .shading = (lam_shading)shading};
-            lam_image image = draw(scene, &camera, params);
+            AUTO_IMAGE image = draw(scene, &camera, params);
             const float *c = at(&image, SIDE / 2, SIDE / 2);
             float share = lit ? 0.6f : 1;
             assert_true(fabsf(c[0] - (0.25f * share + 0.5f)) < 1e-5f && fabsf(c[1] - 0.5f * share) < 1e-5f &&
                         fabsf(c[2] - 0.75f * share) < 1e-5f);
-            lam_image_free(&image);
         }
-        lam_scene_free(scene);
     }
 }
 
 // A line on a face is completely visible from every side.
-static void line_on_face(void **state)
+TEST(line_on_face)
 {
-    (void)state;
     static const float corners[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     static const uint32_t faces[6] = {0, 1, 2, 0, 2, 3}, diagonal[2] = {0, 2};
     lam_mesh face = {.positions = corners, .vertex_count = 4, .indices = faces, .triangle_count = 2};
@@ -176,9 +164,8 @@ static void line_on_face(void **state)
 
 static const lam_mesh *mesh_at(const lam_scene *scene, int i) { return lam_scene_mesh(scene, i); }
 
-static void obj_files(void **state)
+TEST(obj_files)
 {
-    (void)state;
     lam_scene *scene =
         load_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.25\nf 1 2 3\ng a\nl 1 2 3 1\nl -1 -3\np 2 3 \\\n 1\n"
                   "v 9 9 9\ng b\nl 1/1 -1\n",
@@ -213,9 +200,8 @@ static void obj_files(void **state)
 
 #define PLY_HEAD "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
 
-static void ply_files(void **state)
+TEST(ply_files)
 {
-    (void)state;
     lam_scene *scene = load_text(PLY_HEAD "end_header\n0 0 0\n1 0 0\n0 2 0\n", "a.ply");
     assert_int_equal(lam_scene_point_count(scene), 3);
     assert_null(mesh_at(scene, 0)->indices);
@@ -252,9 +238,8 @@ static const char *const gltf_mode =
     "\"data:application/octet-stream;base64,BAEC\"}]}";
 
 // The four modes, with and without indices.
-static void gltf_files(void **state)
+TEST(gltf_files)
 {
-    (void)state;
     static const struct {
         int mode;
         bool indexed;
@@ -273,7 +258,7 @@ static void gltf_files(void **state)
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         char text[1000];
         snprintf(text, sizeof text, gltf_mode, files[i].mode, files[i].indexed ? ", \"indices\": 1" : "");
-        lam_scene *scene = load_text(text, "a.gltf");
+        AUTO_SCENE scene = load_text(text, "a.gltf");
         const lam_mesh *mesh = mesh_at(scene, 0);
         assert_int_equal(lam_scene_line_count(scene), files[i].lines);
         assert_int_equal(lam_scene_point_count(scene), files[i].points);
@@ -286,33 +271,28 @@ static void gltf_files(void **state)
                                 files[i].indexed
                                     ? "a.gltf: meshes[0].primitives[0]: the last of 3 corners makes no line"
                                     : "a.gltf: meshes[0].primitives[0]: the last of 5 corners makes no line");
-        lam_scene_free(scene);
     }
 }
 
 // The camera fits lines, a single line and a single point.
-static void fit(void **state)
+TEST(fit)
 {
-    (void)state;
     static const char *const files[] = {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nf 1 2 3\nl 1 4\n",
                                         "v 0 0 0\nv 1 2 3\nl 1 2\n", "v 4 5 6\np 1\n"};
     for (int i = 0; i < 3; i++) {
-        lam_scene *scene = load_text(files[i], "a.obj");
+        AUTO_SCENE scene = load_text(files[i], "a.obj");
         lam_camera camera = lam_camera_fit(scene, SIDE, SIDE, NULL);
-        lam_image image = draw(scene, &camera, (lam_draw_params){.line_width = 2, .point_size = 4});
+        AUTO_IMAGE image = draw(scene, &camera, (lam_draw_params){.line_width = 2, .point_size = 4});
         double rim = 0;
         for (int k = 0; k < SIDE; k++)
             rim += (double)(at(&image, k, 0)[3] + at(&image, k, SIDE - 1)[3] + at(&image, 0, k)[3] +
                             at(&image, SIDE - 1, k)[3]);
         assert_true(area(&image) > 10 && rim == 0);
-        lam_image_free(&image);
-        lam_scene_free(scene);
     }
 }
 
-static void refusals(void **state)
+TEST(refusals)
 {
-    (void)state;
     static const float p[9] = {0};
     static const uint32_t beyond[2] = {0, 3};
     const struct {
@@ -329,34 +309,30 @@ static void refusals(void **state)
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         lam_error error = {0};
-        lam_scene *scene = lam_scene_make(NULL);
+        AUTO_SCENE scene = lam_scene_make(NULL);
         assert_int_equal(lam_scene_add_mesh(scene, &wrong[i].mesh, &error), -1);
         assert_string_equal(error.text, wrong[i].text);
-        lam_scene_free(scene);
     }
     lam_mesh point = {.positions = p, .vertex_count = 1, .point_count = 1};
-    lam_scene *scene = scene_of(&point);
+    AUTO_SCENE scene = scene_of(&point);
     lam_camera camera = facing(2);
-    lam_image image;
+    AUTO_IMAGE image = {0};
     lam_error error = {0};
     assert_true(lam_image_make(&image, 8, 8, LAM_RGBA8, NULL));
     assert_false(lam_draw(device, scene, &camera, &(lam_draw_params){.point_size = -1}, &image, NULL, &error));
     assert_string_equal(error.text, "point_size is -1, expected pixels from 0 to 1000");
     assert_false(lam_draw(device, scene, &camera, &(lam_draw_params){.line_width = 1e9f}, &image, NULL, &error));
     assert_string_equal(error.text, "line_width is 1e+09, expected pixels from 0 to 1000");
-    lam_image_free(&image);
-    lam_scene_free(scene);
 }
 
 // The explanation of a pixel names the line, and positions in the model.
-static void explained(void **state)
+TEST(explained)
 {
-    (void)state;
     static const float p[9] = {-1, 0, 0, 1, 0, 0, 1, 1, 0}, n[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
     static const uint32_t ends[4] = {2, 1, 0, 1};
     lam_mesh mesh = {
         .positions = p, .vertex_count = 3, .indices = ends, .normals = n, .normal_count = 3, .line_count = 2};
-    lam_scene *scene = scene_of(&mesh);
+    AUTO_SCENE scene = scene_of(&mesh);
     lam_error error = {0};
     lam_camera camera = facing(3);
     lam_explanation *e = lam_explain(device, scene, &camera, &(lam_draw_params){.line_width = 4, .samples = 1}, SIDE,
@@ -368,14 +344,12 @@ static void explained(void **state)
     lam_vec3 q = e->fragments[0].points[0].world_position;
     assert_true(fabs(q.x) < 0.05 && fabs(q.y) < 0.05 && fabs(q.z) < 0.25);
     lam_explanation_free(e);
-    lam_scene_free(scene);
 }
 
 // A line without a chosen colour is a grey that is visible on a white and on a transparent background, and on a dark
 // one as before.
-static void unchosen_color(void **state)
+TEST(unchosen_color)
 {
-    (void)state;
     static const float p[6] = {-1, 0, 0, 1, 0, 0}, white[8] = {1, 1, 1, 1, 1, 1, 1, 1};
     static const lam_rgba backgrounds[] = {{1, 1, 1, 1}, {0, 0, 0, 0}, {0.02f, 0.02f, 0.02f, 1}};
     const float given = lam_material_default().diffuse.r;
@@ -387,26 +361,14 @@ static void unchosen_color(void **state)
                 line.color_count = 2;
                 line.colors_format = LAM_COLORS_LINEAR_F32;
             }
-            lam_scene *scene = scene_of(&line);
+            AUTO_SCENE scene = scene_of(&line);
             lam_camera camera = facing(3);
             lam_image image =
                 draw(scene, &camera, (lam_draw_params){.line_width = 8, .background = backgrounds[i], .samples = 1});
             float expected = colored || i == 2 ? given : 0.2f;
             assert_true(fabsf(at(&image, SIDE / 2, SIDE / 2)[0] - expected) < 1e-6f);
             lam_image_free(&image);
-            lam_scene_free(scene);
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(widths),         cmocka_unit_test(clipping),
-        cmocka_unit_test(light),          cmocka_unit_test(line_on_face),
-        cmocka_unit_test(obj_files),      cmocka_unit_test(ply_files),
-        cmocka_unit_test(gltf_files),     cmocka_unit_test(fit),
-        cmocka_unit_test(refusals),       cmocka_unit_test(explained),
-        cmocka_unit_test(unchosen_color),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+FIXTURE(set_up, tear_down)

@@ -1,21 +1,10 @@
 // test_tangents.c: MikkTSpace: small meshes whose tangents follow from the definition, and four primitives of models
 // compared with the tangents of Mikkelsen's own code (../shared/reference-pictures/mikktspace, if it exists).
+#include "test.h"
 #include "cpu_features.h"
 #include "tangent_steps.h"
 #include "mikktspace.h"
 #include "quad.h"
-
-#include <lambent/lambent.h>
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <cmocka.h>
 
 // The tangents of a mesh; its arena remains until the next call.
 static struct mesh_tangents tangents_of(const lam_mesh *mesh, bool t_down)
@@ -64,9 +53,8 @@ static const lam_mesh *flat_mesh(struct flat_mesh *flat, const float (*corners)[
 }
 
 // A square whose corners share no indices gets one tangent for each of its four welded corners.
-static void plane(void **state)
+TEST(plane)
 {
-    (void)state;
     static const float corners[][4] = {{0, 0, 0, 0},         {1, 0, 1, 0}, {1, 1, 1, 1},
                                        {-0.0f, 0, 0, -0.0f}, {1, 1, 1, 1}, {0, 1, 0, 1}};
     struct flat_mesh flat;
@@ -82,9 +70,8 @@ static void plane(void **state)
 // Directions are weighted by the angle at the corner, not by the area. Below the common edge, from (0, 0) to (100, 0),
 // there is a long triangle with an angle of 45°, where s grows along (1, 1); above it a short one with 90°, where s
 // grows along (0, 1).
-static void angles_are_weights(void **state)
+TEST(angles_are_weights)
 {
-    (void)state;
     static const float corners[][4] = {{0, 0, 0, 0}, {100, -100, 0, -20}, {100, 0, 10, -10}, //
                                        {0, 0, 0, 0}, {100, 0, 10, -10},   {0, 1, 1, 0}};
     struct flat_mesh flat;
@@ -98,9 +85,8 @@ static void angles_are_weights(void **state)
 
 // Two squares with a common edge, the right one mirrored in the texture: the edge's corners are welded and have the
 // same normals and texture coordinates, but two tangents.
-static void mirrored_halves(void **state)
+TEST(mirrored_halves)
 {
-    (void)state;
     static const float corners[][4] = {{-1, 0, 0, 0}, {0, 0, 1, 0},  {0, 1, 1, 1}, {-1, 0, 0, 0},
                                        {0, 1, 1, 1},  {-1, 1, 0, 1}, {0, 0, 1, 0}, {1, 0, 0, 0},
                                        {1, 1, 0, 1},  {0, 0, 1, 0},  {1, 1, 0, 1}, {0, 1, 1, 1}};
@@ -113,9 +99,8 @@ static void mirrored_halves(void **state)
 
 // A triangle whose texture coordinates span no area takes the tangents and the orientation of its neighbours, and
 // contributes nothing to them; alone, it has the direction around the y axis.
-static void degenerate_texcoords(void **state)
+TEST(degenerate_texcoords)
 {
-    (void)state;
     static const float corners[][4] = {{0, 0, 1, 0}, {1, 0, 0, 0}, {1, 1, 0, 1},
                                        {0, 0, 1, 0}, {1, 1, 0, 1}, {-5, 1, 1, 0}};
     struct flat_mesh flat;
@@ -129,9 +114,8 @@ static void degenerate_texcoords(void **state)
 }
 
 // A triangle with two equal positions separates nothing: its corners have the tangents of the equal corners.
-static void degenerate_triangle(void **state)
+TEST(degenerate_triangle)
 {
-    (void)state;
     static const float corners[][4] = {{0, 0, 0, 0}, {0, 0, 0, 0}, {1, 1, 0, 1}, {0, 0, 0, 0}, {0, 1, 1, 0},
                                        {1, 1, 0, 1}, {0, 0, 0, 0}, {1, 1, 0, 1}, {1, 0, -1, 0}};
     struct flat_mesh flat;
@@ -144,9 +128,8 @@ static void degenerate_triangle(void **state)
 }
 
 // For any angle, a corner of a narrow triangle has the triangle's direction.
-static void sliver(void **state)
+TEST(sliver)
 {
-    (void)state;
     static const float corners[][4] = {{0, 0, 0, 0}, {1, 0, 0, 1}, {1, 1e-9f, -1e-9f, 1}};
     struct flat_mesh flat;
     struct mesh_tangents made = tangents_of(flat_mesh(&flat, corners, 3), false);
@@ -156,9 +139,8 @@ static void sliver(void **state)
 
 // Directions that cancel, except for the rounding of √3/2, leave the tangent of meshes without texture coordinates.
 // They are at 210°, 90° and 330°; none is mirrored.
-static void directions_that_cancel(void **state)
+TEST(directions_that_cancel)
 {
-    (void)state;
 #define HEIGHT 0.8660254f
     static const float corners[][4] = {{0, 0, 0, 0}, {1, 0, -1, 1},         {0.5f, HEIGHT, 0, -1},
                                        {0, 0, 0, 0}, {0.5f, HEIGHT, 0, -1}, {-0.5f, HEIGHT, 1, 1},
@@ -173,9 +155,8 @@ static void directions_that_cancel(void **state)
 
 // Flags and sums are the same with every instruction set, for any number of triangles, with one kind of indices, with
 // three or with none.
-static void same_bytes(void **state)
+TEST(same_bytes)
 {
-    (void)state;
     enum { TRIANGLES = 37, VERTICES = 3 * TRIANGLES };
     static float numbers[8 * VERTICES];
     static uint32_t indices[3 * VERTICES], groups[VERTICES];
@@ -201,8 +182,7 @@ static void same_bytes(void **state)
         uint8_t flags[3][TRIANGLES + TRIANGLES_AFTER];
         float sums[3][20][4] = {{{0}}};
         for (int lanes = 0; lanes < 3; lanes++) {
-            const struct tangent_kernels *kernels =
-                CPU_WIDEST(1 << (lanes + 2), &tangent_kernels_scalar, &tangent_kernels_avx2, &tangent_kernels_avx512);
+            const struct tangent_kernels *kernels = CPU_WIDEST(1 << (lanes + 2), tangent_kernels);
             kernels->look(&mesh, 0, TRIANGLES, flags[lanes]);
             kernels->add(&mesh, 0, 16, flags[lanes], groups, sums[lanes]);
             kernels->add(&mesh, 16, TRIANGLES, flags[lanes], groups, sums[lanes]);
@@ -215,9 +195,8 @@ static void same_bytes(void **state)
 
 // Four triangles on one edge, in the order out, in, in, out: the first is paired with the first, the second with the
 // second.
-static void twins_of_a_fan(void **state)
+TEST(twins_of_a_fan)
 {
-    (void)state;
     static const float corners[][4] = {{0, 0, 0, 0},   {1, 0, 1, 0},   {0, 1, 0, 1}, {1, 0, 1, 0},
                                        {0, 0, 0, 0},   {0, -1, 0, -1}, {1, 0, 1, 0}, {0, 0, 0, 0},
                                        {0, -2, 0, -2}, {0, 0, 0, 0},   {1, 0, 1, 0}, {0, 2, 0, 2}};
@@ -241,9 +220,8 @@ static void twins_of_a_fan(void **state)
 }
 
 // So many vertices that some with different numbers have the same 32-bit hash; the second half repeats the first.
-static void equal_hashes_are_distinguished(void **state)
+TEST(equal_hashes_are_distinguished)
 {
-    (void)state;
     enum { VERTICES = 300000, ALL = 2 * VERTICES };
     float *numbers = calloc((size_t)ALL * 8, sizeof *numbers);
     uint32_t *indices = malloc((size_t)ALL * sizeof *indices);
@@ -303,9 +281,8 @@ static lam_scene *normal_mapped_square(int set, const float transform[2][3])
 }
 
 // The tangents belong to the normal map's texture coordinates, and the bitangent points up in its picture.
-static void tangents_of_a_normal_map(void **state)
+TEST(tangents_of_a_normal_map)
 {
-    (void)state;
     static const float same[2][3] = {{0}}, upside_down[2][3] = {{1, 0, 0}, {0, -1, 1}};
     static const struct {
         int set;
@@ -314,14 +291,13 @@ static void tangents_of_a_normal_map(void **state)
     } rows[] = {
         {-1, same, -1, -1}, {0, same, -1, 1}, {1, same, 1, -1}, {0, upside_down, -1, -1}, {1, upside_down, 1, 1}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        lam_scene *scene = normal_mapped_square(rows[i].set, rows[i].transform);
+        AUTO_SCENE scene = normal_mapped_square(rows[i].set, rows[i].transform);
         assert_true(lam_scene_make_tangents(scene, NULL, NULL));
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         const struct mesh_tangents made = {(float *)(uintptr_t)mesh->tangents, mesh->tangent_count,
                                            (uint32_t *)(uintptr_t)mesh->tangent_indices};
         for (uint32_t c = 0; c < 6; c++)
             expect(&made, c, rows[i].x, 0, 0, rows[i].w);
-        lam_scene_free(scene);
     }
 }
 
@@ -365,9 +341,8 @@ static void compare_reference(const char *models, int row, const float *expected
     char path[600];
     lam_error error = {0};
     snprintf(path, sizeof path, "%s/%s", models, references[row].model);
-    lam_scene *scene = lam_scene_load(path, NULL, NULL, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
+    AUTO_SCENE scene = lam_scene_load(path, NULL, NULL, &error);
+    SUCCEEDS(scene);
     const lam_mesh *mesh = NULL;
     for (int i = 0; i < lam_scene_mesh_count(scene); i++)
         if (strcmp(lam_scene_mesh(scene, i)->name, references[row].mesh) == 0)
@@ -393,12 +368,10 @@ static void compare_reference(const char *models, int row, const float *expected
                   references[row].mesh, references[row].corners, made.count, signs, directions, worst);
     assert_int_equal(signs, 0);
     assert_int_equal(directions, 0);
-    lam_scene_free(scene);
 }
 
-static void tangents_of_mikkelsens_code(void **state)
+TEST(tangents_of_mikkelsens_code)
 {
-    (void)state;
     const char *models = getenv("LAMBENT_MODELS");
     models = models ? models : "../shared/models";
     float *expected = read_references(models);
@@ -432,9 +405,8 @@ static const float *tangent_at(const lam_mesh *mesh, uint32_t corner)
     return mesh->tangents + 4 * (size_t)mesh->tangent_indices[corner];
 }
 
-static void tangents_of_a_square(void **state)
+TEST(tangents_of_a_square)
 {
-    (void)state;
     static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const float turned[] = {0, 0, 0, 1, -1, 1, -1, 0}; // s along −y
     static const float mirrored[] = {1, 0, 0, 0, 0, 1, 1, 1}; // s along −x, t along y
@@ -444,7 +416,7 @@ static void tangents_of_a_square(void **state)
         float expected[4];
     } rows[] = {{straight, {1, 0, 0, 1}}, {turned, {0, -1, 0, 1}}, {mirrored, {-1, 0, 0, -1}}, {nowhere, {1, 0, 0, 1}}};
     for (int r = 0; r < 4; r++) {
-        lam_scene *scene = square_scene(rows[r].texcoords);
+        AUTO_SCENE scene = square_scene(rows[r].texcoords);
         assert_true(lam_scene_make_tangents(scene, NULL, NULL));
         const lam_mesh *mesh = lam_scene_mesh(scene, 0);
         assert_non_null(mesh->tangents);
@@ -452,19 +424,16 @@ static void tangents_of_a_square(void **state)
         for (uint32_t corner = 0; corner < 6; corner++)
             for (int i = 0; i < 4; i++)
                 assert_true(fabsf(tangent_at(mesh, corner)[i] - rows[r].expected[i]) <= 1e-7f);
-        lam_scene_free(scene);
     }
-    lam_scene *bare = square_scene(NULL);
+    AUTO_SCENE bare = square_scene(NULL);
     assert_true(lam_scene_make_tangents(bare, NULL, NULL));
     assert_null(lam_scene_mesh(bare, 0)->tangents);
-    lam_scene_free(bare);
 }
 
 // A shape's own tangents, from its formula, equal the tangents from its texture coordinates, except for the error of
 // the segments.
-static void tangents_of_a_torus(void **state)
+TEST(tangents_of_a_torus)
 {
-    (void)state;
     lam_scene *exact = lam_scene_make(NULL), *made = lam_scene_make(NULL);
     assert_int_equal(lam_scene_add_shape(exact, "torus", NULL, NULL), 0);
     const lam_mesh *from = lam_scene_mesh(exact, 0);
@@ -494,41 +463,17 @@ static void tangents_of_a_torus(void **state)
     lam_scene_free(made);
 }
 
-static void tangents_can_be_bounded(void **state)
+TEST(tangents_can_be_bounded)
 {
-    (void)state;
     lam_error error;
     for (int i = 0; i < 2; i++) {
         static const float straight[] = {0, 0, 1, 0, 1, 1, 0, 1};
-        lam_scene *scene = square_scene(straight);
+        AUTO_SCENE scene = square_scene(straight);
         lam_cancel cancel = {1};
         lam_control control = i ? (lam_control){.memory_limit_bytes = 16} : (lam_control){.cancel = &cancel};
         assert_false(lam_scene_make_tangents(scene, &control, &error));
         assert_int_equal(error.code, i ? LAM_LIMIT : LAM_CANCELLED);
         assert_null(lam_scene_mesh(scene, 0)->tangents);
-        lam_scene_free(scene);
     }
     assert_false(lam_scene_make_tangents(NULL, NULL, &error));
-}
-
-int main(void)
-{
-    const struct CMUnitTest all[] = {
-        cmocka_unit_test(plane),
-        cmocka_unit_test(angles_are_weights),
-        cmocka_unit_test(mirrored_halves),
-        cmocka_unit_test(degenerate_texcoords),
-        cmocka_unit_test(degenerate_triangle),
-        cmocka_unit_test(sliver),
-        cmocka_unit_test(directions_that_cancel),
-        cmocka_unit_test(same_bytes),
-        cmocka_unit_test(twins_of_a_fan),
-        cmocka_unit_test(equal_hashes_are_distinguished),
-        cmocka_unit_test(tangents_of_a_normal_map),
-        cmocka_unit_test(tangents_of_mikkelsens_code),
-        cmocka_unit_test(tangents_of_a_square),
-        cmocka_unit_test(tangents_of_a_torus),
-        cmocka_unit_test(tangents_can_be_bounded),
-    };
-    return cmocka_run_group_tests(all, NULL, NULL);
 }

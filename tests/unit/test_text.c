@@ -1,13 +1,7 @@
 // test_text.c: text in pictures: its position, its widths, UTF-8, and missing characters.
+#include "test.h"
+
 #include <lambent/caption.h>
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 static lam_font *font;
 
@@ -52,12 +46,11 @@ static void ink(const lam_image *image, int box[4])
             }
 }
 
-static void stands_on_its_baseline(void **state)
+TEST(stands_on_its_baseline)
 {
-    (void)state;
     if (!font)
         skip();
-    lam_image image = blank(200, 60, LAM_RGBA8);
+    AUTO_IMAGE image = blank(200, 60, LAM_RGBA8);
     assert_true(lam_text_draw(&image, font, 20, 40, 32, (lam_rgba){1, 0, 0, 1}, "HEX", NULL));
     int box[4];
     ink(&image, box);
@@ -73,12 +66,10 @@ static void stands_on_its_baseline(void **state)
         full += p[4 * i + 3] == 255;
     }
     assert_true(full > 50);
-    lam_image_free(&image);
 }
 
-static void measures(void **state)
+TEST(measures)
 {
-    (void)state;
     if (!font)
         skip();
     double one = lam_text_width(font, 20, "m"), two = lam_text_width(font, 20, "mm");
@@ -94,9 +85,8 @@ static void measures(void **state)
     assert_true(lam_text_width(font, 20, "\xed\xa0\x80") == replacement); // a surrogate
 }
 
-static void blends_and_clips(void **state)
+TEST(blends_and_clips)
 {
-    (void)state;
     if (!font)
         skip();
     lam_image bytes = blank(20, 20, LAM_RGBA8), floats = blank(20, 20, LAM_RGBA32F);
@@ -112,9 +102,8 @@ static void blends_and_clips(void **state)
     lam_image_free(&floats);
 }
 
-static void says_what_is_missing(void **state)
+TEST(says_what_is_missing)
 {
-    (void)state;
     lam_error error;
     if (font) {
         assert_null(lam_font_open("/nowhere/font.ttf", &error));
@@ -122,12 +111,11 @@ static void says_what_is_missing(void **state)
         assert_non_null(strstr(error.text, "/nowhere/font.ttf"));
         assert_null(lam_font_open("/etc/passwd", &error));
         assert_int_equal(error.code, LAM_CANNOT_READ);
-        lam_image image = blank(4, 4, LAM_RGBA8);
+        AUTO_IMAGE image = blank(4, 4, LAM_RGBA8);
         assert_false(lam_text_draw(&image, font, 0, 0, 0.5, (lam_rgba){0}, "a", &error));
         assert_int_equal(error.code, LAM_BAD_ARGUMENT);
         assert_false(lam_text_draw(&image, font, 1e9, 0, 10, (lam_rgba){0}, "a", &error));
         assert_false(lam_text_draw(&image, NULL, 0, 0, 10, (lam_rgba){0}, "a", &error));
-        lam_image_free(&image);
     } else {
         assert_null(lam_font_open(NULL, &error));
         assert_int_equal(error.code, LAM_UNSUPPORTED);
@@ -137,9 +125,8 @@ static void says_what_is_missing(void **state)
     assert_null(lam_font_path(-1));
 }
 
-static void follows_the_environment(void **state)
+TEST(follows_the_environment)
 {
-    (void)state;
     if (!font)
         skip();
     lam_error error;
@@ -149,12 +136,4 @@ static void follows_the_environment(void **state)
     unsetenv("LAMBENT_FONT");
 }
 
-int main(void)
-{
-    const struct CMUnitTest list[] = {
-        cmocka_unit_test(stands_on_its_baseline),  cmocka_unit_test(measures),
-        cmocka_unit_test(blends_and_clips),        cmocka_unit_test(says_what_is_missing),
-        cmocka_unit_test(follows_the_environment),
-    };
-    return cmocka_run_group_tests(list, open_font, close_font);
-}
+FIXTURE(open_font, close_font)

@@ -1,17 +1,7 @@
 // test_textures.c: texels compared with a second evaluator in double, implemented from OpenGL's rules; mipmaps; maps of
 // materials.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <lambent/lambent.h>
+#include "test.h"
 
 static uint32_t seed = 1;
 static double random_unit(void)
@@ -119,10 +109,9 @@ static double expected(const struct pyramid *p, const lam_texture_map *m, double
 // Every wrap, filter and mip mode, sizes that are not powers of two, coordinates far outside: no texel differs, for
 // bytes and floats, with alpha and without, which uses three numbers per texel. Near the border between two texels, the
 // nearest one may be either.
-static void test_texels(void **state)
+TEST(test_texels)
 {
     static const int sizes[][2] = {{16, 16}, {13, 7}, {1, 9}, {32, 5}, {1, 1}};
-    (void)state;
     for (int n = 0; n < 5 * 2 * 3; n++) {
         int w = sizes[n / 2 % 5][0], h = sizes[n / 2 % 5][1];
         bool opaque = n >= 10, floats = n >= 20;
@@ -214,15 +203,12 @@ static lam_shading shading_in_use = LAM_SHADING_PHONG;
 static void draw(const lam_material *material, lam_reflection reflection, float *pixels)
 {
     lam_error error;
-    lam_scene *scene = lit_sphere(material);
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_SCENE scene = lit_sphere(material);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, NULL);
     lam_draw_params params = {.samples = 4, .rig = LAM_RIG_NONE, .reflection = reflection, .shading = shading_in_use};
     lam_image image = {.width = SIZE, .height = SIZE, .format = LAM_RGBA32F, .pixels = pixels};
-    if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-        fail_msg("%s", error.text);
-    lam_device_free(device);
-    lam_scene_free(scene);
+    SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
 }
 
 static double largest_difference(const float *a, const float *b)
@@ -235,11 +221,10 @@ static double largest_difference(const float *a, const float *b)
 
 // Maps of one colour give the same picture as the numbers themselves, for physical materials, classic ones, and
 // conversions.
-static void test_constant_maps(void **state)
+TEST(test_constant_maps)
 {
     static float with[SIZE * SIZE * 4], without[SIZE * SIZE * 4];
     static const lam_reflection models[] = {LAM_REFLECTION_AUTO, LAM_REFLECTION_PHONG, LAM_REFLECTION_BLINN_PHONG};
-    (void)state;
     lam_texture *color = constant(0.5f, 0.75f, 0.25f, 1), *numbers = constant(0.5f, 0.75f, 0.25f, 1);
     lam_texture *flat = constant(0.5f, 0.5f, 1, 1);
     lam_texture_map color_map = {.texture = color}, flat_map = {.texture = flat}, roughness = {numbers, .channel = 1};
@@ -282,11 +267,10 @@ static void test_constant_maps(void **state)
 
 // With Gouraud and flat shading, the diffuse map multiplies the interpolated colours, and the emission map is added to
 // them.
-static void test_vertex_shading(void **state)
+TEST(test_vertex_shading)
 {
     static float with[SIZE * SIZE * 4], without[SIZE * SIZE * 4];
     static const lam_shading methods[] = {LAM_SHADING_FLAT, LAM_SHADING_GOURAUD};
-    (void)state;
     lam_texture *color = constant(0.5f, 0.75f, 0.25f, 0.5f);
     lam_texture_map map = {.texture = color};
     for (int i = 0; i < 4; i++) {
@@ -315,7 +299,7 @@ static void test_vertex_shading(void **state)
 }
 
 // The alpha modes at an opacity of 0.3.
-static void test_alpha_modes(void **state)
+TEST(test_alpha_modes)
 {
     static float pixels[SIZE * SIZE * 4];
     static const struct {
@@ -326,7 +310,6 @@ static void test_alpha_modes(void **state)
                 {LAM_ALPHA_OPAQUE, 0, 1},
                 {LAM_ALPHA_MASK, 0.25f, 1},
                 {LAM_ALPHA_MASK, 0.35f, 0}};
-    (void)state;
     lam_texture *half = constant(1, 1, 1, 0.5f);
     lam_texture_map map = {.texture = half};
     for (int i = 0; i < 4; i++) {
@@ -344,11 +327,10 @@ static void test_alpha_modes(void **state)
     lam_texture_free(half);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     lam_error error;
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     lam_texture *texture = constant(1, 1, 1, 1);
     lam_texture_map maps[] = {{.texture = NULL},
                               {.texture = texture, .texcoords = 2},
@@ -372,7 +354,6 @@ static void test_refused(void **state)
     assert_int_equal(lam_scene_add_material(scene, &m, &error), 0);
     lam_texture_free(texture);
     assert_string_equal(lam_texture_name(lam_scene_material(scene, 0)->maps[LAM_MAP_DIFFUSE]->texture), "constant");
-    lam_scene_free(scene);
 }
 
 // --- a plane seen at 4 degrees
@@ -394,9 +375,8 @@ static double stripe_at(double u, double v)
 // Stripes that extend into the distance: a pixel is one texel wide and 14 texels long. With 16 probes, its value is
 // close to the exact mean over its footprint, the integral in double; with one probe, it is the mean over a square of
 // 14 texels.
-static void test_slanted(void **state)
+TEST(test_slanted)
 {
-    (void)state;
     const double slant = sin(4 * 3.14159265358979323846 / 180), side = 400;
     for (int y = 0; y < STRIPES; y++)
         for (int x = 0; x < STRIPES; x++)
@@ -414,7 +394,7 @@ static void test_slanted(void **state)
     const float positions[] = {-400, 0, far, 400, 0, far, 400, 0, -far, -400, 0, -far};
     const float texcoords[] = {-end, length, end, length, end, -length, -end, -length};
     const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
-    lam_scene *scene = lam_scene_make(&error);
+    AUTO_SCENE scene = lam_scene_make(&error);
     const lam_part part = {.triangle_count = 2, .material = lam_scene_add_material(scene, &material, &error)};
     const lam_mesh mesh = {.positions = positions,
                            .vertex_count = 4,
@@ -430,14 +410,13 @@ static void test_slanted(void **state)
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){0, 1000 * slant, 1000 * sqrt(1 - slant * slant)};
     camera.ortho_half_height = VIEW / 2.0; // one pixel is one unit, and one unit is one texel
-    lam_device *device = lam_device_cpu(NULL, &error);
+    AUTO_DEVICE device = lam_device_cpu(NULL, &error);
     double off[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
-        lam_image image;
+        AUTO_IMAGE image = {0};
         lam_draw_params params = {.samples = 1, .anisotropy = k ? 16 : 1};
         assert_true(lam_image_make(&image, VIEW, VIEW, LAM_RGBA32F, &error));
-        if (!lam_draw(device, scene, &camera, &params, &image, NULL, &error))
-            fail_msg("%s", error.text);
+        SUCCEEDS(lam_draw(device, scene, &camera, &params, &image, NULL, &error));
         for (int y = 0; y < VIEW; y++)
             for (int x = 0; x < VIEW; x++) {
                 double exact = 0;
@@ -447,20 +426,8 @@ static void test_slanted(void **state)
                 double apart = (double)((const float *)image.pixels)[4 * (y * VIEW + x)] - exact;
                 off[k] += apart * apart / (VIEW * VIEW);
             }
-        lam_image_free(&image);
     }
     print_message("a plane at 4 degrees: %.3f off with 1 probe, %.3f with 16\n", sqrt(off[0]), sqrt(off[1]));
     assert_true(sqrt(off[0]) > 0.15 && sqrt(off[1]) < 0.03);
-    lam_device_free(device);
-    lam_scene_free(scene);
     lam_texture_free(texture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texels),      cmocka_unit_test(test_constant_maps), cmocka_unit_test(test_vertex_shading),
-        cmocka_unit_test(test_alpha_modes), cmocka_unit_test(test_refused),       cmocka_unit_test(test_slanted),
-    };
-    return cmocka_run_group_tests_name("textures", tests, NULL, NULL);
 }

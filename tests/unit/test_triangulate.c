@@ -1,15 +1,10 @@
 // test_triangulate.c: triangles cover their polygon exactly and keep its winding, for polygons of any shape.
+#include "test.h"
 #include "triangulate.h"
 
 #include "share.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
-#include <cmocka.h>
 
 static uint64_t state = 88172645463325252u;
 
@@ -101,9 +96,8 @@ static uint32_t check(const double (*points)[2], uint32_t count, int plane)
     return flat;
 }
 
-static void test_small(void **unused)
+TEST(test_small)
 {
-    (void)unused;
     static const double square[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     static const double dart[][2] = {{0, 0}, {2, 0}, {0.3, 0.3}, {0, 2}};  // corner 2 is turned inward
     static const double dart2[][2] = {{0.3, 0.3}, {0, 2}, {0, 0}, {2, 0}}; // the same from corner 2
@@ -126,9 +120,8 @@ static void test_small(void **unused)
 }
 
 // A ring whose hole is connected by a bridge in both directions, holes that touch the outline, and repeated points.
-static void test_touching(void **unused)
+TEST(test_touching)
 {
-    (void)unused;
     static const double ring[][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
     static const double two_holes[][2] = {{0, 0}, {8, 0}, {8, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3},
                                           {3, 1}, {1, 1}, {5, 1}, {5, 3}, {7, 3}, {7, 1}, {5, 1}, {1, 1}};
@@ -179,9 +172,8 @@ static void make_comb(double (*points)[2], uint32_t count)
     points[1][0] = points[1][1] = 1.1;
 }
 
-static void test_random(void **unused)
+TEST(test_random)
 {
-    (void)unused;
     enum { MOST = 600 };
     static double points[MOST][2];
     for (int round = 0; round < 400; round++) {
@@ -198,9 +190,8 @@ static void test_random(void **unused)
 }
 
 // Large polygons; the time limit of the test run limits the time.
-static void test_large(void **unused)
+TEST(test_large)
 {
-    (void)unused;
     enum { COUNT = 100000 };
     double(*points)[2] = malloc(COUNT * sizeof *points);
     make_star(points, COUNT, 0.5);
@@ -213,9 +204,8 @@ static void test_large(void **unused)
 }
 
 // Polygons without area or with self-intersections are also triangulated.
-static void test_hopeless(void **unused)
+TEST(test_hopeless)
 {
-    (void)unused;
     enum { COUNT = 300 };
     float positions[3 * COUNT];
     uint32_t corners[COUNT], triples[3 * COUNT];
@@ -246,9 +236,8 @@ static void test_hopeless(void **unused)
 }
 
 // A large polygon around four points: every test of a corner meets all corners at its own position.
-static void test_repeated(void **unused)
+TEST(test_repeated)
 {
-    (void)unused;
     enum { COUNT = IS_SLOW_BUILD ? 20000 : 200000 };
     static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     uint32_t *corners = malloc(COUNT * sizeof *corners), *triples = malloc(3 * COUNT * sizeof *triples);
@@ -264,9 +253,8 @@ static void test_repeated(void **unused)
     free(triples);
 }
 
-static void test_memory(void **unused)
+TEST(test_memory)
 {
-    (void)unused;
     static const float positions[] = {0, 0, 0, 2, 0, 0, 0.5f, 0.5f, 0, 2, 2, 0, 0, 2, 0};
     static const uint32_t corners[] = {0, 1, 2, 3, 4};
     uint32_t triples[9];
@@ -277,14 +265,4 @@ static void test_memory(void **unused)
     arena_fail_after(-1);
     assert_true(triangulate(&scratch, positions, corners, 5, triples));
     triangulator_stop(&scratch);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),    cmocka_unit_test(test_touching), cmocka_unit_test(test_random),
-        cmocka_unit_test(test_large),    cmocka_unit_test(test_hopeless), cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_repeated),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

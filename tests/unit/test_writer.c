@@ -1,23 +1,17 @@
 // test_writer.c: the process that writes files for the sandboxed process: its rights, several threads at once, and the
 // end of either process.
-#include "writer.h"
+#include "test.h"
+#include "sandbox.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <cmocka.h>
+#include <lambent/path.h>
 
 static char folder[] = "/tmp/lambent-writer-XXXXXX";
 
@@ -36,8 +30,8 @@ static enum writer_right rule(void *user, const char *path)
     assert_string_equal(user, "rule");
     return strncmp(name, "any", 3) == 0       ? WRITER_ANY
            : strncmp(name, "ours", 4) == 0    ? WRITER_NEW_OR_OURS
-           : strncmp(name, "implied", 7) == 0 ? WRITER_ANY | WRITER_IMPLIED
-           : strncmp(name, "new", 3) == 0     ? WRITER_NEW | WRITER_IMPLIED
+           : strncmp(name, "implied", 7) == 0 ? WRITER_ANY
+           : strncmp(name, "new", 3) == 0     ? WRITER_NEW
            : strcmp(name, "log") == 0         ? WRITER_REMOVES
                                               : WRITER_NONE;
 }
@@ -77,12 +71,22 @@ static int count_files(void)
     return count;
 }
 
+static bool start_writer(int threads, uint64_t largest)
+{
+    lam_error error;
+    struct sandbox_paths paths = {.may_write = rule, .user = "rule", .writers = threads};
+    sandbox_add(&paths, folder, SANDBOX_MAKE);
+    bool ok = lam_path_hold(folder, false, &error) && writer_start(&paths, largest, &error);
+    sandbox_paths_free(&paths);
+    return ok;
+}
+
 static int start(void **state)
 {
     (void)state;
-    lam_error error;
+    umask(022);
     memcpy(strrchr(folder, '-') + 1, "XXXXXX", 6);
-    return !mkdtemp(folder) || !writer_start(rule, "rule", 2, 100 << 20, &error);
+    return !mkdtemp(folder) || !start_writer(2, 100 << 20);
 }
 
 static int end(void **state)
@@ -95,9 +99,20 @@ static int end(void **state)
     return system(command);
 }
 
-static void test_rights(void **state)
+// The user names a link: it is held before the writer starts.
+static int start_named(void **state)
 {
-    (void)state;
+    lam_error error;
+    if (start(state))
+        return 1;
+    writer_end();
+    put("precious", "of the user");
+    return symlink("precious", in_folder("any link")) || !lam_path_hold(in_folder("any link"), false, &error) ||
+           !start_writer(2, 100 << 20);
+}
+
+TEST(test_rights, .setup_func = start, .teardown_func = end)
+{
     lam_error error;
     assert_true(writer_is_there() && writer_process() != getpid());
     // Any file is replaced, a new folder is created, and nothing is executable.
@@ -135,14 +150,11 @@ static void test_rights(void **state)
 }
 
 // A name that the user did not give is written only to a regular file or a new file, and not through a link.
-static void test_implied(void **state)
+TEST(test_implied, .setup_func = start_named, .teardown_func = end)
 {
-    (void)state;
     lam_error error;
-    put("precious", "of the user");
     assert_int_equal(symlink("precious", in_folder("implied link")), 0);
     assert_int_equal(symlink("missing", in_folder("implied end")), 0);
-    assert_int_equal(symlink("precious", in_folder("any link")), 0);
     assert_false(save("implied link", "1", &error) || save("implied end", "1", &error));
     assert_non_null(strstr(error.text, "is a link"));
     assert_contains("precious", "of the user");
@@ -169,16 +181,15 @@ static bool save_set(const char *second, lam_error *error)
     char first[300];
     snprintf(first, sizeof first, "%s", in_folder("any first"));
     static char one[] = "one", two[] = "two";
-    const struct writer_file files[] = {{first, {one, 3}, WRITER_ANY},
-                                        {in_folder(second), {two, 3}, WRITER_ANY | WRITER_IMPLIED}};
+    const struct writer_file files[] = {{.path = first, .bytes = {one, 3}, .right = WRITER_ANY},
+                                        {.path = in_folder(second), .bytes = {two, 3}, .right = WRITER_ANY}};
     *error = (lam_error){0};
     return writer_save_all(files, 2, error);
 }
 
 // All files of a set are replaced, or none, with the writer and without.
-static void test_set(void **state)
+TEST(test_set, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     lam_error error;
     put("any first", "older");
     assert_int_equal(chmod(in_folder("any first"), 0640), 0);
@@ -219,9 +230,8 @@ static void *save_many(void *user)
 }
 
 // More threads than connections take turns.
-static void test_threads(void **state)
+TEST(test_threads, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     pthread_t threads[THREADS];
     struct stat about;
     char name[30];
@@ -239,9 +249,8 @@ static void test_threads(void **state)
 }
 
 // The end of the writer is an error, not a signal.
-static void test_writer_ends(void **state)
+TEST(test_writer_ends, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     lam_error error;
     assert_true(save("any", "1", &error));
     assert_int_equal(kill(writer_process(), SIGKILL), 0);
@@ -254,9 +263,8 @@ static void test_writer_ends(void **state)
 }
 
 // Signals that end the process leave no partial files and no writer.
-static void test_process_ends(void **state)
+TEST(test_process_ends, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     static const int signals[] = {SIGTERM, SIGKILL, SIGABRT, SIGPIPE, SIGUSR1};
     enum { LARGE = 3 << 20 };
     char *text = calloc(1, LARGE);
@@ -267,8 +275,7 @@ static void test_process_ends(void **state)
         pid_t child = fork();
         if (child == 0) {
             writer_leave();
-            bool ok = writer_start(rule, "rule", 1, 0, &error) &&
-                      write(ready[1], &(pid_t){writer_process()}, sizeof(pid_t)) > 0;
+            bool ok = start_writer(1, 0) && write(ready[1], &(pid_t){writer_process()}, sizeof(pid_t)) > 0;
             for (int k = 0; ok && k < 1000; k++)
                 ok = writer_save(in_folder("any"), &(lam_bytes){text, LARGE}, false, &error);
             _exit(ok);
@@ -301,9 +308,8 @@ static void test_process_ends(void **state)
 }
 
 // A closed standard stream does not become a connection.
-static void test_closed_streams(void **state)
+TEST(test_closed_streams, .setup_func = start, .teardown_func = end)
 {
-    (void)state;
     int status = 0;
     pid_t child = fork();
     if (child == 0) {
@@ -312,27 +318,11 @@ static void test_closed_streams(void **state)
         close(STDIN_FILENO);
         close(STDOUT_FILENO);
         close(STDERR_FILENO);
-        bool ok =
-            writer_start(rule, "rule", 1, 0, &error) && write(STDERR_FILENO, "a", 1) < 0 && save("any", "1", &error);
+        bool ok = start_writer(1, 0) && write(STDERR_FILENO, "a", 1) < 0 && save("any", "1", &error);
         writer_end();
         _exit(!ok);
     }
     waitpid(child, &status, 0);
     assert_int_equal(status, 0);
     assert_contains("any", "1");
-}
-
-int main(void)
-{
-    umask(022);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_rights, start, end),
-        cmocka_unit_test_setup_teardown(test_implied, start, end),
-        cmocka_unit_test_setup_teardown(test_set, start, end),
-        cmocka_unit_test_setup_teardown(test_threads, start, end),
-        cmocka_unit_test_setup_teardown(test_writer_ends, start, end),
-        cmocka_unit_test_setup_teardown(test_process_ends, start, end),
-        cmocka_unit_test_setup_teardown(test_closed_streams, start, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -181,7 +181,7 @@ async function delayed() {
     await textIn(there, 'Fragment shader').click();
     await there.keyboard.press('Control+a');
     await there.keyboard.press('Delete');
-    await insertText(there, textIn(there, 'Fragment shader'), readFileSync(new URL('../check/angel.frag', import.meta.url), 'utf8').replace('pow(', '0.5 * pow('));
+    await insertText(there, textIn(there, 'Fragment shader'), readFileSync(new URL('../../classroom/tests/check/angel.frag', import.meta.url), 'utf8').replace('pow(', '0.5 * pow('));
   };
 
   // If the search takes too long, the report without it remains.

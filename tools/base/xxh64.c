@@ -9,8 +9,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
+
+#include <lambent/path.h>
 
 static const uint64_t prime1 = 0x9E3779B185EBCA87u, prime2 = 0xC2B2AE3D27D4EB4Fu, prime3 = 0x165667B19E3779F9u,
                       prime4 = 0x85EBCA77C2B2AE63u, prime5 = 0x27D4EB2F165667C5u;
@@ -101,13 +102,13 @@ bool xxh64_file(const char *path, uint64_t *hash)
 {
     unsigned char chunk[CHUNK];
     struct stat about;
-    if (stat(path, &about) != 0)
+    if (lam_path_stat(path, &about) != 0)
         return false;
     if (!S_ISREG(about.st_mode)) {
         errno = EINVAL;
         return false;
     }
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    int file = lam_path_open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (file < 0)
         return false;
     struct xxh64 sum;

@@ -63,10 +63,7 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
                 return complain(error, LAM_MACHINE, "out of memory");
             if (plan->options->report.json) {
                 struct json json = {.file = stdout};
-                json_open(&json, NULL, '{');
-                json_text(&json, "model", plan->models[i].path);
-                json_text(&json, "output", output);
-                json_close(&json, '}');
+                json_put(&json, OBJECT(NULL, TEXT("model", plan->models[i].path), TEXT("output", output)));
                 putc('\n', stdout);
             } else {
                 printf("%s -> %s\n", plan->models[i].path, output);

@@ -5,10 +5,7 @@
 
 #include "command_table.h"
 
-// Runs a command and reports its errors. Returns the program's exit code.
-typedef int command_fn(int operand_count, char **operands, const struct options *options);
-
-#define COMMAND_FUNCTION(name) command_fn run_##name;
+#define COMMAND_FUNCTION(name, program) command_fn run_##name;
 COMMANDS(COMMAND_FUNCTION)
 
 #endif

@@ -445,9 +445,7 @@ static void print_json(const struct compare *c, const char *path)
 {
     struct json json = {.file = strcmp(path, "-") == 0 ? stderr : stdout};
     json_open(&json, NULL, '{');
-    json_text(&json, "lambent", lam_version());
-    json_text(&json, "model", c->model);
-    json_text(&json, "sheet", path);
+    json_put(&json, TEXT("lambent", lam_version()), TEXT("model", c->model), TEXT("sheet", path));
     json_open(&json, "pictures", '[');
     for (int i = 0; i < c->sheet.count; i++) {
         const struct cell *cell = &c->sheet.cells[i];
@@ -464,14 +462,12 @@ static void print_json(const struct compare *c, const char *path)
                              option_given(c->options, "ao") ? NULL : "off"};
         for (size_t k = 0; k < sizeof own / sizeof *own; k += 2)
             if (own[k + 1] && !has_argument(words, count, own[k])) {
-                json_text(&json, NULL, own[k]);
-                json_text(&json, NULL, own[k + 1]);
+                json_put(&json, TEXT(NULL, own[k]), TEXT(NULL, own[k + 1]));
             }
         json_close(&json, ']');
         if (c->sheet.mistakes) {
-            json_text(&json, "mistake", cell->mistake);
-            json_number(&json, "mean_difference", c->differences[i].mean);
-            json_number(&json, "largest_difference", c->differences[i].maximum);
+            json_put(&json, TEXT("mistake", cell->mistake), NUMBER("mean_difference", c->differences[i].mean),
+                     NUMBER("largest_difference", c->differences[i].maximum));
         }
         json_close(&json, '}');
     }

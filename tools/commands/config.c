@@ -17,18 +17,14 @@ static void print_json(const struct options *options, const struct settings_sour
 {
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
-    json_text(&json, "lambent", lam_version());
-    json_text(&json, "file", *source->path ? source->path : NULL);
-    json_text(&json, "state", states[source->state][0]);
+    json_put(&json, TEXT("lambent", lam_version()), TEXT("file", *source->path ? source->path : NULL),
+             TEXT("state", states[source->state][0]));
     json_open(&json, "settings", '[');
     for (int i = 0; option_table[i].name; i++) {
         if (!options->by_config[i])
             continue;
-        json_open(&json, NULL, '{');
-        json_text(&json, "name", option_table[i].name);
-        json_text(&json, "value", options->values[i]);
-        json_count(&json, "line", (uint64_t)options->by_config[i]);
-        json_close(&json, '}');
+        json_put(&json, OBJECT(NULL, TEXT("name", option_table[i].name), TEXT("value", options->values[i]),
+                               COUNT("line", options->by_config[i])));
     }
     json_close(&json, ']');
     json_close(&json, '}');

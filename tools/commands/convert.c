@@ -119,7 +119,8 @@ static enum writer_right right_of(void *user, const char *path)
     const struct convert *c = user;
     return strcmp(path, c->output) == 0 ? WRITER_ANY
            : !is_beside(c, path)        ? WRITER_NONE
-                                        : (c->replaces ? WRITER_ANY : WRITER_NEW) | WRITER_IMPLIED;
+           : c->replaces                ? WRITER_ANY
+                                        : WRITER_NEW;
 }
 
 static bool check_beside(const struct convert *c, const char *path, lam_error *error)
@@ -145,7 +146,7 @@ static bool write_files(struct convert *c, lam_error *error)
         ok = path || complain(error, LAM_MACHINE, "out of memory");
         ok = ok && job_check_inputs(c->job.scene, path, false, error) && (i == 0 || check_beside(c, path, error));
         if (path)
-            files[filled++] = (struct writer_file){path, lam_export_file(c->result, i), right_of(c, path)};
+            files[filled++] = (struct writer_file){path, lam_export_file(c->result, i), right_of(c, path), i == 0};
     }
     ok = ok && writer_save_all(files, count, error);
     for (int i = 0; i < filled; i++)
@@ -194,19 +195,13 @@ static void print_json(const struct convert *c)
 {
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
-    json_text(&json, "lambent", lam_version());
-    json_text(&json, "model", c->model);
-    json_text(&json, "output", c->output);
-    json_count(&json, "triangles", c->job.model_counts.triangles);
-    json_count(&json, "lines", c->job.model_counts.lines);
-    json_count(&json, "points", c->job.model_counts.points);
+    json_put(&json, TEXT("lambent", lam_version()), TEXT("model", c->model), TEXT("output", c->output),
+             COUNT("triangles", c->job.model_counts.triangles), COUNT("lines", c->job.model_counts.lines),
+             COUNT("points", c->job.model_counts.points));
     json_open(&json, "files", '[');
     for (int i = 0; lam_export_file_name(c->result, i); i++) {
         char *path = path_of(c, i);
-        json_open(&json, NULL, '{');
-        json_text(&json, "path", path);
-        json_count(&json, "bytes", lam_export_file(c->result, i).size);
-        json_close(&json, '}');
+        json_put(&json, OBJECT(NULL, TEXT("path", path), COUNT("bytes", lam_export_file(c->result, i).size)));
         free(path);
     }
     json_close(&json, ']');
@@ -214,10 +209,7 @@ static void print_json(const struct convert *c)
     for (int i = 0; lam_export_loss(c->result, i); i++)
         json_text(&json, NULL, lam_export_loss(c->result, i));
     json_close(&json, ']');
-    json_open(&json, "warnings", '[');
-    for (int i = 0; lam_scene_warning(c->job.scene, i); i++)
-        json_message(&json, NULL, lam_scene_warning(c->job.scene, i));
-    json_close(&json, ']');
+    json_warnings(&json, c->job.scene);
     json_close(&json, '}');
     putchar('\n');
 }
@@ -251,6 +243,7 @@ int run_convert(int operand_count, char **operands, const struct options *option
     bool ok = check(&c, &error);
     if (ok) {
         sandbox_add_input(&paths, c.model);
+        sandbox_add(&paths, c.output, SANDBOX_MAKE);
         ok = sandbox_start(options, &paths, &error) && convert(&c, &progress, &error);
     }
     progress_end(&progress);

@@ -18,15 +18,11 @@ static void print_json(const char *cpu, const lam_gl_device *list, int count, co
     json_open(&json, "gl", '[');
     for (int i = 0; i < count; i++) {
         const lam_gl_device *d = &list[i];
-        json_open(&json, NULL, '{');
-        json_count(&json, "number", (uint64_t)d->number);
-        json_text(&json, "name", d->usable ? d->name : NULL);
-        json_text(&json, "driver", d->usable ? d->driver : NULL);
-        json_text(&json, "place", d->path);
-        json_text(&json, "kind", d->software ? "software" : "hardware");
-        json_text(&json, "versions", d->usable ? d->versions : NULL);
-        json_text(&json, "reason", d->usable ? NULL : d->reason);
-        json_close(&json, '}');
+        json_put(&json, OBJECT(NULL, COUNT("number", d->number), TEXT("name", d->usable ? d->name : NULL),
+                               TEXT("driver", d->usable ? d->driver : NULL), TEXT("place", d->path),
+                               TEXT("kind", d->software ? "software" : "hardware"),
+                               TEXT("versions", d->usable ? d->versions : NULL),
+                               TEXT("reason", d->usable ? NULL : d->reason)));
     }
     json_close(&json, ']');
     json_text(&json, "gl_reason", count < 0 ? error->text : NULL);

@@ -143,27 +143,21 @@ static void print_json(const struct journal_sum *sum, const struct batch_tally *
 {
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
-    json_flag(&json, "whole", journal_sum_is_whole(sum));
-    json_count(&json, "pictures", tally->total);
-    json_count(&json, "written", tally->written);
-    json_count(&json, "failed", tally->failed);
+    json_put(&json, FLAG("whole", journal_sum_is_whole(sum)), COUNT("pictures", tally->total),
+             COUNT("written", tally->written), COUNT("failed", tally->failed));
     json_open(&json, "classes", '{');
     for (int i = 0; i < TALLY_CLASSES && tally->classes[i].name; i++)
-        json_count(&json, tally->classes[i].name, tally->classes[i].count);
+        json_put(&json, COUNT(tally->classes[i].name, tally->classes[i].count));
     json_close(&json, '}');
-    json_count(&json, "in_two_journals", sum->doubles);
-    json_open(&json, "times_ms", '{');
-    json_number(&json, "total", times->total_ms);
-    json_number(&json, "median", times->median_ms);
-    json_number(&json, "percent_90", times->percent_90_ms);
-    json_number(&json, "percent_99", times->percent_99_ms);
-    json_number(&json, "longest", times->longest_ms);
-    json_close(&json, '}');
-    json_count(&json, "shards", (uint64_t)sum->parts[0].shard.count);
+    json_put(&json, COUNT("in_two_journals", sum->doubles),
+             OBJECT("times_ms", NUMBER("total", times->total_ms), NUMBER("median", times->median_ms),
+                    NUMBER("percent_90", times->percent_90_ms), NUMBER("percent_99", times->percent_99_ms),
+                    NUMBER("longest", times->longest_ms)),
+             COUNT("shards", sum->parts[0].shard.count));
     json_open(&json, "missing_shards", '[');
     for (int k = 1; k <= sum->parts[0].shard.count; k++)
         if (!journal_sum_has_shard(sum, k))
-            json_count(&json, NULL, (uint64_t)k);
+            json_put(&json, COUNT(NULL, k));
     json_close(&json, ']');
     json_open(&json, "journals", '[');
     for (int i = 0; i < sum->part_count; i++) {
@@ -171,12 +165,9 @@ static void print_json(const struct journal_sum *sum, const struct batch_tally *
         json_open(&json, NULL, '{');
         json_text(&json, "path", part->path);
         if (part->shard.count)
-            json_count(&json, "shard", (uint64_t)part->shard.number);
-        json_count(&json, "pictures", part->pictures);
-        json_count(&json, "written", part->written);
-        json_count(&json, "failed", part->failed);
-        json_flag(&json, "ended", part->ended);
-        json_text(&json, "build", part->build);
+            json_put(&json, COUNT("shard", part->shard.number));
+        json_put(&json, COUNT("pictures", part->pictures), COUNT("written", part->written),
+                 COUNT("failed", part->failed), FLAG("ended", part->ended), TEXT("build", part->build));
         json_close(&json, '}');
     }
     json_close(&json, ']');
@@ -253,7 +244,7 @@ static enum writer_right right_of(void *user, const char *path)
 {
     const char *page = user;
     return strcmp(path, page) == 0               ? WRITER_ANY
-           : batch_page_is_thumbnail(page, path) ? WRITER_NEW_OR_OURS | WRITER_IMPLIED
+           : batch_page_is_thumbnail(page, path) ? WRITER_NEW_OR_OURS
                                                  : WRITER_NONE;
 }
 
@@ -261,6 +252,7 @@ static bool enter_sandbox(const struct options *o, lam_error *error)
 {
     struct sandbox_paths paths = {.may_write = right_of, .user = (void *)(uintptr_t)o->batch.report_page};
     sandbox_add(&paths, "/", SANDBOX_READ);
+    sandbox_add(&paths, o->batch.report_page, SANDBOX_MAKE);
     return sandbox_start(o, &paths, error);
 }
 

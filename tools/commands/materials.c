@@ -8,6 +8,7 @@
 
 #include <lambent/caption.h>
 #include <lambent/fields.h>
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 #include "console.h"

@@ -5,8 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <lambent/check.h>
-
+#include "classroom.h"
 #include "command.h"
 #include "console.h"
 #include "foreign.h"
@@ -185,47 +184,14 @@ bool shader_mistake_is_known(const char *name, lam_error *error)
         nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
 }
 
-// Lists the known mistakes with their visible effects.
-static void list_mistakes(bool as_json)
-{
-    struct json json = {.file = stdout};
-    if (as_json)
-        json_open(&json, NULL, '[');
-    lam_shader_mistake mistake;
-    for (int i = 0; lam_shader_mistake_row(i, &mistake); i++) {
-        const char *wrong = "";
-        for (int k = 0; lam_check_mistake(k); k++)
-            if (strcmp(lam_check_mistake(k), mistake.id) == 0)
-                wrong = lam_check_mistake_explanation(k);
-        if (as_json) {
-            json_open(&json, NULL, '{');
-            json_text(&json, "mistake", mistake.id);
-            json_text(&json, "wrong", wrong);
-            json_text(&json, "looks", mistake.looks);
-            json_text(&json, "needs", mistake.needs);
-            json_close(&json, '}');
-        } else {
-            printf("%s\n  Wrong: %s.\n  Seen: %s\n", mistake.id, wrong, mistake.looks);
-            if (mistake.needs)
-                printf("  Needs: %s.\n", mistake.needs);
-        }
-    }
-    if (as_json) {
-        json_close(&json, ']');
-        putchar('\n');
-    }
-}
-
 int run_shader(int operand_count, char **operands, const struct options *given)
 {
     struct options options = *given;
     bool to_files = options.picture.output && strcmp(options.picture.output, "-") != 0;
     struct job job = {.options = &options, .model = operand_count ? operands[0] : "sphere"};
     lam_error error = {0};
-    if (options.shader.mistake && strcmp(options.shader.mistake, "list") == 0) {
-        list_mistakes(options.report.json);
-        return 0;
-    }
+    if (options.shader.mistake && strcmp(options.shader.mistake, "list") == 0)
+        return classroom_run(operand_count, operands, given);
     if (options.shader.mistake && option_given(&options, "style") && options.shader.style == LAM_SHADER_STYLE_FULL)
         complain(&error, LAM_BAD_ARGUMENT,
                  "options '--mistake' and '--style full': mistakes exist only in the lecture style");

@@ -17,21 +17,17 @@ static void map_of(struct json *json, const lam_texture_map *map)
     static const char *const wraps[] = {"repeat", "clamp", "mirror"}, *const filters[] = {"linear", "nearest"};
     static const char *const mips[] = {"linear", "nearest", "none"};
     if (!map) {
-        json_none(json, "map");
+        json_put(json, NONE("map"));
         return;
     }
-    json_open(json, "map", '{');
-    json_text(json, "texture", lam_texture_name(map->texture));
-    json_count(json, "width", (uint64_t)lam_texture_width(map->texture, 0));
-    json_count(json, "height", (uint64_t)lam_texture_height(map->texture, 0));
-    json_text(json, "values", lam_texture_values_of(map->texture) == LAM_TEXTURE_COLOR ? "color" : "numbers");
-    json_count(json, "texcoords", (uint64_t)map->texcoords);
-    json_text(json, "wrap_s", wraps[map->wrap_s]);
-    json_text(json, "wrap_t", wraps[map->wrap_t]);
-    json_text(json, "magnify", filters[map->magnify]);
-    json_text(json, "minify", filters[map->minify]);
-    json_text(json, "mip", mips[map->mip]);
-    json_close(json, '}');
+    json_put(json,
+             OBJECT("map", TEXT("texture", lam_texture_name(map->texture)),
+                    COUNT("width", lam_texture_width(map->texture, 0)),
+                    COUNT("height", lam_texture_height(map->texture, 0)),
+                    TEXT("values", lam_texture_values_of(map->texture) == LAM_TEXTURE_COLOR ? "color" : "numbers"),
+                    COUNT("texcoords", map->texcoords), TEXT("wrap_s", wraps[map->wrap_s]),
+                    TEXT("wrap_t", wraps[map->wrap_t]), TEXT("magnify", filters[map->magnify]),
+                    TEXT("minify", filters[map->minify]), TEXT("mip", mips[map->mip])));
 }
 
 static void uniforms(struct json *json, const char *key, const lam_shader_uniform *list, int count)
@@ -40,18 +36,16 @@ static void uniforms(struct json *json, const char *key, const lam_shader_unifor
     for (int i = 0; i < count; i++) {
         const lam_shader_uniform *u = &list[i];
         json_open(json, NULL, '{');
-        json_text(json, "name", u->name);
-        json_text(json, "type", u->type);
-        json_text(json, "block", u->block);
+        json_put(json, TEXT("name", u->name), TEXT("type", u->type), TEXT("block", u->block));
         if (u->block)
-            json_count(json, "offset", (uint64_t)u->offset);
+            json_put(json, COUNT("offset", u->offset));
         else
-            json_none(json, "offset");
+            json_put(json, NONE("offset"));
         json_text(json, "meaning", u->meaning);
         if (u->count)
             numbers(json, "value", u->value, u->count);
         else
-            json_none(json, "value");
+            json_put(json, NONE("value"));
         map_of(json, u->map);
         json_close(json, '}');
     }
@@ -65,16 +59,11 @@ static void draws(struct json *json, const lam_shader *s)
     for (int i = 0; i < s->draw_count; i++) {
         const lam_shader_draw *d = &s->draws[i];
         json_open(json, NULL, '{');
-        json_count(json, "object", (uint64_t)d->object);
-        json_text(json, "object_name", d->object_name);
-        json_count(json, "first_triangle", d->first_triangle);
-        json_count(json, "triangle_count", d->triangle_count);
-        json_text(json, "material", d->material_name);
-        json_text(json, "front", d->clockwise ? "clockwise" : "counter-clockwise");
-        json_text(json, "cull", culls[d->cull]);
-        json_flag(json, "translucent", d->translucent);
-        json_flag(json, "has_colors", d->has_colors);
-        json_flag(json, "has_tangents", d->has_tangents);
+        json_put(json, COUNT("object", d->object), TEXT("object_name", d->object_name),
+                 COUNT("first_triangle", d->first_triangle), COUNT("triangle_count", d->triangle_count),
+                 TEXT("material", d->material_name), TEXT("front", d->clockwise ? "clockwise" : "counter-clockwise"),
+                 TEXT("cull", culls[d->cull]), FLAG("translucent", d->translucent), FLAG("has_colors", d->has_colors),
+                 FLAG("has_tangents", d->has_tangents));
         json_numbers(json, "origin", d->origin, 3);
         uniforms(json, "uniforms", d->uniforms, d->uniform_count);
         json_close(json, '}');
@@ -87,23 +76,14 @@ void shader_json(FILE *file, const lam_shader *s, const char *model)
     static const char *const lights[] = {"auto", "array", "block", "texture"};
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
-    json_text(&json, "model", model);
-    json_text(&json, "glsl", lam_glsl_name(s->glsl));
-    json_text(&json, "lights_in", lights[s->lights]);
-    json_flag(&json, "products", s->products);
-    json_flag(&json, "flat", s->flat);
-    json_text(&json, "vertex", s->vertex);
-    json_text(&json, "fragment", s->fragment);
-    json_text(&json, "application", s->application);
+    json_put(&json, TEXT("model", model), TEXT("glsl", lam_glsl_name(s->glsl)), TEXT("lights_in", lights[s->lights]),
+             FLAG("products", s->products), FLAG("flat", s->flat), TEXT("vertex", s->vertex),
+             TEXT("fragment", s->fragment), TEXT("application", s->application));
     json_open(&json, "attributes", '[');
     for (int i = 0; i < s->attribute_count; i++) {
         const lam_shader_attribute *a = &s->attributes[i];
-        json_open(&json, NULL, '{');
-        json_text(&json, "name", a->name);
-        json_text(&json, "type", a->type);
-        json_count(&json, "location", (uint64_t)a->location);
-        json_text(&json, "meaning", a->meaning);
-        json_close(&json, '}');
+        json_put(&json, OBJECT(NULL, TEXT("name", a->name), TEXT("type", a->type), COUNT("location", a->location),
+                               TEXT("meaning", a->meaning)));
     }
     json_close(&json, ']');
     uniforms(&json, "uniforms", s->uniforms, s->uniform_count);
@@ -111,8 +91,7 @@ void shader_json(FILE *file, const lam_shader *s, const char *model)
     json_open(&json, "lists", '[');
     for (int i = 0; i < s->texture_count; i++) {
         json_open(&json, NULL, '{');
-        json_text(&json, "name", s->textures[i].name);
-        json_count(&json, "texels", (uint64_t)s->textures[i].texels);
+        json_put(&json, TEXT("name", s->textures[i].name), COUNT("texels", s->textures[i].texels));
         numbers(&json, "values", s->textures[i].values, 4 * s->textures[i].texels);
         json_close(&json, '}');
     }

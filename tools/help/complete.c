@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "help.h"
-#include "plot.h"
+#include "help_texts.h"
 
 static struct typed_word whole(const char *argument) { return (struct typed_word){argument, argument, 0}; }
 
@@ -72,6 +71,19 @@ static void complete_topics(const struct typed_word *typed)
             complete_offer(typed, o->name, "", o->summary);
 }
 
+// Offers the names in the operands of a command, such as "man|bash" or "spot|highlight [CURVE...]". Placeholders are in
+// capitals.
+static void complete_names(const struct command *command, const struct typed_word *typed)
+{
+    for (const char *at = command->operands; *at && *at != ' ';
+         at += strcspn(at, "| ") + (at[strcspn(at, "| ")] == '|')) {
+        char name[40];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, "| "), at);
+        if (!strpbrk(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZ"))
+            complete_offer(typed, name, "", NULL);
+    }
+}
+
 // Completes operand number `index`, counted from 0.
 static void complete_operand(const struct command *command, int index, const char *argument)
 {
@@ -83,13 +95,10 @@ static void complete_operand(const struct command *command, int index, const cha
         complete_topics(&typed);
         return;
     case COMMAND_generate:
-        for (int i = 0; generate_kind(i); i++)
-            complete_offer(&typed, generate_kind(i), "", NULL);
-        return;
     case COMMAND_plot:
-        for (int i = 0; index == 0 && plot_kind(i); i++)
-            complete_offer(&typed, plot_kind(i), "", NULL);
-        if (index > 0)
+        if (index == 0)
+            complete_names(command, &typed);
+        else
             complete_files(); // files of lights
         return;
     case COMMAND_explain:

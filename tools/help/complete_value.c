@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include <lambent/fields.h>
+#include <lambent/light.h>
 #include <lambent/material.h>
 #include <lambent/words.h>
 

@@ -1,10 +1,11 @@
 // field_tables.c: prints the tables of material and light fields, as Markdown, for the man page, and for `help`.
-#include "help.h"
+#include "help_texts.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 const char *field_standard(const lam_field *field, char text[80])

@@ -1,5 +1,5 @@
 // help_search.c: searches the help for subjects, commands, options and keys.
-#include "help.h"
+#include "help_texts.h"
 
 #include <ctype.h>
 #include <stdio.h>

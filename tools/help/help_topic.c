@@ -7,7 +7,7 @@
 
 #include "console.h"
 #include "exit_codes.h"
-#include "help.h"
+#include "help_texts.h"
 #include "suggest.h"
 
 enum { LIST_COLUMN = 15 };

@@ -1,5 +1,5 @@
 // manual.c: generates the man page and docs/command-line.md from the tables of options and commands.
-#include "help.h"
+#include "help_texts.h"
 
 #include <stdio.h>
 #include <string.h>

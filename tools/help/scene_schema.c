@@ -1,6 +1,8 @@
 // scene_schema.c: prints the JSON Schema of scene files: scene.schema.json.in with the fields of materials and lights
 // inserted.
-#include "help.h"
+#include "help_texts.h"
+
+#include <lambent/light.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -10,14 +12,18 @@
 
 #include "schema.inc"
 
+// The type of a length, which may be a text with a unit: "2r".
+#define LENGTH "\"type\": [\"number\", \"string\"], \"pattern\": \"^[-+]?[0-9.]+r$\""
+
 static void print_field(const lam_field *field)
 {
     char standard[80];
+    bool is_length = field->light_types && field->unit && strstr(field->unit, "units");
     field_standard(field, standard);
     switch (field->type) {
     case LAM_FIELD_NUMBER:
     case LAM_FIELD_ANGLE:
-        printf("\"type\": \"number\", \"minimum\": %g, ", field->min);
+        printf("%s, \"minimum\": %g, ", is_length ? LENGTH : "\"type\": \"number\"", field->min);
         if (isfinite(field->max))
             printf("\"maximum\": %g, ", field->max);
         printf("\"default\": %s", standard);
@@ -33,12 +39,12 @@ static void print_field(const lam_field *field)
         printf("\"$ref\": \"#/$defs/vector\"");
         break;
     case LAM_FIELD_POINT: // the fourth number is optional: w
-        printf("\"type\": \"array\", \"items\": {\"type\": \"number\"}, \"minItems\": 3, \"maxItems\": 4");
+        printf("\"type\": \"array\", \"items\": {" LENGTH "}, \"minItems\": 3, \"maxItems\": 4");
         break;
     case LAM_FIELD_TRIPLE:
-        printf(
-            "\"type\": \"array\", \"items\": {\"type\": \"number\", \"minimum\": %g}, \"minItems\": 3, \"maxItems\": 3",
-            field->min);
+        printf("\"type\": \"array\", \"items\": {" LENGTH ", \"minimum\": %g}, \"minItems\": "
+               "3, \"maxItems\": 3",
+               field->min);
         break;
     }
     printf(", \"description\": \"%s. Default: %s.\"", field->summary, standard);

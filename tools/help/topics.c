@@ -1,6 +1,6 @@
 // topics.c: defines the subjects of `lambent help TOPIC`. The man page and docs/command-line.md also contain these
 // texts.
-#include "help.h"
+#include "help_texts.h"
 
 #include "options.h"
 

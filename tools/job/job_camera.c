@@ -9,6 +9,8 @@
 #include "console.h"
 #include "scene_settings.h"
 
+#include <lambent/light.h>
+
 static lam_view view_of(const struct options *o)
 {
     lam_view view = lam_view_of_side((lam_side)o->view.side);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/light.h>
 #include <lambent/words.h>
 
 #include "options.h"

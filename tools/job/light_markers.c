@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 #include "console.h"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include <lambent/fields.h>
+#include <lambent/light.h>
 
 #include "console.h"
 #include "vectors.h"

@@ -2,10 +2,11 @@
 // name.
 #include "model_guess.h"
 
-#include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
+
+#include <lambent/path.h>
 
 #include "command_table.h"
 #include "file_io.h"
@@ -23,7 +24,7 @@ static bool nearest_file(const char *model, char nearest[FILE_NAME_SIZE])
     char folder[1024];
     snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash + 1 - model) : 1, slash ? model : ".");
     struct suggestion suggestion = suggest_start(name);
-    DIR *entries = opendir(folder);
+    DIR *entries = lam_path_list(folder);
     for (struct dirent *entry; entries && (entry = readdir(entries));) {
         const char *best = suggestion.best;
         if (is_model_name(entry->d_name))

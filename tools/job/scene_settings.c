@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "file_io.h"
+#include <lambent/path.h>
+
 #include "job_inputs.h"
 #include "options.h"
 #include "environment_option.h"
@@ -105,18 +106,17 @@ bool scene_settings_are_beside(const struct job *job)
     const char *slash = strrchr(o->picture.save_scene, '/');
     char *given = strndup(o->picture.save_scene, slash ? (size_t)(slash - o->picture.save_scene) + 1 : 0),
          *names = NULL;
-    char *folder = given ? realpath(*given ? given : ".", NULL) : NULL;
+    const char *folder = given && *given ? given : ".";
     lam_picture_settings s = {0};
     lam_error error;
-    bool beside = !folder || lam_shape_find(job->model) >= 0 || strcmp(lam_scene_format(job->scene), "scene") == 0 ||
-                  path_is_below(job->model, folder, true);
-    if (folder && take_environment(o, &s, &names, &error)) {
+    bool beside = lam_shape_find(job->model) >= 0 || strcmp(lam_scene_format(job->scene), "scene") == 0 ||
+                  lam_path_is_below(job->model, folder);
+    if (take_environment(o, &s, &names, &error)) {
         for (int i = 0; i < LAM_FACE_COUNT && s.environment_faces[i]; i++)
-            beside &= path_is_below(s.environment_faces[i], folder, true);
-        beside &= !s.environment_picture || path_is_below(s.environment_picture, folder, true);
+            beside &= lam_path_is_below(s.environment_faces[i], folder);
+        beside &= !s.environment_picture || lam_path_is_below(s.environment_picture, folder);
     }
     free(names);
-    free(folder);
     free(given);
     return beside;
 }

@@ -1,6 +1,8 @@
 // show_all.c: implements --show all: writes the picture and all terms of its light as layers of one EXR picture.
 #include "show_all.h"
 
+#include <lambent/light.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -4,24 +4,29 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "batch_job.h"
 #include "batch_jobs.h"
 #include "batch_page.h"
-#include "batch_process.h"
 #include "batch_reach.h"
+#include "child.h"
 #include "console.h"
 #include "device_option.h"
 #include "exit_codes.h"
+#include "file_io.h"
 #include "interrupt.h"
 #include "limit_options.h"
 #include "writer.h"
+
+enum { PROCESSES_MAX = 1024, READ_BYTES = 16 << 10 };
 
 // The milliseconds between interrupting a process and killing it.
 static const double interrupt_ms = 600;
@@ -46,6 +51,12 @@ struct sent_picture {
     bool is_new;
     size_t line_size; // 0 if there is no record
     size_t data_size; // 0 if there is no file
+};
+
+// The process that draws a unit.
+struct batch_process {
+    struct child child;
+    pid_t writer; // 0, or the writer for this process; the writer ends after the process
 };
 
 struct work {
@@ -79,11 +90,14 @@ static void draw_here(struct batch *b, struct batch_unit *u)
     lam_device_free(device);
 }
 
-static void work(void *user, struct child_bytes *answer)
+static void work(void *user, int from, int to)
 {
     const struct work *w = user;
     struct batch_unit *u = w->unit;
+    struct child_bytes all = {0}, *answer = &all;
     lam_error error;
+    setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
+    close(from);
     if (w->draws)
         draw_here(w->batch, u);
     else if (!enter(w->batch, &u->task, &error))
@@ -103,8 +117,7 @@ static void work(void *user, struct child_bytes *answer)
         free(line);
     }
     ok = ok && child_bytes_add(answer, u->out, sent.out_size) && child_bytes_add(answer, u->err, sent.err_size);
-    if (!ok)
-        _exit(1);
+    _exit(!(ok && write_all(to, answer->data, answer->size)));
 }
 
 // --- received results
@@ -175,8 +188,8 @@ static void fail_process(struct batch *b, struct batch_unit *u, const struct bat
 {
     const char *model = u->task.plan->models[u->task.model].path;
     lam_error error;
-    bool crashed = !process->stopped;
-    if (process->stopped)
+    bool crashed = !process->child.stopped;
+    if (!crashed)
         complain(&error, LAM_LIMIT, "%.400s: the time limit of %.10g s was reached", model,
                  limits_time(u->task.plan->options));
     else if (WIFSIGNALED(status))
@@ -207,7 +220,7 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     struct batch_picture *before = malloc(size);
     if (before)
         memcpy(before, u->pictures, size);
-    bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && read_answer(u, &process->answer);
+    bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && read_answer(u, &process->child.received);
     child_wait_pid(process->writer);
     if (!whole) {
         if (before)
@@ -221,7 +234,7 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     free(before);
     batch_deliver(b, u);
     batch_unit_free(u);
-    batch_process_free(process);
+    child_free(&process->child);
 }
 
 // Starts a process for the next model. Returns false if there is no next model.
@@ -241,12 +254,13 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
         struct work w = {b, u, open};
         fflush(stdout);
         bool started = (open || batch_page_lacks(b, u)) && batch_reach_write(b, &task, &error) &&
-                       batch_process_start(process, work, &w);
+                       child_start(&process->child, work, &w);
         pid_t writer = writer_leave();
         if (started) {
+            child_send_end(&process->child);
             process->writer = writer;
             if (limit_s > 0)
-                process->stop_ms = clock_ms() + limit_s * 1e3 * u->picture_count + grace_ms(limit_s);
+                process->child.stop_ms = clock_ms() + limit_s * 1e3 * u->picture_count + grace_ms(limit_s);
             if (b->journal)
                 journal_begin(b->journal, slot, writer ? writer : process->child.pid, path);
             return true;
@@ -287,6 +301,33 @@ static void end_cancelled(const struct batch_unit *units, struct batch_process *
             child_kill(&processes[i].child);
 }
 
+// Waits at most `wait_ms` until a process sends data, a process ends, or the file `also` (−1 if there is none) is
+// readable. Returns the index of a process that has ended, with the status from waitpid, or −1 if no process has ended.
+static int wait_processes(struct batch_process *list, int count, int also, int wait_ms, int *status)
+{
+    struct pollfd wait[PROCESSES_MAX + 1];
+    count = count < PROCESSES_MAX ? count : PROCESSES_MAX;
+    for (int i = 0; i < count; i++) {
+        struct child *child = &list[i].child;
+        wait[i] = (struct pollfd){.fd = child->pid ? child->from : -1, .events = POLLIN};
+        if (child->pid && child->stop_ms > 0 && clock_ms() > child->stop_ms && !child->stopped) {
+            child->stopped = true;
+            child_kill(child);
+        }
+    }
+    wait[count] = (struct pollfd){.fd = also, .events = POLLIN};
+    if (poll(wait, (nfds_t)count + 1, wait_ms) <= 0)
+        return -1;
+    for (int i = 0; i < count; i++) {
+        struct child *child = &list[i].child;
+        if (wait[i].fd < 0 || !wait[i].revents || child_read(child->from, &child->received, READ_BYTES) == CHILD_READ)
+            continue;
+        *status = child_wait(child);
+        return i;
+    }
+    return -1;
+}
+
 void batch_isolate(struct batch *b)
 {
     struct batch_unit *units = calloc((size_t)b->workers, sizeof *units);
@@ -314,7 +355,7 @@ void batch_isolate(struct batch *b)
         end_cancelled(units, processes, b->workers);
         bool reads = b->jobs && batch_jobs_is_ready(b->jobs);
         int also = b->jobs ? batch_jobs_wanted(b->jobs) : -1, status;
-        int ended = batch_process_wait(processes, b->workers, also, running && !reads ? 100 : 0, &status);
+        int ended = wait_processes(processes, b->workers, also, running && !reads ? 100 : 0, &status);
         batch_show_progress(&b->tally);
         if (ended < 0)
             continue;

@@ -25,7 +25,6 @@ struct list {
 
 struct batch_jobs {
     struct batch *batch;
-    struct job_roots roots;
     struct batch_job_rules rules;
     struct job_stream stream;
     size_t ahead;           // how many jobs may wait
@@ -92,11 +91,8 @@ struct batch_jobs *batch_jobs_open(struct batch *b, lam_error *error)
     jobs->stream =
         (struct job_stream){.file = -1, .limit = o->batch.line_limit_bytes ? o->batch.line_limit_bytes : LINE_LIMIT};
     jobs->ahead = o->batch.ahead ? (size_t)o->batch.ahead : 2 * (size_t)b->workers;
-    jobs->rules = (struct batch_job_rules){.options = o,
-                                           .threads = b->threads,
-                                           .in_flight = b->workers,
-                                           .roots = &jobs->roots,
-                                           .has_keys = b->journal != NULL};
+    jobs->rules = (struct batch_job_rules){
+        .options = o, .threads = b->threads, .in_flight = b->workers, .has_keys = b->journal != NULL};
     list_start(&jobs->waiting);
     list_start(&jobs->drawing);
     pthread_condattr_t monotonic;
@@ -106,7 +102,7 @@ struct batch_jobs *batch_jobs_open(struct batch *b, lam_error *error)
     pthread_cond_init(&jobs->changed, &monotonic);
     pthread_condattr_destroy(&monotonic);
     job_answers_start(&jobs->out);
-    if (job_roots_start(&jobs->roots, o, error) && open_stream(jobs, o->batch.jobs, error))
+    if (job_roots_check(o, error) && open_stream(jobs, o->batch.jobs, error))
         return jobs;
     batch_jobs_close(jobs);
     return NULL;
@@ -130,14 +126,11 @@ void batch_jobs_close(struct batch_jobs *jobs)
     if (jobs->stream.file > STDIN_FILENO)
         close(jobs->stream.file);
     free(jobs->stream.data);
-    job_roots_free(&jobs->roots);
     job_answers_end(&jobs->out);
     pthread_cond_destroy(&jobs->changed);
     pthread_mutex_destroy(&jobs->lock);
     free(jobs);
 }
-
-const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs) { return &jobs->roots; }
 
 // --- answers without a picture
 

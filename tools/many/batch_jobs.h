@@ -14,9 +14,6 @@
 struct batch_jobs *batch_jobs_open(struct batch *batch, lam_error *error);
 void batch_jobs_close(struct batch_jobs *jobs); // NULL is allowed
 
-// Returns the folders to which files of jobs are restricted.
-const struct job_roots *batch_jobs_roots(const struct batch_jobs *jobs);
-
 // Waits up to `wait_ms` for the next line, reads the line, and accepts, rejects or cancels a job. After an interrupt,
 // or if the batch has failed or an answer could not be written, cancels all jobs. Call this function only from the main
 // thread.

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include <lambent/path.h>
+
 #include "console.h"
 #include "foreign.h"
 #include "journal.h"
@@ -60,8 +62,8 @@ static bool make_thumbnail(const char *output, const char *thumbnail)
 static bool is_there(const char *thumbnail, const char *output)
 {
     struct stat picture, found;
-    return thumbnail && stat(thumbnail, &found) == 0 &&
-           (stat(output, &picture) != 0 || picture.st_mtime <= found.st_mtime);
+    return thumbnail && lam_path_stat(thumbnail, &found) == 0 &&
+           (lam_path_stat(output, &picture) != 0 || picture.st_mtime <= found.st_mtime);
 }
 
 void batch_page_thumbnail(const char *page, const char *output, bool is_new)

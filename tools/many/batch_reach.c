@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "animate.h"
 #include "batch_job.h"
@@ -51,26 +50,12 @@ bool batch_reach_make(const struct batch *b, const char *journal, lam_error *err
            (!journal || make_folder(folder_of(journal), error)) && (!page || make_folder(folder_of(page), error));
 }
 
-static void add_folder(struct sandbox_paths *paths, char *folder)
+static void add_folder(struct sandbox_paths *paths, char *folder, int access)
 {
     if (folder)
-        sandbox_add(paths, *folder ? folder : ".", SANDBOX_READ);
+        sandbox_add(paths, *folder ? folder : ".", access);
     paths->failed |= !folder;
     free(folder);
-}
-
-// Returns whether the rule for the previous model also covers this model. Both models must be in one folder, and this
-// model must be neither a scene file nor a link, because these may lead to other folders. A shape has no folder.
-static bool is_within_reach(const char *model, const char *before)
-{
-    before = before && lam_shape_find(before) < 0 ? before : NULL;
-    const char *slash = strrchr(model, '/'), *other = before ? strrchr(before, '/') : NULL, *dot = strrchr(model, '.');
-    struct stat about;
-    size_t length = slash ? (size_t)(slash - model) : 0;
-    bool same = before && !slash == !other &&
-                (!slash || ((size_t)(other - before) == length && memcmp(model, before, length) == 0));
-    bool scene = dot && strcmp(dot, ".json") == 0;
-    return same && !scene && lstat(model, &about) == 0 && !S_ISLNK(about.st_mode);
 }
 
 // Adds the page template to the readable files. If the template is missing, writing a picture reports the error.
@@ -136,23 +121,47 @@ static enum writer_right right_of(void *user, const char *path)
         (o->picture.save_scene && strcmp(path, o->picture.save_scene) == 0))
         return WRITER_ANY;
     if (o->batch.report_page && batch_page_is_thumbnail(o->batch.report_page, path))
-        return WRITER_NEW_OR_OURS | WRITER_IMPLIED;
+        return WRITER_NEW_OR_OURS;
     if (b->jobs && w->whole) {
         bool named = lam_image_format_for(path, &format, NULL) || page_is_named(path);
-        return named && job_roots_have(batch_jobs_roots(b->jobs), path, true, &error) ? WRITER_NEW_OR_OURS
-                                                                                      : WRITER_NONE;
+        return named && job_roots_have(o, path, true, &error) ? WRITER_NEW_OR_OURS : WRITER_NONE;
     }
     return !is_picture(w, path)                                                ? WRITER_NONE
-           : output_given(w->plan->options->picture.output) == OUTPUT_BY_MODEL ? WRITER_NEW_OR_OURS | WRITER_IMPLIED
+           : output_given(w->plan->options->picture.output) == OUTPUT_BY_MODEL ? WRITER_NEW_OR_OURS
                                                                                : WRITER_ANY;
+}
+
+// Adds the folders in which the writer writes.
+static void add_written(const struct writes *w, struct sandbox_paths *paths)
+{
+    const struct batch *b = w->batch;
+    const struct options *o = b->options;
+    const char *const named[] = {o->batch.report_page, o->picture.save_scene,
+                                 b->journal ? journal_running_path(b->journal) : NULL};
+    for (size_t i = 0; i < sizeof named / sizeof *named; i++)
+        if (named[i])
+            sandbox_add(paths, named[i], SANDBOX_MAKE);
+    for (int i = 0; b->use && i < BATCH_USE_FILES; i++)
+        if (b->use->files[i])
+            sandbox_add(paths, b->use->files[i], SANDBOX_MAKE);
+    for (int i = 0; b->jobs && w->whole && i < o->limits.allow_paths.count; i++)
+        sandbox_add(paths, o->limits.allow_paths.items[i], SANDBOX_MAKE);
+    if (!b->use && !(b->jobs && w->whole))
+        add_folder(paths, batch_plan_folder(w->plan), SANDBOX_MAKE);
 }
 
 bool batch_reach_write(const struct batch *b, const struct batch_task *task, lam_error *error)
 {
     struct writes writes = {b, task->plan, task->model, 1, task->model, false};
     bool writes_none = b->use ? !b->use->right : task->job && task->job->in_answer;
-    return writes_none || !sandbox_is_wanted(b->options) ||
-           writer_start(right_of, &writes, 1, limits_memory(b->options), error);
+    if (writes_none || !sandbox_is_wanted(b->options))
+        return true;
+    struct sandbox_paths paths = {.may_write = right_of, .user = &writes, .writers = 1};
+    add_written(&writes, &paths);
+    bool ok = paths.failed ? complain(error, LAM_MACHINE, "out of memory")
+                           : writer_start(&paths, limits_memory(b->options), error);
+    sandbox_paths_free(&paths);
+    return ok;
 }
 
 // --- the sandbox
@@ -163,9 +172,7 @@ bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_er
     struct sandbox_paths paths = {.may_write = right_of, .user = &writes, .writers = b->workers};
     const struct batch_model *models = b->plan->models;
     for (size_t i = first; i < first + count; i++) {
-        const char *before = i > first && !models[i - 1].leads_out ? models[i - 1].path : NULL;
-        if (!models[i].leads_out && !is_within_reach(models[i].path, before))
-            sandbox_add_input(&paths, models[i].path);
+        sandbox_add_input(&paths, models[i].path);
         if (b->use && b->use->reach)
             b->use->reach(b->use->user, i, &paths);
         for (int k = 0; !b->use && !takes_folder(b) && k < b->plan->view_count; k++) {
@@ -177,9 +184,10 @@ bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_er
         }
     }
     if (takes_folder(b))
-        add_folder(&paths, batch_plan_folder(b->plan));
+        add_folder(&paths, batch_plan_folder(b->plan), SANDBOX_READ);
     if (b->options->batch.jobs || page_is_named(b->options->picture.output)) // a job may request a page
         add_page(&paths);
+    add_written(&writes, &paths);
     return sandbox_start(b->options, &paths, error);
 }
 
@@ -189,7 +197,7 @@ bool batch_reach_enter_job(const struct batch_job *job, lam_error *error)
     if (!job->in_answer && !make_folder(batch_plan_folder(&job->plan), error))
         return false;
     if (!job->in_answer)
-        add_folder(&paths, batch_plan_folder(&job->plan));
+        add_folder(&paths, batch_plan_folder(&job->plan), SANDBOX_READ);
     if (!job->bytes.data)
         sandbox_add_input(&paths, job->plan.models[0].path);
     if (!job->in_answer)

@@ -14,6 +14,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <lambent/path.h>
+
 #include "batch_isolate.h"
 #include "batch_job.h"
 #include "batch_jobs.h"
@@ -101,7 +103,7 @@ static void *work(void *user)
 static void warm(const char *path)
 {
     enum { CHUNK = 128 << 10, MAX = 256 << 20 };
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    int file = lam_path_open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     off_t end = file >= 0 ? lseek(file, 0, SEEK_END) : 0;
     for (off_t at = 0; at < end && at < MAX && !interrupted(); at += CHUNK)
         if (posix_fadvise(file, at, CHUNK, POSIX_FADV_WILLNEED) != 0)

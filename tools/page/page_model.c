@@ -1,10 +1,13 @@
 // page_model.c: collects the files and the command line of a model for a page.
 #include "page.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+
+#include <lambent/path.h>
 
 #include "console.h"
 #include "file_io.h"
@@ -45,29 +48,22 @@ static bool climbs_out(const char *name)
     return false;
 }
 
-static bool is_file(const char *path)
-{
-    struct stat about;
-    return stat(path, &about) == 0 && S_ISREG(about.st_mode);
-}
-
 // Adds the model and the files that the model names. In the page, the model's folder is "/".
 static bool add_files(const struct job *job, struct page_model *model, lam_error *error)
 {
     const char *slash = strrchr(job->model, '/'), *path;
     int length = slash ? (int)(slash + 1 - job->model) : 0;
-    char *named = length ? strndup(job->model, (size_t)length) : strdup("."),
-         *folder = named ? realpath(named, NULL) : NULL;
-    bool ok = folder || !lam_scene_file(job->scene, 0) ||
-              complain(error, named ? LAM_CANNOT_READ : LAM_LIMIT, "%s: its folder cannot be read", job->model);
+    bool ok = true;
     for (int i = 0; ok && (path = lam_scene_file(job->scene, i)); i++) {
         const char *name = path + length;
         char *inside = NULL;
         bool beside = strncmp(path, job->model, (size_t)length) == 0 && *name != '/' && !climbs_out(name);
-        if (beside && !is_file(path)) // the page will also report the missing file
+        struct stat about;
+        int found = lam_path_stat(path, &about);
+        bool out = !beside || (found != 0 && (errno == EXDEV || errno == EMLINK)); // a link that leads out
+        if (!out && (found != 0 || !S_ISREG(about.st_mode))) // the page will also report the missing file
             continue;
-        if (!beside || (i && !path_is_below(path, folder, false))) { // the user's path may be a symbolic link to the
-                                                                     // model
+        if (out) {
             ok = complain(
                 error, LAM_UNSUPPORTED,
                 "%s: is outside the folder of %s, and a page cannot contain files of other folders; copy it there",
@@ -78,8 +74,6 @@ static bool add_files(const struct job *job, struct page_model *model, lam_error
             inside = NULL;
         ok = add(model, path, inside, error);
     }
-    free(named);
-    free(folder);
     return ok;
 }
 

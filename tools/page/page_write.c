@@ -6,11 +6,11 @@
 #include "file_io.h"
 #include "foreign.h"
 #include "output.h"
+#include "own_folder.h"
 #include "page.h"
 #include "scene_settings.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,10 +150,10 @@ bool page_is_named(const char *output)
 }
 
 // Reports that the page is missing. For a program in a build folder, the error names the command that makes the page.
-static void fail_missing(const char *program, size_t folder, lam_error *error)
+static void fail_missing(const char *folder, lam_error *error)
 {
     char path[PATH_MAX + 100], *sources = NULL;
-    snprintf(path, sizeof path, "%.*s../web/build.py", (int)folder, program);
+    snprintf(path, sizeof path, "%s../web/build.py", folder);
     if (access(path, R_OK) == 0) {
         path[strlen(path) - strlen("/web/build.py")] = 0;
         sources = realpath(path, NULL);
@@ -183,11 +183,9 @@ char *page_file_find(lam_error *error)
     }
     // Relative to the program's folder: the installed page, and the page of a build folder.
     static const char *const places[] = {"../" LAMBENT_DATADIR "/lambent/lambent.html", "../build-web/lambent.html"};
-    ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
-    own[length > 0 ? length : 0] = 0;
-    char *slash = strrchr(own, '/');
-    for (size_t i = 0; slash && i < sizeof places / sizeof *places; i++) {
-        snprintf(path, sizeof path, "%.*s%s", (int)(slash + 1 - own), own, places[i]);
+    bool known = own_folder(own);
+    for (size_t i = 0; known && i < sizeof places / sizeof *places; i++) {
+        snprintf(path, sizeof path, "%s%s", own, places[i]);
         if (access(path, R_OK) != 0)
             continue;
         found = strdup(path);
@@ -195,7 +193,7 @@ char *page_file_find(lam_error *error)
             complain(error, LAM_MACHINE, "out of memory");
         return found;
     }
-    fail_missing(own, slash ? (size_t)(slash + 1 - own) : 0, error);
+    fail_missing(own, error);
     return NULL;
 }
 

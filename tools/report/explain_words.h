@@ -3,6 +3,7 @@
 #define EXPLAIN_WORDS_H
 
 #include <lambent/device.h>
+#include <lambent/light.h>
 
 static inline const char *shading_word(lam_shading shading)
 {

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include <lambent/path.h>
+
 #include "settings_json.h"
 
 int planned_samples(const struct options *options)
@@ -16,7 +18,7 @@ int planned_samples(const struct options *options)
 bool plan_replaces(const struct job *job)
 {
     struct stat found;
-    return strcmp(job->output, "-") != 0 && stat(job->output, &found) == 0 && S_ISREG(found.st_mode);
+    return strcmp(job->output, "-") != 0 && lam_path_stat(job->output, &found) == 0 && S_ISREG(found.st_mode);
 }
 
 // Returns the values of a repeatable option, or NULL if the option is not repeatable.

@@ -2,12 +2,11 @@
 #include "report.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "command_table.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "json.h"
 #include "plan.h"
 #include "sandbox_start.h"
@@ -169,25 +168,18 @@ void report_table(const struct job *job)
 static void json_model(struct json *json, const struct job *job)
 {
     const lam_scene *scene = job->scene;
+    const struct model_counts *counts = &job->model_counts;
     json_open(json, "model", '{');
     json_text(json, "path", job->model);
     if (scene) {
         lam_vec3 low, high;
         lam_scene_bounds(scene, &low, &high);
-        json_text(json, "format", format_of(scene));
-        json_count(json, "triangles", job->model_counts.triangles);
-        json_count(json, "lines", job->model_counts.lines);
-        json_count(json, "points", job->model_counts.points);
-        json_count(json, "vertices", job->model_counts.vertices);
-        json_count(json, "meshes", (uint64_t)job->model_counts.meshes);
-        json_count(json, "objects", (uint64_t)job->model_counts.objects);
-        json_count(json, "materials", (uint64_t)job->model_counts.materials);
-        json_count(json, "lights", (uint64_t)job->model_counts.lights);
-        json_text(json, "up", lam_up_name(lam_scene_up(scene)));
-        json_open(json, "bounds", '{');
-        json_vector(json, "min", low);
-        json_vector(json, "max", high);
-        json_close(json, '}');
+        json_put(json, TEXT("format", format_of(scene)), COUNT("triangles", counts->triangles),
+                 COUNT("lines", counts->lines), COUNT("points", counts->points), COUNT("vertices", counts->vertices),
+                 COUNT("meshes", counts->meshes), COUNT("objects", counts->objects),
+                 COUNT("materials", counts->materials), COUNT("lights", counts->lights),
+                 TEXT("up", lam_up_name(lam_scene_up(scene))),
+                 OBJECT("bounds", VECTOR("min", low), VECTOR("max", high)));
     }
     json_close(json, '}');
 }
@@ -195,121 +187,69 @@ static void json_model(struct json *json, const struct job *job)
 // Writes the key "animation", which describes the frames.
 static void json_frames(struct json *json, const struct job *job)
 {
-    if (!job->frames.count)
-        return;
-    json_open(json, "animation", '{');
-    json_count(json, "frames", (uint64_t)job->frames.count);
-    json_number(json, "frames_per_second", job->frames.frames_per_second);
-    json_text(json, "last", job->frames.last);
-    json_close(json, '}');
+    if (job->frames.count)
+        json_put(json,
+                 OBJECT("animation", COUNT("frames", job->frames.count),
+                        NUMBER("frames_per_second", job->frames.frames_per_second), TEXT("last", job->frames.last)));
 }
 
 static void json_image(struct json *json, const struct job *job)
 {
-    json_open(json, "image", '{');
-    json_text(json, "path", job->output);
-    json_text(json, "format", job->format);
-    json_count(json, "width", (uint64_t)job->image.width);
-    json_count(json, "height", (uint64_t)job->image.height);
+    const lam_frame_report *frame = &job->times.frame;
     int samples = job->draw.samples ? job->draw.samples : lam_default_samples(job->image.width, job->image.height);
-    json_count(json, "samples", (uint64_t)samples);
-    json_count(json, "bytes", job->bytes);
-    json_number(json, "exposure_stops", job->draw.exposure);
-    json_text(json, "exposure", job->exposure_fitted ? "auto" : "literal");
-    if (job->draw.output == LAM_OUTPUT_DEPTH) {
-        json_number(json, "depth_near", job->times.frame.depth_near);
-        json_number(json, "depth_far", job->times.frame.depth_far);
-    }
-    if (job->times.frame.ground) {
-        json_number(json, "ground_height", job->times.frame.ground_height);
-        if (job->times.frame.ground_square > 0)
-            json_number(json, "ground_square", job->times.frame.ground_square);
-    }
+    json_open(json, "image", '{');
+    json_put(json, TEXT("path", job->output), TEXT("format", job->format), COUNT("width", job->image.width),
+             COUNT("height", job->image.height), COUNT("samples", samples), COUNT("bytes", job->bytes),
+             NUMBER("exposure_stops", job->draw.exposure), TEXT("exposure", job->exposure_fitted ? "auto" : "literal"));
+    if (job->draw.output == LAM_OUTPUT_DEPTH)
+        json_put(json, NUMBER("depth_near", frame->depth_near), NUMBER("depth_far", frame->depth_far));
+    if (frame->ground)
+        json_put(json, NUMBER("ground_height", frame->ground_height));
+    if (frame->ground && frame->ground_square > 0)
+        json_put(json, NUMBER("ground_square", frame->ground_square));
     json_frames(json, job);
     json_close(json, '}');
 }
 
-static void json_camera(struct json *json, const lam_camera *camera)
+static void json_camera(struct json *json, const lam_camera *c)
 {
-    json_open(json, "camera", '{');
-    json_vector(json, "eye", camera->eye);
-    json_vector(json, "target", camera->target);
-    json_vector(json, "up", camera->up);
-    if (camera->ortho_half_height > 0)
-        json_number(json, "ortho_half_height", camera->ortho_half_height);
-    else
-        json_number(json, "fovy_deg", degrees(camera->fovy_rad));
-    bool fitted = camera->near_plane == 0 && camera->far_plane == 0;
-    if (fitted) {
-        json_none(json, "near");
-        json_none(json, "far");
-    } else {
-        json_number(json, "near", camera->near_plane);
-        json_number(json, "far", camera->far_plane);
-    }
-    json_close(json, '}');
+    const bool flat = c->ortho_half_height > 0, fitted = c->near_plane == 0 && c->far_plane == 0;
+    json_put(json,
+             OBJECT("camera", VECTOR("eye", c->eye), VECTOR("target", c->target), VECTOR("up", c->up),
+                    NUMBER(flat ? "ortho_half_height" : "fovy_deg", flat ? c->ortho_half_height : degrees(c->fovy_rad)),
+                    NUMBER("near", fitted ? (double)NAN : c->near_plane),
+                    NUMBER("far", fitted ? (double)NAN : c->far_plane)));
 }
 
 static void json_device(struct json *json, const lam_device *device)
 {
     lam_isa isa = lam_device_isa(device);
-    json_open(json, "device", '{');
-    json_text(json, "name", lam_device_name(device));
-    json_text(json, "isa", isa == LAM_ISA_AUTO ? NULL : lam_isa_name(isa));
-    json_count(json, "threads", (uint64_t)lam_device_threads(device));
-    json_close(json, '}');
-}
-
-// Rounds the time to microseconds.
-static void json_ms(struct json *json, const char *key, double ms)
-{
-    json_number(json, key, (double)(int64_t)(ms * 1e3 + 0.5) / 1e3);
+    json_put(json, OBJECT("device", TEXT("name", lam_device_name(device)),
+                          TEXT("isa", isa == LAM_ISA_AUTO ? NULL : lam_isa_name(isa)),
+                          COUNT("threads", lam_device_threads(device))));
 }
 
 static void json_times(struct json *json, const struct job_times *times)
 {
     const lam_frame_report *frame = &times->frame;
-    json_open(json, "times_ms", '{');
-    json_ms(json, "read", times->read);
-    json_ms(json, "prepare", times->prepare);
-    json_ms(json, "camera", times->camera);
-    json_ms(json, "frame", frame->total_ms);
-    json_ms(json, "encode", times->encode);
-    json_ms(json, "total", times->total);
-    json_open(json, "steps", '{');
-    json_ms(json, "flatten", frame->frame_ms);
-    json_ms(json, "vertices", frame->vertices_ms);
-    json_ms(json, "triangles", frame->triangles_ms);
-    json_ms(json, "normals", frame->normals_ms);
-    json_ms(json, "occlusion", frame->occlusion_ms);
-    json_ms(json, "hierarchy", frame->hierarchy_ms);
-    json_ms(json, "edges", frame->edges_ms);
-    json_ms(json, "tiles", frame->tiles_ms);
-    json_ms(json, "coverage", frame->coverage_ms);
-    json_ms(json, "lighting", frame->lighting_ms);
-    json_ms(json, "resolve", frame->resolve_ms);
-    json_ms(json, "upload", frame->upload_ms);
-    json_ms(json, "draw", frame->draw_ms);
-    json_ms(json, "read", frame->read_ms);
-    json_close(json, '}');
-    json_count(json, "frames", (uint64_t)times->frames);
-    json_ms(json, "frame_least", times->frame_min);
-    json_ms(json, "frame_most", times->frame_max);
-    json_close(json, '}');
-}
-
-static void json_counts(struct json *json, const lam_frame_report *frame)
-{
-    json_open(json, "counts", '{');
-    json_count(json, "triangles", frame->triangles);
-    json_count(json, "triangles_binned", frame->triangles_binned);
-    json_count(json, "pixels_covered", frame->pixels_covered);
-    json_count(json, "points_lit", frame->points_lit);
-    json_count(json, "lights_evaluated", frame->lights_evaluated);
-    json_count(json, "rays", frame->rays);
-    json_count(json, "memory_bytes", frame->memory_bytes);
-    json_count(json, "bytes_uploaded", frame->bytes_uploaded);
-    json_close(json, '}');
+    json_put(
+        json,
+        OBJECT("times_ms", MILLISECONDS("read", times->read), MILLISECONDS("prepare", times->prepare),
+               MILLISECONDS("camera", times->camera), MILLISECONDS("frame", frame->total_ms),
+               MILLISECONDS("encode", times->encode), MILLISECONDS("total", times->total),
+               OBJECT("steps", MILLISECONDS("flatten", frame->frame_ms), MILLISECONDS("vertices", frame->vertices_ms),
+                      MILLISECONDS("triangles", frame->triangles_ms), MILLISECONDS("normals", frame->normals_ms),
+                      MILLISECONDS("occlusion", frame->occlusion_ms), MILLISECONDS("hierarchy", frame->hierarchy_ms),
+                      MILLISECONDS("edges", frame->edges_ms), MILLISECONDS("tiles", frame->tiles_ms),
+                      MILLISECONDS("coverage", frame->coverage_ms), MILLISECONDS("lighting", frame->lighting_ms),
+                      MILLISECONDS("resolve", frame->resolve_ms), MILLISECONDS("upload", frame->upload_ms),
+                      MILLISECONDS("draw", frame->draw_ms), MILLISECONDS("read", frame->read_ms)),
+               COUNT("frames", times->frames), MILLISECONDS("frame_least", times->frame_min),
+               MILLISECONDS("frame_most", times->frame_max)),
+        OBJECT("counts", COUNT("triangles", frame->triangles), COUNT("triangles_binned", frame->triangles_binned),
+               COUNT("pixels_covered", frame->pixels_covered), COUNT("points_lit", frame->points_lit),
+               COUNT("lights_evaluated", frame->lights_evaluated), COUNT("rays", frame->rays),
+               COUNT("memory_bytes", frame->memory_bytes), COUNT("bytes_uploaded", frame->bytes_uploaded)));
 }
 
 static void json_option(void *user, const char *name, const char *value) { option_json(user, name, value); }
@@ -317,12 +257,9 @@ static void json_option(void *user, const char *name, const char *value) { optio
 static void json_plan(struct json *json, const struct job *job)
 {
     json_open(json, "planned", '{');
-    json_text(json, "path", job->output);
-    json_text(json, "format", job->format);
-    json_count(json, "width", (uint64_t)job->options->picture.width);
-    json_count(json, "height", (uint64_t)job->options->picture.height);
-    json_count(json, "samples", (uint64_t)planned_samples(job->options));
-    json_flag(json, "replaces", plan_replaces(job));
+    json_put(json, TEXT("path", job->output), TEXT("format", job->format), COUNT("width", job->options->picture.width),
+             COUNT("height", job->options->picture.height), COUNT("samples", planned_samples(job->options)),
+             FLAG("replaces", plan_replaces(job)));
     json_frames(json, job);
     json_open(json, "options", '[');
     each_given_option(job->options, json_option, json);
@@ -332,94 +269,26 @@ static void json_plan(struct json *json, const struct job *job)
     json_close(json, '}');
 }
 
-void json_error(struct json *json, const lam_error *error)
-{
-    if (!error || error->code == LAM_OK) {
-        json_none(json, "error");
-        return;
-    }
-    json_open(json, "error", '{');
-    json_text(json, "code", exit_code_of(error->code)->name);
-    json_count(json, "exit", (uint64_t)exit_code_of(error->code)->code);
-    json_message(json, "text", error->text);
-    json_close(json, '}');
-}
-
-static void json_sandbox(struct json *json, const struct sandbox_state *state)
-{
-    json_open(json, "sandbox", '{');
-    json_count(json, "landlock", (uint64_t)state->landlock);
-    json_flag(json, "seccomp", state->filter);
-    json_close(json, '}');
-}
-
 void report_json(FILE *file, const struct job *job, const lam_error *error)
 {
     struct json json = {.file = file};
-    json_open(&json, NULL, '{');
-    json_text(&json, "lambent", lam_version());
-    json_sandbox(&json, sandbox_active());
-    if (job) {
-        json_model(&json, job);
-    } else {
-        json_none(&json, "model");
-    }
-    if (job)
-        settings_json(&json, job->options);
-    if (job && job->planned) {
+    report_begin(&json);
+    json_model(&json, job);
+    settings_json(&json, job->options);
+    if (job->planned) {
         json_plan(&json, job);
         json_camera(&json, &job->camera);
         json_device(&json, job->device);
     }
     // Camera, device and times are reported only for a written picture.
-    if (job && job->written) {
+    if (job->written) {
         json_image(&json, job);
         json_camera(&json, &job->camera);
         json_device(&json, job->device);
         json_times(&json, &job->times);
-        json_counts(&json, &job->times.frame);
     }
-    json_open(&json, "warnings", '[');
-    for (int i = 0; job && job->scene && lam_scene_warning(job->scene, i); i++)
-        json_message(&json, NULL, lam_scene_warning(job->scene, i));
-    json_close(&json, ']');
+    json_warnings(&json, job->scene);
     json_error(&json, error);
     json_close(&json, '}');
     putc('\n', file);
-}
-
-FILE *report_stream(const struct options *options)
-{
-    if (!options->report.json)
-        return NULL;
-    return options->picture.output && strcmp(options->picture.output, "-") == 0 ? stderr : stdout;
-}
-
-// Prints the command that shows the help of an option or a command. `text` is a usage error that starts with its name.
-static void say_where_to_look(const char *text)
-{
-    char name[64];
-    static const char before[] = "option '--";
-    bool of_option = strncmp(text, before, sizeof before - 1) == 0;
-    if (of_option)
-        text += sizeof before - 1;
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, of_option ? "'" : ": "), text);
-    if (of_option && option_find(name))
-        say_plain("Try 'lambent help %s'.\n", name);
-    else if (!of_option && find_command(name))
-        say_plain("Try 'lambent %s -h'.\n", name);
-    else
-        say_plain("Try 'lambent -h'.\n");
-}
-
-int report_failure(const lam_error *error, const struct options *options)
-{
-    FILE *stream = report_stream(options);
-    if (stream != stderr)
-        say_error(error->text);
-    if (stream)
-        report_json(stream, NULL, error);
-    else if (error->code == LAM_BAD_ARGUMENT)
-        say_where_to_look(error->text);
-    return exit_code_of(error->code)->code;
 }

@@ -11,10 +11,7 @@ bool settings_are_used(const struct options *options)
 
 void option_json(struct json *json, const char *name, const char *value)
 {
-    json_open(json, NULL, '{');
-    json_text(json, "name", name);
-    json_text(json, "value", value);
-    json_close(json, '}');
+    json_put(json, OBJECT(NULL, TEXT("name", name), TEXT("value", value)));
 }
 
 void settings_json(struct json *json, const struct options *options)

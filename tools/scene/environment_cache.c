@@ -6,6 +6,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include <lambent/path.h>
+
 #include "environment_option.h"
 
 enum { KEPT = 4 };
@@ -78,7 +80,7 @@ static bool identify(const char *text, struct identity *identity)
     int count = names ? LAM_FACE_COUNT : 1;
     for (int i = 0; ok && i < count; i++) {
         struct stat about;
-        ok = stat(paths[i], &about) == 0;
+        ok = lam_path_stat(paths[i], &about) == 0;
         if (!ok)
             break;
         identity->files[i].device = about.st_dev;

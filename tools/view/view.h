@@ -27,13 +27,13 @@ struct view_listener {
 // A network connection. The library stores this struct as the context of the socket.
 struct view_socket {
     int file;
-    bool waits;      // waits for a request and is in view.waiting
-    bool names_zero; // the address of the last request contains "%00"
-    double since_ms; // the clock_ms() at which the connection started to wait
+    bool names_zero;           // the address of the last request contains "%00"
+    double since_ms;           // the clock_ms() at which the connection started to wait
+    struct view_sockets *list; // the list that contains it, or NULL
     struct view_socket *before, *after;
 };
 
-// The waiting connections, in the order in which they started to wait.
+// Connections that wait for their client, in the order in which they started to wait.
 struct view_sockets {
     struct view_socket *oldest, *newest;
     int count;
@@ -66,7 +66,8 @@ struct view {
     struct view_tasks tasks;
     struct view_watch watch;
     struct view_listener *listeners;
-    struct view_sockets waiting;
+    struct view_sockets waiting;         // the connections whose next request has not arrived completely
+    struct view_sockets answering;       // those whose answer has not been read completely: files, pictures and events
     struct view_connection *connections; // the requests with incomplete answers
     double alive_ms;                     // the clock_ms() of the last message to the listeners
     bool ends;

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "progress.h"
+
 enum { ESTABLISHED = 1, LINE_MAX_SIZE = 512 };
 
 void view_peers_open(struct view_peers *peers)
@@ -19,18 +21,18 @@ void view_peers_close(struct view_peers *peers)
     for (int i = 0; i < 2; i++)
         if (peers->tables[i] >= 0)
             close(peers->tables[i]);
-    *peers = (struct view_peers){{-1, -1}};
+    *peers = (struct view_peers){.tables = {-1, -1}};
 }
 
 // Parses a line of a table: "SL: LOCAL:PORT REMOTE:PORT STATE TX:RX TIMER:WHEN RETRANSMITS UID …", with hexadecimal
-// numbers except for UID. Returns true if the line describes the other end of the given connection.
-static bool is_other_end(const char *line, int other_port, int port, unsigned *state, unsigned *user)
+// numbers except for UID. Notes the user if the line describes the other end of a connection to `port`.
+static void note(struct view_peers *peers, const char *line, int port)
 {
     char local[33], remote[33];
-    unsigned local_port, remote_port;
+    unsigned local_port, remote_port, state, user;
     if (sscanf(line, " %*[^:]: %32[^:]:%x %32[^:]:%x %x %*[^ ] %*[^ ] %*x %u", local, &local_port, remote, &remote_port,
-               state, user) != 6)
-        return false;
+               &state, &user) != 6)
+        return;
     // The kernel prints an address as 32-bit numbers in the machine's byte order: one number for IPv4, four for IPv6.
     // For a loopback connection, the last number is 127.0.0.1.
     static const unsigned char bytes[4] = {127, 0, 0, 1};
@@ -39,14 +41,17 @@ static bool is_other_end(const char *line, int other_port, int port, unsigned *s
     memcpy(&loopback, bytes, sizeof loopback);
     snprintf(wanted, sizeof wanted, "%08X", loopback);
     size_t local_length = strlen(local), remote_length = strlen(remote);
-    return local_port == (unsigned)other_port && remote_port == (unsigned)port && local_length >= 8 &&
-           remote_length >= 8 && strcmp(local + local_length - 8, wanted) == 0 &&
-           strcmp(remote + remote_length - 8, wanted) == 0;
+    if (remote_port == (unsigned)port && local_length >= 8 && remote_length >= 8 && local_port < VIEW_PORTS &&
+        strcmp(local + local_length - 8, wanted) == 0 && strcmp(remote + remote_length - 8, wanted) == 0 &&
+        user != getuid() && !(user == 0 && state == ESTABLISHED))
+        peers->others[local_port / 8] |= (unsigned char)(1 << local_port % 8);
 }
 
 // Must not open files, because the sandbox is active.
-bool view_peers_are_own(const struct view_peers *peers, int other_port, int port)
+static void read_tables(struct view_peers *peers, int port)
 {
+    peers->read_ms = clock_ms();
+    memset(peers->others, 0, sizeof peers->others);
     for (int i = 0; i < 2; i++) {
         char buffer[16 << 10], line[LINE_MAX_SIZE];
         size_t length = 0;
@@ -54,7 +59,6 @@ bool view_peers_are_own(const struct view_peers *peers, int other_port, int port
             continue;
         for (ssize_t got; (got = read(peers->tables[i], buffer, sizeof buffer)) > 0;)
             for (ssize_t k = 0; k < got; k++) {
-                unsigned state, user;
                 if (buffer[k] != '\n') {
                     line[length] = buffer[k];
                     length += length + 1 < sizeof line;
@@ -62,9 +66,14 @@ bool view_peers_are_own(const struct view_peers *peers, int other_port, int port
                 }
                 line[length] = 0;
                 length = 0;
-                if (is_other_end(line, other_port, port, &state, &user))
-                    return user == getuid() || (user == 0 && state == ESTABLISHED);
+                note(peers, line, port);
             }
     }
-    return true;
+}
+
+bool view_peers_are_own(struct view_peers *peers, int other_port, int port, double since_ms)
+{
+    if (since_ms >= peers->read_ms)
+        read_tables(peers, port);
+    return !(peers->others[other_port / 8] >> other_port % 8 & 1);
 }

@@ -108,7 +108,7 @@ static struct view_socket *socket_of(const struct view *view, struct MHD_Connect
 
 static void append(struct view_sockets *list, struct view_socket *s)
 {
-    s->waits = true;
+    s->list = list;
     s->since_ms = clock_ms();
     s->before = list->newest;
     s->after = NULL;
@@ -117,11 +117,12 @@ static void append(struct view_sockets *list, struct view_socket *s)
     list->count++;
 }
 
-static void take_out(struct view_sockets *list, struct view_socket *s)
+static void take_out(struct view_socket *s)
 {
-    if (!s->waits)
+    struct view_sockets *list = s->list;
+    if (!list)
         return;
-    s->waits = false;
+    s->list = NULL;
     *(s->before ? &s->before->after : &list->oldest) = s->after;
     *(s->after ? &s->after->before : &list->newest) = s->before;
     list->count--;
@@ -143,7 +144,7 @@ void view_waiting_notify(void *user, struct MHD_Connection *connection, void **k
             append(&view->waiting, s);
         }
     } else if (s) {
-        take_out(&view->waiting, s);
+        take_out(s);
         free(s);
         *kept = NULL;
     }
@@ -151,7 +152,19 @@ void view_waiting_notify(void *user, struct MHD_Connection *connection, void **k
 
 void *view_waiting_address(void *user, const char *address, struct MHD_Connection *connection)
 {
+    // The library needs up to ARGUMENT bytes of the connection's memory for each argument. Without enough memory, it
+    // closes the connection without an answer.
+    enum { ARGUMENT = 96 };
+    static const char answer[] = "HTTP/1.1 414 URI Too Long\r\nConnection: close\r\nContent-Length: 29\r\n"
+                                 "Content-Type: text/plain\r\n\r\nthe address has too many words";
     struct view_socket *s = socket_of(user, connection);
+    size_t arguments = 1;
+    for (const char *at = strchr(address, '?'); at; at = strchr(at + 1, '&'))
+        arguments++;
+    if (s && strlen(address) + arguments * ARGUMENT > VIEW_HEADERS_MAX / 4 * 3) {
+        send(s->file, answer, sizeof answer - 1, MSG_NOSIGNAL | MSG_DONTWAIT);
+        shutdown(s->file, SHUT_WR);
+    }
     if (s)
         s->names_zero = strstr(address, "%00");
     return NULL;
@@ -161,32 +174,36 @@ const struct view_socket *view_waiting_end(struct view *view, struct MHD_Connect
 {
     struct view_socket *s = socket_of(view, connection);
     if (s)
-        take_out(&view->waiting, s);
+        take_out(s);
     return s;
 }
 
-void view_waiting_begin(struct view *view, struct MHD_Connection *connection)
+void view_waiting_begin(struct view *view, struct MHD_Connection *connection, bool answers)
 {
     struct view_socket *s = socket_of(view, connection);
-    if (s && !s->waits)
-        append(&view->waiting, s);
+    if (!s)
+        return;
+    take_out(s);
+    append(answers ? &view->answering : &view->waiting, s);
 }
 
 // Shuts down both directions of the connection, so that the library closes it. If only reading were shut down, the
 // kernel would still accept bytes, and the library would wait for more. Without a linger time the kernel immediately
 // forgets a closed connection. Otherwise an attacker could fill the kernel's table, which is read for each request
 // (view_access.c).
-static void drop(struct view_sockets *list, struct view_socket *s)
+static void drop(struct view_socket *s)
 {
     setsockopt(s->file, SOL_SOCKET, SO_LINGER, &(struct linger){.l_onoff = 1}, sizeof(struct linger));
     shutdown(s->file, SHUT_RDWR);
-    take_out(list, s);
+    take_out(s);
 }
 
 void view_waiting_drop(struct view *view)
 {
-    struct view_sockets *list = &view->waiting;
     const double now = clock_ms();
-    while (list->oldest && (list->count > VIEW_WAITING_MAX || now - list->oldest->since_ms > WAITING_MS))
-        drop(list, list->oldest);
+    const struct view_sockets *waiting = &view->waiting, *answering = &view->answering;
+    while (waiting->oldest && (waiting->count > VIEW_WAITING_MAX || now - waiting->oldest->since_ms > WAITING_MS))
+        drop(waiting->oldest);
+    while (answering->count > VIEW_ANSWERING_MAX)
+        drop(answering->oldest);
 }

@@ -29,23 +29,29 @@ void view_answer_headers(const struct view *view, struct MHD_Response *response,
 // --- limits the number of connections whose next request has not arrived completely. Any user of this machine can open
 // many connections and send nothing; the server closes the oldest connections, so that other requests are answered.
 
-enum { VIEW_WAITING_MAX = 128 };
+enum {
+    VIEW_WAITING_MAX = 128,
+    VIEW_ANSWERING_MAX = 64,
+    VIEW_HEADERS_MAX = 64 << 10, // bytes of a request, and of the library's list of its arguments
+};
 
 // Callback for MHD_OPTION_NOTIFY_CONNECTION. `user` points to the struct view. Stores a struct view_socket in `kept`.
 void view_waiting_notify(void *user, struct MHD_Connection *connection, void **kept,
                          enum MHD_ConnectionNotificationCode code);
 
-// Callback for MHD_OPTION_URI_LOG_CALLBACK: checks the address for "%00" before the library decodes it. Returns NULL.
+// Callback for MHD_OPTION_URI_LOG_CALLBACK: checks the address for "%00" before the library decodes it. Answers a
+// request with too many arguments. Returns NULL.
 void *view_waiting_address(void *user, const char *address, struct MHD_Connection *connection);
 
 // Must be called when a request has arrived. Returns the connection's data, or NULL if memory runs out.
 const struct view_socket *view_waiting_end(struct view *view, struct MHD_Connection *connection);
 
-// Must be called when a connection has been answered and may send another request.
-void view_waiting_begin(struct view *view, struct MHD_Connection *connection);
+// Must be called when the client must read an answer (`answers`), or may send another request.
+void view_waiting_begin(struct view *view, struct MHD_Connection *connection, bool answers);
 
-// Closes connections that have waited for some seconds, and the oldest connections if there are more than
-// VIEW_WAITING_MAX.
+// Closes connections that have waited for a request for some seconds. Also closes the oldest connections if more than
+// VIEW_WAITING_MAX wait for a request, or more than VIEW_ANSWERING_MAX have not read their answers. A page whose events
+// end opens another connection for them.
 void view_waiting_drop(struct view *view);
 
 // --- answers HTTP requests.

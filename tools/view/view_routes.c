@@ -260,7 +260,8 @@ static bool is_own_user(const struct view_connection *c)
         c->view->http.MHD_get_connection_info(c->connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
     if (info && info->client_addr && info->client_addr->sa_family == AF_INET)
         memcpy(&other, info->client_addr, sizeof other);
-    return other.sin_family != AF_INET || view_peers_are_own(&c->view->peers, ntohs(other.sin_port), c->view->port);
+    return other.sin_family != AF_INET ||
+           view_peers_are_own(&c->view->peers, ntohs(other.sin_port), c->view->port, c->socket->since_ms);
 }
 
 static enum MHD_Result answer_request(struct view_connection *c, const char *url, const char *method)
@@ -286,6 +287,7 @@ enum MHD_Result view_routes_answer(void *user, struct MHD_Connection *connection
     (void)version, (void)upload;
     if (c && c->finished) {
         c->finished = false;
+        view_waiting_begin(user, connection, true);
         return view_answer_result(c);
     }
     if (c) { // a repeated call for the same request: the library passes the body, or a task is still running
@@ -299,7 +301,10 @@ enum MHD_Result view_routes_answer(void *user, struct MHD_Connection *connection
         return MHD_NO;
     *c = (struct view_connection){.view = view, .connection = connection, .socket = socket, .next = view->connections};
     view->connections = *kept = c;
-    return answer_request(c, url, method);
+    enum MHD_Result done = answer_request(c, url, method);
+    if (!c->task)
+        view_waiting_begin(view, connection, true);
+    return done;
 }
 
 void view_routes_completed(void *user, struct MHD_Connection *connection, void **kept,
@@ -309,7 +314,7 @@ void view_routes_completed(void *user, struct MHD_Connection *connection, void *
     struct view_connection *c = *kept;
     (void)code;
     *kept = NULL;
-    view_waiting_begin(view, connection);
+    view_waiting_begin(view, connection, false);
     if (!c)
         return;
     for (struct view_connection **at = &view->connections; *at; at = &(*at)->next)

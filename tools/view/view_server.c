@@ -62,8 +62,7 @@ static bool browser_open(const char *address)
 
 enum {
     CONNECTIONS_MAX = 256,
-    SILENCE_S = 30,         // the timeout of an idle connection
-    HEADERS_MAX = 64 << 10, // the maximum size of a request
+    SILENCE_S = 30, // the timeout of an idle connection
     STEP_MS = 500,
     IDLE_MINUTES = 30,
 };
@@ -115,9 +114,9 @@ static bool start_daemon(struct view *view, lam_error *error)
         MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG, 0, NULL, NULL, view_routes_answer, view,
         MHD_OPTION_EXTERNAL_LOGGER, say_nothing, NULL, MHD_OPTION_LISTEN_SOCKET, socket, MHD_OPTION_CONNECTION_LIMIT,
         (unsigned)CONNECTIONS_MAX, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_S,
-        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)HEADERS_MAX, MHD_OPTION_NOTIFY_COMPLETED, view_routes_completed,
-        view, MHD_OPTION_NOTIFY_CONNECTION, view_waiting_notify, view, MHD_OPTION_URI_LOG_CALLBACK,
-        view_waiting_address, view, MHD_OPTION_END);
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)VIEW_HEADERS_MAX, MHD_OPTION_NOTIFY_COMPLETED,
+        view_routes_completed, view, MHD_OPTION_NOTIFY_CONNECTION, view_waiting_notify, view,
+        MHD_OPTION_URI_LOG_CALLBACK, view_waiting_address, view, MHD_OPTION_END);
     if (view->daemon)
         return true;
     const int reason = errno;
@@ -128,7 +127,6 @@ static bool start_daemon(struct view *view, lam_error *error)
 static bool find_operand(struct view *view, const char *operand, lam_error *error)
 {
     struct stat about;
-    view->files.folder = -1;
     if (strcmp(operand, "-") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "view shows a file or a folder; standard input has no name");
     if (lam_shape_find(operand) >= 0)
@@ -146,7 +144,7 @@ static bool enter_sandbox(const struct view *view, lam_error *error)
 {
     struct sandbox_paths paths = {.serves = true};
     struct options options = *view->options;
-    if (view->files.folder >= 0)
+    if (view->files.prefix)
         sandbox_add(&paths, *view->files.prefix ? view->files.prefix : "/", SANDBOX_READ);
     if (view->files.model_path)
         sandbox_add(&paths, view->files.model_path, SANDBOX_READ); // the model may be a link

@@ -3,11 +3,8 @@
 
 static void write_part(struct json *json, const lam_part *part)
 {
-    json_open(json, NULL, '{');
-    json_text(json, "name", part->name);
-    json_count(json, "triangles", part->triangle_count);
-    json_number(json, "material", part->material);
-    json_close(json, '}');
+    json_put(json, OBJECT(NULL, TEXT("name", part->name), COUNT("triangles", part->triangle_count),
+                          NUMBER("material", part->material)));
 }
 
 static void write_object(struct json *json, const lam_scene *scene, int index)
@@ -15,9 +12,8 @@ static void write_object(struct json *json, const lam_scene *scene, int index)
     const lam_object *object = lam_scene_object(scene, index);
     const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
     json_open(json, NULL, '{');
-    json_text(json, "name", object->name);
-    json_count(json, "triangles", mesh->triangle_count);
-    json_number(json, "material", object->material);
+    json_put(json, TEXT("name", object->name), COUNT("triangles", mesh->triangle_count),
+             NUMBER("material", object->material));
     json_open(json, "parts", '[');
     for (uint32_t i = 0; mesh->parts && i < mesh->part_count && i < CONTENTS_MOST; i++)
         write_part(json, &mesh->parts[i]);
@@ -28,13 +24,10 @@ static void write_object(struct json *json, const lam_scene *scene, int index)
 static void write_material(struct json *json, const lam_material *m)
 {
     json_open(json, NULL, '{');
-    json_text(json, "name", m->name);
-    json_flag(json, "physical", m->physical);
-    json_numbers(json, "color", (double[]){(double)m->diffuse.r, (double)m->diffuse.g, (double)m->diffuse.b}, 3);
-    json_number(json, "opacity", (double)m->diffuse.a);
+    json_put(json, TEXT("name", m->name), FLAG("physical", m->physical), COLOR("color", m->diffuse),
+             NUMBER("opacity", m->diffuse.a));
     if (m->physical) {
-        json_number(json, "metallic", (double)m->metallic);
-        json_number(json, "roughness", (double)m->roughness);
+        json_put(json, NUMBER("metallic", m->metallic), NUMBER("roughness", m->roughness));
     } else {
         json_number(json, "shininess", (double)m->shininess);
     }
@@ -52,10 +45,8 @@ static void write_file(struct json *json, const lam_scene *scene)
     json_number(json, "unit_m", file->unit_m);
     json_open(json, "animations", '[');
     for (int i = 0; i < file->animation_count; i++) {
-        json_open(json, NULL, '{');
-        json_text(json, "name", file->animations[i].name);
-        json_number(json, "seconds", file->animations[i].length_s);
-        json_close(json, '}');
+        json_put(json,
+                 OBJECT(NULL, TEXT("name", file->animations[i].name), NUMBER("seconds", file->animations[i].length_s)));
     }
     json_close(json, ']');
     json_open(json, "variants", '[');
@@ -73,11 +64,9 @@ void contents_json(struct json *json, const lam_scene *scene)
     int objects = lam_scene_object_count(scene), materials = lam_scene_material_count(scene);
     lam_vec3 low, high;
     lam_scene_bounds(scene, &low, &high);
-    json_vector(json, "size", (lam_vec3){high.x - low.x, high.y - low.y, high.z - low.z});
-    json_count(json, "triangles", lam_scene_triangle_count(scene));
-    json_count(json, "vertices", lam_scene_vertex_count(scene));
-    json_count(json, "object_count", (uint64_t)objects);
-    json_count(json, "material_count", (uint64_t)materials);
+    json_put(json, NUMBERS("size", 3, high.x - low.x, high.y - low.y, high.z - low.z),
+             COUNT("triangles", lam_scene_triangle_count(scene)), COUNT("vertices", lam_scene_vertex_count(scene)),
+             COUNT("object_count", objects), COUNT("material_count", materials));
     json_open(json, "objects", '[');
     for (int i = 0; i < objects && i < CONTENTS_MOST; i++)
         write_object(json, scene, i);

@@ -2,6 +2,8 @@
 // is loaded once.
 #include "session.h"
 
+#include <lambent/light.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,10 +125,10 @@ static int answer(bool ok)
     const lam_error *error = &call.error;
     struct json json = {.file = stdout};
     json_open(&json, NULL, '{');
-    json_flag(&json, "ok", ok);
+    json_put(&json, FLAG("ok", ok));
     if (!ok) {
         json_message(&json, "error", error->text);
-        json_flag(&json, "cancelled", error->code == LAM_CANCELLED);
+        json_put(&json, FLAG("cancelled", error->code == LAM_CANCELLED));
     }
     if (ok)
         picture_json(&json, job, model.read_ms);
@@ -282,34 +284,24 @@ int web_contents(int count)
 static void option_json(struct json *json, const struct option *o)
 {
     json_open(json, NULL, '{');
-    json_text(json, "name", o->name);
-    json_text(json, "group", group_titles[o->group]);
-    json_text(json, "value", o->value);
-    json_text(json, "default", o->standard);
-    json_text(json, "summary", o->summary);
-    json_text(json, "details", o->details);
-    json_text(json, "others", o->others);
+    json_put(json, TEXT("name", o->name), TEXT("group", group_titles[o->group]), TEXT("value", o->value),
+             TEXT("default", o->standard), TEXT("summary", o->summary), TEXT("details", o->details),
+             TEXT("others", o->others));
     static const char *const kinds[] = {"any",    "file",        "color",  "material", "light",
                                         "camera", "environment", "varied", "swept"};
-    json_text(json, "kind", kinds[o->kind]);
-    json_flag(json, "repeats",
-              o->store == store_light || o->store == store_material || o->store == store_rotation ||
-                  o->store == store_texts);
-    json_flag(json, "number",
-              o->store == store_number || o->store == store_float || o->store == store_integer ||
-                  o->store == store_angle);
-    json_flag(json, "whole", o->store == store_integer);
+    json_put(json, TEXT("kind", kinds[o->kind]),
+             FLAG("repeats", o->store == store_light || o->store == store_material || o->store == store_rotation ||
+                                 o->store == store_texts),
+             FLAG("number", o->store == store_number || o->store == store_float || o->store == store_integer ||
+                                o->store == store_angle),
+             FLAG("whole", o->store == store_integer));
     if (o->max > o->min) {
-        json_number(json, "min", o->min);
-        json_number(json, "max", o->max);
+        json_put(json, NUMBER("min", o->min), NUMBER("max", o->max));
     }
     if (o->words) {
         json_open(json, "words", '[');
         for (const struct choice *w = o->words; w->name; w++) {
-            json_open(json, NULL, '{');
-            json_text(json, "name", w->name);
-            json_text(json, "summary", w->summary);
-            json_close(json, '}');
+            json_put(json, OBJECT(NULL, TEXT("name", w->name), TEXT("summary", w->summary)));
         }
         json_close(json, ']');
     }
@@ -328,10 +320,8 @@ void web_options(void)
     json_close(&json, ']');
     json_open(&json, "materials", '[');
     for (int i = 0; i < LAM_MATERIAL_COUNT; i++) {
-        json_open(&json, NULL, '{');
-        json_text(&json, "name", lam_material_name((lam_material_id)i));
-        json_text(&json, "metal", lam_material_metal((lam_material_id)i));
-        json_close(&json, '}');
+        json_put(&json, OBJECT(NULL, TEXT("name", lam_material_name((lam_material_id)i)),
+                               TEXT("metal", lam_material_metal((lam_material_id)i))));
     }
     json_close(&json, ']');
     json_open(&json, "environments", '[');

@@ -1,6 +1,6 @@
 // contract_names.c: reads the attributes and uniforms of a contract.
 #include "contract_reader.h"
-#include "fixed_state.h"
+#include "own_texts.h"
 
 #include <stdio.h>
 #include <string.h>

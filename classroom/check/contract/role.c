@@ -1,5 +1,5 @@
 // role.c: the table of roles. docs/check.md and the schema of contract files are generated from this table.
-#include "role.h"
+#include "contract.h"
 
 #define UNIFORM  ROLE_UNIFORM
 #define LIGHT    (ROLE_UNIFORM | ROLE_LIGHT)

@@ -1,5 +1,5 @@
 // compiler_hints.c: explains a compiler's messages with the help of the shader's source.
-#include "compiler_hints.h"
+#include "diagnostics.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -9,7 +9,6 @@
 #include "fail.h"
 #include "name_similarity.h"
 #include "spelling.h"
-#include "visible_names.h"
 
 #define COUNT(list) (int)(sizeof(list) / sizeof *(list))
 

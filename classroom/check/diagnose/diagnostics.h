@@ -5,6 +5,9 @@
 #include <lambent/check.h>
 
 #include "arena.h"
+#include "declarations.h"
+#include "draw_request.h"
+#include "shader_interface.h"
 
 struct diagnostics {
     struct arena *arena; // owns the strings
@@ -17,5 +20,52 @@ struct diagnostics {
 __attribute__((format(printf, 5, 6))) void diagnostics_add(struct diagnostics *diagnostics,
                                                            lam_check_diagnostic_kind kind, const char *file, int line,
                                                            const char *format, ...);
+
+// --- explains compiler messages about spelling and syntax mistakes that occur in lectures and in
+// students' shaders.
+
+// Adds hints for one message of the compiler about a line (0 if unknown).
+void compiler_hints_for_message(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
+                                int line, const char *message);
+
+// Adds hints for the source of a shader that does not compile.
+void compiler_hints_for_text(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
+                             bool vertex);
+
+// Adds hints about the outputs of a fragment shader that compiles. `output` is the output's name in the course, or
+// NULL. Returns false if no output of the shader is floating-point, because a picture cannot store other outputs.
+bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
+                               const char *output);
+
+// Adds hints for two shaders that compile but do not link.
+void compiler_hints_for_link(struct diagnostics *diagnostics, const struct shader_interface *interface,
+                             const lam_check_params *params);
+
+// --- diagnostics of shaders that do not compile, and of names and types that do not match the
+// contract.
+
+// Adds the driver's log of a shader that does not compile, line by line, with hints for known messages.
+void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_result *result,
+                             const struct shader_interface *interface, const lam_check_params *params);
+
+// Reports unknown names and mismatched types, whether or not the shaders compile.
+void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_result *result,
+                           const struct shader_interface *interface, const lam_check_params *params);
+
+// --- finds the names that are declared and in scope at a position in a shader.
+
+enum { MAX_VISIBLE_NAMES = 256 };
+
+struct visible_names {
+    // Names of inner scopes follow names of outer scopes. If there are too many names, the innermost names are kept.
+    const char *names[MAX_VISIBLE_NAMES];
+    int depths[MAX_VISIBLE_NAMES]; // the nesting depth of braces; 0 is global
+    int count;
+};
+
+// Finds the names of the variables that the statement at word `at` can use. With `functions`, finds the names of the
+// shader's own functions instead. A variable that the statement declares is not included, because its scope begins
+// after the statement.
+void visible_names_at(const struct declarations *d, int at, bool functions, struct visible_names *out);
 
 #endif

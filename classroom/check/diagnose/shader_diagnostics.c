@@ -1,12 +1,10 @@
 // shader_diagnostics.c: makes diagnostics from the compiler's log, and diagnostics about names that are not in the
 // contract.
-#include "shader_diagnostics.h"
+#include "diagnostics.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "compiler_hints.h"
 
 enum { MAX_LOG_LINES = 8 };
 

@@ -1,5 +1,5 @@
 // visible_names.c: follows the braces of a shader and keeps the declarations of open blocks.
-#include "visible_names.h"
+#include "diagnostics.h"
 
 #include <string.h>
 

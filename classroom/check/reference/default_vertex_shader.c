@@ -1,5 +1,5 @@
 // default_vertex_shader.c: generates a vertex shader for a fragment shader that is checked alone.
-#include "default_vertex_shader.h"
+#include "shader_dialect.h"
 
 #include <stdio.h>
 #include <stdlib.h>

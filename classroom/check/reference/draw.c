@@ -1,5 +1,4 @@
 // draw.c: compiles the tested shaders, sets their uniforms for each reference scene, and draws.
-#include "check_draw.h"
 #include "draw_request.h"
 #include "place.h"
 #include "shader_dialect.h"
@@ -11,7 +10,6 @@
 #include <time.h>
 
 #include "fail.h"
-#include "gl_painter.h"
 
 // One element of an input whose name is in the contract.
 struct uniform_binding {

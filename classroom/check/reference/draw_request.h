@@ -2,6 +2,8 @@
 #ifndef DRAW_REQUEST_H
 #define DRAW_REQUEST_H
 
+#include <lambent/check.h>
+
 #include "contract.h"
 
 struct draw_request {
@@ -44,5 +46,16 @@ bool draw_request_read(const void *bytes, size_t size, struct draw_request *requ
 bool draw_result_write(const struct draw_result *result, const float *pictures, size_t count, lam_bytes *out,
                        lam_error *error);
 bool draw_result_read(const lam_bytes *bytes, int size, struct draw_result *result, lam_error *error);
+
+// --- draws the pictures of a request with any painter.
+
+// Implements lam_check_draw.
+bool check_draw(const void *request, size_t size, const lam_check_painter *painter, lam_bytes *out, lam_error *error);
+
+// --- the painter that draws with OpenGL, which is loaded at run time.
+
+// Returns a painter that uses OpenGL. `device` has the syntax of lam_gl_params.device and must stay valid while
+// contexts are opened. NULL selects the first usable device.
+lam_check_painter gl_painter(const char *device);
 
 #endif

@@ -1,6 +1,6 @@
 // gl_painter.c: draws with OpenGL: an offscreen framebuffer of floats, the meshes as buffers, programs and their
 // uniforms.
-#include "gl_painter.h"
+#include "draw_request.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,7 +8,6 @@
 
 #include "fail.h"
 #include "number.h"
-#include "preprocess.h"
 
 // A struct type of the source.
 struct struct_type {

@@ -1,13 +1,12 @@
 // declarations.h: the declarations of a GLSL source: uniforms, attributes, varyings.
 //
 // The declarations are parsed from the source, not queried from the compiled program. The check also needs names and
-// lines for shaders that do not compile, and for uniforms that the compiler removes. preprocess.h splits the source
+// lines for shaders that do not compile, and for uniforms that the compiler removes. preprocess.c splits the source
 // into words.
 #ifndef DECLARATIONS_H
 #define DECLARATIONS_H
 
 #include <ctype.h>
-
 #include <lambent/base.h>
 
 #include "text_builder.h"
@@ -44,7 +43,7 @@ struct declarations {
     bool cut;         // the source has more than MAX_WORDS or MAX_DECLARATIONS, and the rest was ignored
     struct declaration *items;
     int count;
-    struct word *words; // the tokens of the whole source (preprocess.h)
+    struct word *words; // the tokens of the whole source (preprocess.c)
     int word_count;
     int *slots;     // a hash table that stores 1 + the index of the first equal word, or 0 if empty
     int slot_count; // a power of 2
@@ -83,5 +82,12 @@ static inline uint32_t word_hash(const char *text)
 
 // Returns whether a word is an identifier or a keyword.
 static inline bool word_is_name(const char *text) { return isalpha((unsigned char)text[0]) || text[0] == '_'; }
+
+// --- the words of a GLSL source after preprocessing: macros are expanded, and excluded branches are removed.
+
+// Stores the words of the source, and the version in its #version line, in `d`. Invalid sources are accepted: unknown
+// parts are kept unchanged. The time is proportional to the length of the text, and limited: if the source or the
+// expansion of its macros is too long, sets `d->cut` and ignores the rest. Returns false if memory runs out.
+bool preprocess(struct declarations *d, const char *text);
 
 #endif

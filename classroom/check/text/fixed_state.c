@@ -1,5 +1,5 @@
 // fixed_state.c: declares the fixed-function state that a shader reads (GLSL 1.20, section 7.5).
-#include "fixed_state.h"
+#include "own_texts.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // lecture_style.c: parses the lecture style's loop over the lights.
-#include "lecture_style.h"
+#include "shader_interface.h"
 
 #include "reference_scene.h"
 

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "fail.h"
-#include "fixed_state.h"
 
 // Returns a copy in which single carriage returns (the line endings of old Macs) are replaced by line feeds. Returns
 // NULL if the source contains no single carriage return. Also returns NULL, and sets *ok to false, if memory runs out.

@@ -1,5 +1,5 @@
 // preprocess.c: splits a GLSL source into words, and executes the preprocessor's directives.
-#include "preprocess.h"
+#include "declarations.h"
 
 #include <ctype.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // shader_constants.c: reads `name = number` and pow(x, number).
-#include "shader_constants.h"
+#include "shader_interface.h"
 
 #include <string.h>
 

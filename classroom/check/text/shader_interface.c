@@ -8,9 +8,7 @@
 #include <string.h>
 
 #include "fail.h"
-#include "lecture_style.h"
 #include "maps.h"
-#include "shader_constants.h"
 
 // Returns whether the shader reads a declared uniform. A member of a struct counts as read if its name occurs after a
 // dot. Any other name counts as read if it occurs at all.

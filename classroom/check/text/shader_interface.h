@@ -3,6 +3,9 @@
 #ifndef SHADER_INTERFACE_H
 #define SHADER_INTERFACE_H
 
+#include <lambent/material.h>
+
+#include "declarations.h"
 #include "prefix.h"
 
 // The lights of one struct or array of a contract.
@@ -62,5 +65,41 @@ struct reference_scene shader_interface_scene(const struct shader_interface *int
 // element is black.
 int shader_interface_light(const struct shader_interface *interface, const struct reference_scene *scene, int group,
                            int element);
+
+// --- the numbers that a shader contains instead of uniforms: float ambientStrength = 0.1;
+
+// Finds the contract's constants in the shaders, and stores their values in interface->defaults and their semantics in
+// interface->constants. A variable that is also set to something other than numbers is not a constant.
+void shader_constants_find(struct shader_interface *interface);
+
+enum { MAX_NUMBERS = 12 };
+
+// Lists the semantics that the contract allows as constants, but for which the shaders contain no recognised constant.
+// Returns the number of these semantics.
+int shader_constants_open(const struct shader_interface *interface, enum uniform_semantic out[SEMANTIC_COUNT]);
+
+// Lists the distinct numbers, or vec3 of numbers, in the source of the shader that computes the lighting. Numbers that
+// cannot have the semantic are omitted. Returns the length of the list, which is at most MAX_NUMBERS.
+int shader_constants_values(const struct shader_interface *interface, enum uniform_semantic semantic,
+                            double out[MAX_NUMBERS][3]);
+
+void shader_constants_set(struct shader_interface *interface, enum uniform_semantic semantic, const double value[3]);
+
+// Returns a hash of the numbers.
+uint64_t shader_constants_hash(const struct shader_interface *interface);
+
+// --- parses the source of a shader printed by `lambent shader --style lecture` to find out which lighting
+// the shader computes. The parser recognises the lines of src/gpu/glsl/lecture/lecture.glsl, even if they contain a known
+// mistake.
+
+// Returns the restrictions on the kinds of lights (reference_rule), or 0 if the shader is not in the lecture style.
+unsigned lecture_light_rules(const struct declarations *lit);
+
+// Returns the reflection model of a shader in the lecture style; AUTO means the Lambert model.
+lam_reflection lecture_model(const struct declarations *lit);
+
+// Returns whether a shader in the lecture style uses an infinitely distant viewer: the vector to the eye is then a
+// constant.
+bool lecture_viewer_is_infinite(const struct declarations *lit);
 
 #endif

@@ -7,12 +7,12 @@
 #include <string.h>
 #include <time.h>
 
-#include "command.h"
+#include "commands.h"
 #include "console.h"
 #include "exit_codes.h"
 #include "interrupt.h"
 #include "output.h"
-#include "report.h"
+#include "failure.h"
 #include "suggest.h"
 
 enum { MAX_SCENES = 32 };

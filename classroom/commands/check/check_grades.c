@@ -92,13 +92,9 @@ int check_gradescope(FILE *file, const struct check_result *result)
         double earned = check_scene_points(scene);
         if (earned < 0)
             continue;
-        json_open(&json, NULL, '{');
-        json_text(&json, "name", scene->name);
-        json_number(&json, "score", earned);
-        json_number(&json, "max_score", scene->weight);
-        json_text(&json, "status", scene->passes ? "passed" : "failed");
-        json_text(&json, "output", scene_says(r, scene));
-        json_close(&json, '}');
+        json_put(&json,
+                 OBJECT(NULL, TEXT("name", scene->name), NUMBER("score", earned), NUMBER("max_score", scene->weight),
+                        TEXT("status", scene->passes ? "passed" : "failed"), TEXT("output", scene_says(r, scene))));
     }
     json_close(&json, ']');
     json_close(&json, '}');
@@ -112,17 +108,14 @@ int check_submitty(FILE *file, const struct check_result *result)
     double share = share_of(result);
     bool passes = !result->error.code && r->verdict == LAM_CHECK_PASSES;
     struct json json = {.file = file};
-    json_open(&json, NULL, '{');
-    json_text(&json, "status", "success"); // whether the check ran, not whether the shader passes
-    json_open(&json, "data", '{');
-    json_number(&json, "score", share);
-    json_text(&json, "message",
-              result->error.code ? result->error.text
-              : passes           ? check_verdict_text(r->verdict)
-                                 : check_says(r));
-    json_text(&json, "status", passes ? "success" : share > 0 ? "warning" : "failure");
-    json_close(&json, '}');
-    json_close(&json, '}');
+    json_put(&json, OBJECT(NULL, TEXT("status", "success"), // whether the check ran, not whether the shader passes
+                           OBJECT("data", NUMBER("score", share),
+                                  TEXT("message", result->error.code ? result->error.text
+                                                  : passes           ? check_verdict_text(r->verdict)
+                                                                     : check_says(r)),
+                                  TEXT("status", passes      ? "success"
+                                                 : share > 0 ? "warning"
+                                                             : "failure"))));
     putc('\n', file);
     return fflush(file) == 0 ? 0 : errno;
 }

@@ -158,8 +158,8 @@ static double processor_time_s(pid_t pid)
 // Replaces the process by a new instance of this program. If /proc is missing, starts the program from `path`.
 static void become_worker(const char *memory, const char *path)
 {
-    execl("/proc/self/exe", "lambent", CHECK_WORKER, memory, (char *)NULL);
-    execl(path, "lambent", CHECK_WORKER, memory, (char *)NULL);
+    execl("/proc/self/exe", "lambent-classroom", CHECK_WORKER, memory, (char *)NULL);
+    execl(path, "lambent-classroom", CHECK_WORKER, memory, (char *)NULL);
 }
 
 // The arguments of the drawing process. The arguments are formatted before fork(). After fork() in a process with
@@ -182,7 +182,7 @@ static void work(void *user, int from, int to)
 static bool start(struct child *child, const struct check_process *how, lam_error *error)
 {
     const char *path = (const char *)getauxval(AT_EXECFN);
-    struct worker worker = {.time_limit_s = how->time_limit_s, .path = path ? path : "lambent"};
+    struct worker worker = {.time_limit_s = how->time_limit_s, .path = path ? path : "lambent-classroom"};
     snprintf(worker.memory, sizeof worker.memory, "%llu", (unsigned long long)how->memory_limit_bytes);
     if (!child_start(child, work, &worker))
         return complain(error, LAM_MACHINE, "cannot start the drawing process: %s", strerror(errno));

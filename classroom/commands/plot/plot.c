@@ -9,12 +9,12 @@
 #include <lambent/words.h>
 
 #include "options.h"
-#include "command.h"
+#include "commands.h"
 #include "console.h"
 #include "json.h"
 #include "limit_options.h"
 #include "output.h"
-#include "report.h"
+#include "failure.h"
 #include "terminal.h"
 #include "suggest.h"
 #include "vectors.h"
@@ -275,11 +275,6 @@ static const struct kind kinds[] = {
      180,
      3},
 };
-
-const char *plot_kind(int index)
-{
-    return index >= 0 && index < (int)(sizeof kinds / sizeof *kinds) ? kinds[index].name : NULL;
-}
 
 static const struct kind *find_kind(const char *name, lam_error *error)
 {

@@ -36,7 +36,4 @@ struct plot {
 // Draws the plot over the whole page.
 bool plot_draw(const struct plot *plot, struct drawing *drawing, lam_error *error);
 
-// Returns the kind of plot at a zero-based index, or NULL if the index is out of range.
-const char *plot_kind(int index);
-
 #endif

@@ -3,11 +3,9 @@
 
 #include "behind.h"
 #include "cpu_frame.h"
-#include "environment_lamp.h"
+#include "environment.h"
 #include "fail.h"
-#include "hierarchy.h"
 #include "isa.h"
-#include "light_pattern.h"
 #include "output.h"
 #include "recorder.h"
 #include "srgb.h"
@@ -63,14 +61,14 @@ static void vertex_task(void *user, size_t index, int thread)
     (void)thread;
     struct cpu_frame *cpu = user;
     if (work_continues(&cpu->work))
-        cpu->kernels->vertex_transform(&cpu->raster, &cpu->vertex_chunks[index]);
+        cpu->kernels->raster->vertex_transform(&cpu->raster, &cpu->vertex_chunks[index]);
 }
 
 static void triangle_task(void *user, size_t index, int thread)
 {
     struct cpu_frame *cpu = user;
     if (work_continues(&cpu->work))
-        cpu->kernels->bin_triangles(&cpu->raster, &cpu->bins[thread], &cpu->triangle_chunks[index]);
+        cpu->kernels->raster->bin_triangles(&cpu->raster, &cpu->bins[thread], &cpu->triangle_chunks[index]);
     work_add(&cpu->work, cpu->bins[thread].work);
     cpu->bins[thread].work = 0;
 }
@@ -231,7 +229,7 @@ static bool search_before_lighting(struct cpu_device *device, struct cpu_frame *
         report->normals_ms = advance_ms - device->visible.search_ms;
     if (!ok || !cpu->shade.occlusion)
         return ok;
-    screen_occlusion_find(&cpu->occlusion, cpu->kernels->occlusion, device->pool, cpu->call);
+    screen_occlusion_find(&cpu->occlusion, cpu->kernels->lanes, device->pool, cpu->call);
     report->occlusion_ms = milliseconds_since(clock);
     return step_done(cpu, error);
 }
@@ -256,6 +254,8 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         .shade = {.frame = frame,
                   .decode_srgb = device->decode_srgb,
                   .decode_linear = device->decode_linear,
+                  .ray_kernels = ray_kernels_of(device->kernels->lanes),
+                  .lookups = environment_lookups_of(device->kernels->lanes),
                   .recorder = base->recorder},
         .target = {.frame = frame, .image = converted ? &working : image, .converted = converted ? image : NULL},
         .kernels = device->kernels,
@@ -271,7 +271,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         return false;
     if (!set_up_rays(device, &cpu, error))
         return false;
-    cpu.kernels->resolve_empty(&cpu.target);
+    cpu.kernels->raster->resolve_empty(&cpu.target);
     if (!lam_output_is_light(frame->settings.output))
         output_empty(&cpu.target);
 

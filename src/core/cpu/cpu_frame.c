@@ -41,9 +41,9 @@ static void lay_out_shading(struct suballocator *from, struct shading *shading, 
     if (frame->settings.shading != LAM_SHADING_PHONG)
         lay_out_vertices(from, &shading->vertices, frame->settings.samples);
     ARRAY(shading->batch, 1);
-    shading->shadows = NULL;
+    shading->starts = NULL;
     if (frame_has_rays(frame))
-        ARRAY(shading->shadows, 1);
+        ARRAY(shading->starts, 1);
     if (!light_culling_wanted(frame))
         return;
     size_t lights = (size_t)frame->light_count;

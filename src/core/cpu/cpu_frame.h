@@ -6,7 +6,7 @@
 //  tiles      bins → depth key and triangle number of every sample        cover*.inc, occlusion.inc
 //             translucent triangles → layers over the samples, blended    translucent_fragments.inc, blend.c
 //             samples → fragments (a pixel and a triangle that it shows)  visibility_resolve.inc, fragments.c
-//             fragments → colours                                         shade.inc
+//             fragments → colours                                         shade.c, lights.c
 //             colours → pixels of the picture                             resolve.inc
 //
 #ifndef CPU_FRAME_H
@@ -20,7 +20,7 @@
 #include "light_bounds.h"
 #include "pool.h"
 #include "resolve.h"
-#include "screen_occlusion.h"
+#include "occlusion.h"
 #include "shade_frame.h"
 #include "shading_batch.h"
 

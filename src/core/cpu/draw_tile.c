@@ -9,7 +9,7 @@
 
 static void shade(struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile)
 {
-    cpu->kernels->shade_fragments(&cpu->shade, &thread->fragments, &thread->shading, tile);
+    cpu->kernels->shade->shade_fragments(&cpu->shade, &thread->fragments, &thread->shading, tile);
     work_add(&cpu->work, thread->shading.uncounted);
     thread->shading.uncounted = 0;
     if (thread->shading.ray_layers.failed)
@@ -28,8 +28,8 @@ static void draw_layers(struct cpu_frame *cpu, struct thread_state *thread, cons
         return;
     uint64_t start = now_ns();
     const struct sample_pattern *pattern = cpu->raster.pattern;
-    if (!cpu->kernels->translucent_fragments(&cpu->raster, &thread->samples, &thread->fragments, &thread->layers, tile,
-                                             area)) {
+    if (!cpu->kernels->raster->translucent_fragments(&cpu->raster, &thread->samples, &thread->fragments,
+                                                     &thread->layers, tile, area)) {
         thread->coverage_ns += now_ns() - start;
         int width = area->right - area->left + 1, height = area->bottom - area->top + 1;
         if (width == 1 && height == 1) {
@@ -49,7 +49,7 @@ static void draw_layers(struct cpu_frame *cpu, struct thread_state *thread, cons
         return;
     thread->layers.masked = false;
     if (cpu->shade.frame->masked)
-        cpu->kernels->mask_fragments(&cpu->shade, &thread->fragments, &thread->layers, &thread->shading, tile);
+        cpu->kernels->shade->mask_fragments(&cpu->shade, &thread->fragments, &thread->layers, &thread->shading, tile);
     if (output_is_value(cpu->shade.frame->settings.output)) {
         show_layers(pattern, &thread->fragments, &thread->layers, &thread->samples);
         thread->coverage_ns += now_ns() - start;
@@ -100,7 +100,7 @@ static void resolve_into(const struct resolve_target *target, const struct cpu_f
     const struct kernels *kernels = cpu->kernels;
     lam_output output = target->frame->settings.output;
     if (lam_output_is_light(output)) {
-        kernels->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
+        kernels->raster->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
         if (cpu->shade.recorder)
             recording_kernels.record_pixel(cpu, thread, tile);
         return;
@@ -109,9 +109,9 @@ static void resolve_into(const struct resolve_target *target, const struct cpu_f
         lam_image image = {
             .width = tile->width, .height = tile->height, .format = LAM_RGBA32F, .pixels = thread->sums.unclipped};
         struct resolve_target tile_target = {.frame = target->frame, .image = &image};
-        kernels->resolve_empty(&tile_target);
-        kernels->resolve(&tile_target, &thread->fragments, &thread->samples, &thread->sums,
-                         &(struct tile){0, 0, tile->width, tile->height});
+        kernels->raster->resolve_empty(&tile_target);
+        kernels->raster->resolve(&tile_target, &thread->fragments, &thread->samples, &thread->sums,
+                                 &(struct tile){0, 0, tile->width, tile->height});
     }
     output_tile(target, &thread->fragments, &thread->samples, &thread->sums, tile);
 }
@@ -121,7 +121,7 @@ static void resolve_tile(const struct cpu_frame *cpu, struct thread_state *threa
     const struct resolve_target *target = &cpu->target;
     const lam_image *converted = target->converted;
     if (target->behind) {
-        cpu->kernels->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
+        cpu->kernels->raster->resolve(target, &thread->fragments, &thread->samples, &thread->sums, tile);
         return;
     }
     if (!converted) {
@@ -172,10 +172,10 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
         return;
     }
     if (store) {
-        kernels->load_fragments(store, &thread->fragments, cpu->raster.frame->settings.samples);
+        kernels->raster->load_fragments(store, &thread->fragments, cpu->raster.frame->settings.samples);
         thread->samples.translucent_triangles = 0;
     } else {
-        kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
+        kernels->raster->cover_tile(&cpu->raster, &thread->samples, &tile);
         if (!work_continues(&cpu->work))
             return;
         if (thread->samples.translucent_triangles) {
@@ -186,7 +186,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
             start = now_ns();
         }
         thread->pixels_covered +=
-            kernels->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
+            kernels->raster->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
     }
     group_fragments(cpu->raster.frame, &thread->fragments);
     uint64_t covered = now_ns();

@@ -1,6 +1,6 @@
-// kernels.h: the table of performance-critical functions. The source is compiled once for each instruction set
-// (kernels.c). The results of all versions are bit-identical to those that `scalar` computes. A step accesses only its
-// parameters. The parameters that it does not change are const.
+// kernels.h: the tables of performance-critical functions. raster/raster.c, shade/shade.c and lights/lights.c are compiled
+// once for each instruction set, with LANES and ISA defined. The results of all versions are bit-identical to those that
+// `scalar` computes. A step accesses only its parameters. The parameters that it does not change are const.
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -19,7 +19,6 @@ struct raster_frame;
 struct rectangle;
 struct resolve_target;
 struct sample_pattern;
-struct occlusion_kernels;
 struct screen_occlusion;
 struct shade_frame;
 struct shading;
@@ -29,10 +28,8 @@ struct tile;
 struct tile_samples;
 struct vertex_run;
 
-struct kernels {
-    const char *name;
-    int lanes;
-
+// The steps that find visible surfaces, and that write pixels (raster/raster.c).
+struct raster_kernels {
     // Writes the x, y and depth key of the task's vertices to raster->vertices. For a vertex that needs clipping, x is
     // a NaN that encodes the planes (clip.h). The tasks may run in any order and on any thread. Only indexed meshes
     // have vertex tasks.
@@ -55,11 +52,6 @@ struct kernels {
                                   struct fragments *fragments, struct layer_rows *rows, const struct tile *tile,
                                   const struct rectangle *area);
 
-    // Removes samples of masked surfaces from the rows of listed fragments if the opacity at the sample is below the
-    // cutoff. Sets rows->masked if a fragment belongs to a masked surface.
-    void (*mask_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct layer_rows *rows,
-                           struct shading *shading, const struct tile *tile);
-
     // Lists the opaque fragments of the tile's pixels inside the picture, and fills in the rows id, pixel, weight and
     // sample. The fragments of a pixel are consecutive. The order is given by one sample of each fragment: the nearest
     // to the pixel's centre among the samples that show the fragment. Returns the number of pixels with fragments.
@@ -73,19 +65,10 @@ struct kernels {
     // Restores the rows id, pixel, weight and sample of the stored fragments.
     void (*load_fragments)(const struct fragment_store *store, struct fragments *fragments, int samples);
 
-    // Fills in the colours of grouped fragments.
-    void (*shade_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct shading *shading,
-                            const struct tile *tile);
-
-    // Computes the lighting of the vertices of a run, and stores it in shading->vertices.color and .rest
-    // (vertex_colors.h).
-    void (*light_vertices)(const struct shade_frame *shade, struct shading *shading, const struct vertex_run *run);
-
     // Stores the depths of the surfaces in a tile, after its triangles are drawn. Ambient occlusion is computed from
     // these depths later.
     void (*depth_of_tile)(const struct raster_frame *raster, const struct tile_samples *samples,
                           const struct tile *tile, struct screen_occlusion *occlusion);
-    const struct occlusion_kernels *occlusion;
 
     // Sums the fragments' colours in their pixels, weighted by samples, and writes the tile to the picture. If the tile
     // has translucent layers, they are blended over these sums. Pixels without fragments are set to
@@ -97,7 +80,30 @@ struct kernels {
     void (*resolve_empty)(struct resolve_target *target);
 };
 
-// The shading functions of the `scalar` version, with hooks that record the values of one pixel (record.inc).
+// The steps that compute colours (shade/shade.c).
+struct shade_kernels {
+    // Removes samples of masked surfaces from the rows of listed fragments if the opacity at the sample is below the
+    // cutoff. Sets rows->masked if a fragment belongs to a masked surface.
+    void (*mask_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct layer_rows *rows,
+                           struct shading *shading, const struct tile *tile);
+
+    // Fills in the colours of grouped fragments.
+    void (*shade_fragments)(const struct shade_frame *shade, struct fragments *fragments, struct shading *shading,
+                            const struct tile *tile);
+
+    // Computes the lighting of the vertices of a run, and stores it in shading->vertices.color and .rest
+    // (vertex_colors.h).
+    void (*light_vertices)(const struct shade_frame *shade, struct shading *shading, const struct vertex_run *run);
+};
+
+struct kernels {
+    const char *name;
+    int lanes;
+    const struct raster_kernels *raster;
+    const struct shade_kernels *shade;
+};
+
+// The shading functions of the `scalar` version, with hooks that record the values of one pixel (record.h).
 struct recording_kernels {
     // Records the explained pixel's fragments after they are shaded.
     void (*record_fragments)(const struct cpu_frame *cpu, struct thread_state *thread, const struct tile *tile);
@@ -106,12 +112,5 @@ struct recording_kernels {
 };
 
 extern const struct recording_kernels recording_kernels;
-// A web module may be linked without the scalar version, because every browser supports SIMD (web/meson.build).
-#if defined(__wasm_simd128__)
-extern const struct kernels kernels_scalar __attribute__((weak));
-#else
-extern const struct kernels kernels_scalar;
-#endif
-extern const struct kernels kernels_sse4, kernels_avx2, kernels_avx512, kernels_neon, kernels_wasm;
 
 #endif

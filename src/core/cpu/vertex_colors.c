@@ -10,7 +10,7 @@
 // The arrays, stored consecutively in one block.
 struct arrays {
     struct shading_batch batch; // comes first, because it is aligned to cache lines
-    struct shadow_rows shadows;
+    struct ray_starts starts;
     uint32_t key[VERTEX_RUN_MAX][4];
     float color[VERTEX_RUN_MAX][4], rest[VERTEX_RUN_MAX][3];
 };
@@ -30,7 +30,7 @@ bool vertex_colors_start(struct vertex_colors *colors, const struct frame *frame
     struct arrays *arrays = colors->storage.data;
     struct shading *shading = &colors->shading;
     shading->batch = &arrays->batch;
-    shading->shadows = &arrays->shadows;
+    shading->starts = &arrays->starts;
     shading->vertices.key = arrays->key;
     shading->vertices.color = arrays->color;
     shading->vertices.rest = arrays->rest;
@@ -46,6 +46,8 @@ bool vertex_colors_start(struct vertex_colors *colors, const struct frame *frame
                                          .environment_light = light,
                                          .hierarchy = hierarchy,
                                          .light_pattern = &colors->pattern,
+                                         .ray_kernels = ray_kernels_of(colors->kernels->lanes),
+                                         .lookups = environment_lookups_of(colors->kernels->lanes),
                                          .decode_srgb = colors->decode_srgb,
                                          .decode_linear = colors->decode_linear};
     return colors->shade.materials != NULL;
@@ -53,7 +55,7 @@ bool vertex_colors_start(struct vertex_colors *colors, const struct frame *frame
 
 void vertex_colors_light(struct vertex_colors *colors, const struct vertex_run *run)
 {
-    colors->kernels->light_vertices(&colors->shade, &colors->shading, run);
+    colors->kernels->shade->light_vertices(&colors->shade, &colors->shading, run);
 }
 
 uint64_t vertex_colors_bytes(const struct vertex_colors *colors)

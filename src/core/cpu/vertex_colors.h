@@ -3,7 +3,6 @@
 #ifndef VERTEX_COLORS_H
 #define VERTEX_COLORS_H
 
-#include "light_pattern.h"
 #include "shade_frame.h"
 #include "shading_batch.h"
 

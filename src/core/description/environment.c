@@ -1,7 +1,7 @@
 // environment.c: reads the environment of a scene file: pictures beside the scene file, or a built-in
 // environment.
 #include "companion.h"
-#include "cube_map.h"
+#include "environment.h"
 #include "fail.h"
 #include "linear.h"
 #include "description.h"

@@ -9,6 +9,7 @@
 
 #include "companion.h"
 #include "fail.h"
+#include "prepare.h"
 
 #include <lambent/material.h>
 

@@ -6,7 +6,8 @@
 #include "frame.h"
 
 #include "encoding.h"
-#include "lighting.h"
+#include "prelude_c.h"
+#include "tone.h"
 
 #include <string.h>
 

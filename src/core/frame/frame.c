@@ -1,8 +1,8 @@
 // frame.c: builds a frame from a scene, a camera and the draw parameters.
 #include "frame.h"
 
-#include "cube_map.h"
-#include "environment_samples.h"
+#include "edges.h"
+#include "environment.h"
 #include "fail.h"
 #include "fields.h"
 #include "frame_ground.h"
@@ -10,9 +10,12 @@
 #include "frame_strokes.h"
 #include "linear.h"
 #include "normals.h"
+#include "rays.h"
 #include "settings_check.h"
 #include "up_axis.h"
 #include "view_extents.h"
+
+#include <lambent/light.h>
 
 // Devices use the top bit of triangle numbers for other purposes.
 #define TRIANGLES_MAX 0x7fffffffu
@@ -174,8 +177,9 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     size_t materials = 4 * ((size_t)scene->materials.count + 1) + 1,
            converted = frame_materials_to_convert(frame, scene);
     size_t bytes = objects * sizeof *frame->draws + ranges * sizeof *frame->ranges + lights * sizeof *frame->lights +
-                   lights * sizeof *frame->hemispheres + materials * sizeof *frame->materials +
-                   converted * sizeof *frame->converted + strokes * sizeof *frame->stroke_meshes + 64;
+                   lights * sizeof *frame->hemispheres + (LAM_RIG_LIGHTS_MAX + 1) * sizeof *frame->rig +
+                   materials * sizeof *frame->materials + converted * sizeof *frame->converted +
+                   strokes * sizeof *frame->stroke_meshes + 64;
     if (!buffer_reserve(&frame->storage, bytes, call, error))
         return false;
     char *at = frame->storage.data;
@@ -192,6 +196,8 @@ static bool allocate_arrays(struct frame *frame, const lam_scene *scene, struct 
     at += lights * sizeof *frame->lights;
     frame->hemispheres = (void *)at;
     at += lights * sizeof *frame->hemispheres;
+    frame->rig = (void *)at;
+    at += (LAM_RIG_LIGHTS_MAX + 1) * sizeof *frame->rig;
     frame->ranges = (void *)at;
     return true;
 }
@@ -297,6 +303,7 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     bool shown = lam_output_is_light(settings->output) || settings->output == LAM_OUTPUT_CLIPPED;
     bool one_number = settings->output == LAM_OUTPUT_AMBIENT_OCCLUSION;
     bool automatic = !settings->occlusion;
+    wanted &= ray_kernels_of(1) != NULL; // false in a build without effects
     if (automatic)
         settings->occlusion =
             one_number || (wanted && settings->shading == LAM_SHADING_PHONG) ? LAM_OCCLUSION_SCREEN : LAM_OCCLUSION_OFF;

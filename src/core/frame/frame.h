@@ -193,7 +193,7 @@ struct frame {
     // diffuse light excludes this lamp.
     bool separate_lamp;
 
-    lam_light rig[LAM_RIG_LIGHTS_MAX + 1];
+    lam_light *rig; // LAM_RIG_LIGHTS_MAX + 1
     int rig_count;
     lam_material default_material;
     struct frame_ground ground;
@@ -215,13 +215,6 @@ static inline bool frame_has_rays(const struct frame *frame)
     return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
-// Sets the members that rays need, and determines whether any light casts shadows. The draws and lights must have been
-// built.
-void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view);
-
-// Sets draws_edges and `edges`. `pixel` is the matrix from eye space to pixels.
-void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
-
 // Returns whether a draw's triangles cast shadows.
 static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }
 
@@ -238,6 +231,9 @@ static inline void frame_to_world(const struct frame_draw *draw, const float fro
 
 // Returns whether a reflection model lights physical materials.
 bool frame_is_physical(lam_reflection model);
+// Returns the factor of a classic material's exponent: a Phong highlight with the exponent α/4 looks like a Blinn–Phong
+// highlight with α.
+float frame_exponent_share(lam_reflection model);
 
 // Returns the maximum number of materials that frame_materials_build and frame_back_material convert to the other kind.
 size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene);

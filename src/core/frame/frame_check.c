@@ -3,6 +3,7 @@
 
 #include "fail.h"
 #include "linear.h"
+#include "rays.h"
 #include "settings_check.h"
 
 bool frame_camera_check(const lam_camera *camera, lam_error *error)
@@ -82,8 +83,23 @@ static bool rules_check(const lam_draw_params *params, lam_error *error)
     return true;
 }
 
+// In a build without effects, checks that none is asked for.
+static bool effects_check(const lam_draw_params *params, lam_error *error)
+{
+    const char *wanted = params->shadows                      ? "shadows"
+                         : params->ground                     ? "the shadow on a ground"
+                         : params->edges || params->wireframe ? "edges"
+                         : params->cavity == LAM_CAVITY_ON    ? "cavity shading"
+                         : params->occlusion > LAM_OCCLUSION_OFF || params->output == LAM_OUTPUT_AMBIENT_OCCLUSION
+                             ? "ambient occlusion"
+                             : NULL;
+    return ray_kernels_of(1) || !wanted ||
+           fail(error, LAM_UNSUPPORTED,
+                "this build of lambent cannot draw %s: its effects were left out (-Deffects=false)", wanted);
+}
+
 bool frame_params_check(const lam_draw_params *params, lam_error *error)
 {
     return check_reserved("lam_draw_params", params, error) && others_check(params, error) &&
-           settings_check(params, error) && rules_check(params, error);
+           settings_check(params, error) && rules_check(params, error) && effects_check(params, error);
 }

@@ -2,11 +2,13 @@
 // the environment.
 #include "frame_lights.h"
 
-#include "environment_lamp.h"
+#include "environment.h"
 #include "fail.h"
 #include "fields.h"
 #include "linear.h"
 #include "up_axis.h"
+
+#include <lambent/light.h>
 
 #include <string.h>
 

@@ -12,6 +12,8 @@ const lam_map frame_lod_maps[LOD_MAPS] = {LAM_MAP_DIFFUSE,   LAM_MAP_ROUGHNESS, 
 
 bool frame_is_physical(lam_reflection model) { return lobe_properties((int)model) & LOBE_MICROFACET; }
 
+float frame_exponent_share(lam_reflection model) { return lobe_properties((int)model) & LOBE_MIRRORED ? 0.25f : 1.0f; }
+
 lam_reflection frame_reflection(const struct frame *frame, const lam_material *material)
 {
     if (frame->settings.reflection != LAM_REFLECTION_AUTO)
@@ -33,9 +35,7 @@ static lam_material converted(const lam_material *material, lam_reflection model
     if (frame_is_physical(model))
         return lam_material_as_physical(material);
     lam_material classic = lam_material_as_classic(material);
-    // a Phong highlight with the exponent α/4 looks like a Blinn–Phong highlight with α
-    if (lobe_properties((int)model) & LOBE_MIRRORED)
-        classic.shininess /= 4;
+    classic.shininess *= frame_exponent_share(model);
     return classic;
 }
 

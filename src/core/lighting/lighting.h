@@ -1,7 +1,6 @@
 // lighting.h: the equations in C. Define LANES as 1, 4, 8 or 16 before including this file (src/core/base/math/lanes.h).
 //
-// In GLSL, prelude.glsl and the files of the equations are concatenated in this order. These files therefore have no
-// include guards.
+// In GLSL, prelude.glsl and the files of the equations are concatenated in this order.
 #ifndef LIGHTING_H
 #define LIGHTING_H
 
@@ -10,6 +9,7 @@
 #include <lambent/device.h>
 #include <lambent/material.h>
 
+#include "surface.h"
 #include "lobes.h"
 #include "light_kinds.h"
 #include "lights.h"
@@ -20,5 +20,17 @@
 #include "layers.h"
 #include "refraction.h"
 #include "tone.h"
+
+// LANES points of a physical material, for sums of light from many directions.
+STRUCT(physical_point)
+{
+    surface s;
+    lobe_parameters m;
+    fresnel f; // used without layers
+    vec3 kd;
+    int model;       // the reflection model
+    int layers;      // LAYER_…; 0 for a material without layers
+    layered layered; // used with layers
+};
 
 #endif

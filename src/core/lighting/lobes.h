@@ -11,14 +11,6 @@
 // with a brace, and the closing brace is below the `if`. A struct has one member per line. A comment precedes its
 // definition without an empty line between them. clang-format preserves all of this.
 
-STRUCT(surface)
-{
-    vec3 p; // the point
-    vec3 n; // the surface's normal, on the visible side
-    vec3 v; // towards the eye
-    vec3 t; // along the surface, perpendicular to n; for the lobes of threads
-};
-
 // The response to light from one direction, before the highlight is raised to its power.
 STRUCT(lobe_sample)
 {
@@ -35,29 +27,6 @@ STRUCT(lobe_value)
     num n_dot_l;  // as above
     num base;     // as above, 0...1
 };
-
-// Clamps a dot product of unit vectors to -1...1, which rounding may exceed.
-FN num cosine(num x) { return min_of(max_of(x, num_of(-1.0f)), num_of(1.0f)); }
-
-// Returns whether a direction exists: it is not the zero vector.
-FN mask present(vec3 w) { return dot3(w, w) > 0.0f; }
-
-// Returns the mirror image of w about n:
-//    2 (n.w) n - w
-// For l, the result is the r of textbooks. For v, it is the direction in which an environment is looked up.
-FN vec3 mirror3(vec3 w, vec3 n) { return sub3(scale3(n, 2.0f * dot3(n, w)), w); }
-
-// Returns the unit vector halfway between l and v, both of length 1.
-FN vec3 halfway3(vec3 l, vec3 v) { return unit3(add3(l, v)); }
-
-// Returns the component of w perpendicular to n, as a unit vector (Gram and Schmidt). Returns 0 if w is parallel to n,
-// that is, if |w x n| < 1e-4 |w|; the component would then be only rounding error.
-FN vec3 perpendicular3(vec3 w, vec3 n)
-{
-    vec3 across = sub3(w, scale3(n, dot3(n, w)));
-    mask along = dot3(across, across) < 1.0e-8f * dot3(w, w);
-    return unit3(pick3(along, vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f)), across));
-}
 
 // Lambert (1760): a matt surface reflects light evenly in all directions, and receives less light at oblique angles:
 //    D = max(n.l, 0)
@@ -203,9 +172,6 @@ FN num eye_cosine(surface s) { return min_of(absolute(dot3(s.n, s.v)), num_of(1.
 // Fresnel factor of a dielectric. The factor pi is needed because a matt surface returns kd here, not kd / pi. The
 // textbook form (n.h)^2 (alpha^2 - 1) + 1 of D's bracket loses three digits on smooth surfaces. h.v is |l + v| / 2,
 // which is 0 only for opposite directions.
-//
-// Below ROUGHNESS_MIN, the highlight of a light without a size would be smaller than a pixel.
-#define ROUGHNESS_MIN 0.045f
 
 // Schlick (1994): a microfacet reflects f0 + (1 - f0) (1 - v.h)^5; returns the power (1 - v.h)^5. v.h = |l + v| / 2.
 FN num schlick_weight(vec3 v, vec3 l)
@@ -215,9 +181,6 @@ FN num schlick_weight(vec3 v, vec3 l)
     num square = m * m;
     return square * square * m;
 }
-
-// The reflectance of a dielectric along its normal, for an index of refraction of 1.5.
-#define DIELECTRIC_F0 0.04f
 
 // Returns the microfacets' visibility times 2 n.l: n.l / (n.l root(...) + |n.v| root(...)).
 FN num smith_visibility(num n_dot_l, num n_dot_v, num alpha_square)

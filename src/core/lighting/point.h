@@ -1,6 +1,7 @@
 // point.h: a point before lighting: its normal and tangent, and the material after its maps.
 //
 // The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl).
+#pragma once
 
 // Returns the tangent of a surface without tangents. It runs around the mesh's y axis, like the marks of a lathe, or
 // along x if n is parallel to y. n is unit; y and x are the mesh's axes in eye space.

@@ -21,33 +21,6 @@ STRUCT(hemisphere)
     vec3 sky, ground;
 };
 
-// The viewer is at the eye's position (local), or infinitely far in front of the scene, as for an orthographic camera.
-#define VIEWER_LOCAL    0
-#define VIEWER_INFINITE 1
-
-FN vec3 black3(void) { return vec3_of(num_of(0.0f), num_of(0.0f), num_of(0.0f)); }
-
-// Returns the direction from p to the eye, which is at the origin of eye space.
-FN vec3 to_eye(vec3 p, int viewer)
-{
-    vec3 v = vec3_of(num_of(0.0f), num_of(0.0f), num_of(1.0f));
-    if (viewer == VIEWER_LOCAL) {
-        v = unit3(negate3(p));
-    }
-    return v;
-}
-
-// Builds a surface from interpolated values; the normal and tangent need not be unit vectors.
-FN surface surface_at(vec3 p, vec3 normal, vec3 tangent, int viewer)
-{
-    surface s;
-    s.p = p;
-    s.n = unit3(normal);
-    s.v = to_eye(p, viewer);
-    s.t = perpendicular3(tangent, s.n);
-    return s;
-}
-
 // Returns the terms before any light is added: ambient = ka * (La global + sum of the lights' La), and the surface's
 // emission.
 FN terms start_terms(vec3 ambient, vec3 emission)

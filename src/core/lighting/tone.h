@@ -2,6 +2,7 @@
 //
 // The same source is compiled as C and as GLSL (prelude_c.h, prelude.glsl). Colours have the primaries of sRGB, and no
 // channel is below 0.
+#pragma once
 
 // Reinhard, Stark, Shirley and Ferwerda (2002), for each channel:
 //    x / (1 + x)

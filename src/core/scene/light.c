@@ -4,6 +4,7 @@
 #include "linear.h"
 
 #include <lambent/light.h>
+#include <lambent/scene.h>
 
 // Also sets the fields of other light types, because a program may change the type later.
 lam_light lam_light_default(lam_light_type type)
@@ -93,7 +94,7 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
 //
 // Only the key light casts shadows (--shadows, --ground), and these shadows are soft. The other lights represent large
 // bright surfaces; ambient occlusion approximates the shadows of their light.
-static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
+static int studio(lam_light *lights)
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);
     lights[0].name = "key";
@@ -118,7 +119,7 @@ static int studio(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 4;
 }
 
-static int headlight(lam_light lights[LAM_RIG_LIGHTS_MAX])
+static int headlight(lam_light *lights)
 {
     lights[0] = camera_light("headlight", v3(0.0, 0.0, 1.0), 1.0f, 1.0f);
     return 1;
@@ -126,7 +127,7 @@ static int headlight(lam_light lights[LAM_RIG_LIGHTS_MAX])
 
 // Returns three lights as in portrait photography. The sum of all lights is at most 0.8 + 0.4·cos 73° + 0.05, which is
 // below 1. The key light is twice as strong as the fill light.
-static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
+static int three_point(lam_light *lights)
 {
     lights[0] = camera_light("key", v3(-1.0, 1.0, 1.0), 0.8f, 0.8f);
     lights[1] = camera_light("fill", v3(1.0, 0.25, 1.0), 0.4f, 0.4f);
@@ -138,7 +139,7 @@ static int three_point(lam_light lights[LAM_RIG_LIGHTS_MAX])
 }
 
 // Returns the light used by the first program of a typical lighting course.
-static int lecture(lam_light lights[LAM_RIG_LIGHTS_MAX])
+static int lecture(lam_light *lights)
 {
     lights[0] = lam_light_default(LAM_LIGHT_POINT);
     lights[0].name = "lecture";
@@ -147,7 +148,7 @@ static int lecture(lam_light lights[LAM_RIG_LIGHTS_MAX])
     return 1;
 }
 
-int lam_rig_lights(lam_rig rig, lam_light lights[LAM_RIG_LIGHTS_MAX])
+int lam_rig_lights(lam_rig rig, lam_light *lights)
 {
     switch (rig) {
     case LAM_RIG_STUDIO:

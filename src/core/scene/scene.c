@@ -1,11 +1,12 @@
 // scene.c: the scene's storage: creation, growth, preparation and access.
 #include "scene_internal.h"
 
-#include "cube_map.h"
+#include "environment.h"
 #include "fail.h"
 #include "linear.h"
 #include "normals.h"
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 #include <lambent/text.h>
 

@@ -8,6 +8,7 @@
 #include "linear.h"
 #include "normals.h"
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 #include <stdio.h>

@@ -160,13 +160,6 @@ int scene_add_shape(struct lam_scene *scene, const char *shape, const lam_shape_
                     struct call_control *call, lam_error *error);
 int scene_add_formula(struct lam_scene *scene, const lam_formula *formula, struct call_control *call, lam_error *error);
 
-// Repairs the meshes of a file directly after it is read. Triangles, lines and points that use a vertex whose position
-// is not finite are left out, and a file without any other fails with LAM_CANNOT_READ. A normal that is zero or not
-// finite is no normal. If a mesh contains no other normal, its array is dropped; otherwise the missing normals are
-// computed, and lines and points without a normal become a mesh without normals. Adds one warning for each kind.
-bool scene_repair(struct lam_scene *scene, const char *name, lam_normals normals, double crease_angle_rad,
-                  struct pool *pool, lam_error *error);
-
 // Prepares every mesh for drawing: computes missing normals, or all normals if `normals` requests that.
 bool scene_prepare(struct lam_scene *scene, lam_normals normals, double crease_angle_rad, struct pool *pool,
                    struct call_control *call, lam_error *error);
@@ -175,14 +168,6 @@ void scene_defer_normals(struct lam_scene *scene, lam_normals normals, double cr
 
 // Returns whether at least one mesh has no tangents, although the mesh's material uses a normal map.
 bool scene_needs_tangents(const struct lam_scene *scene);
-
-// Assigns a white material to surfaces that have vertex colours but no material, because the default grey would darken
-// the colours. Call this function directly after a scene is read. Returns false if memory runs out.
-bool scene_give_colors_white(struct lam_scene *scene, lam_error *error);
-// Computes MikkTSpace tangents for meshes without tangents whose material uses a normal map. If `all` is set, every
-// mesh that has normals and texture coordinates but no tangents gets MikkTSpace tangents. The tangents follow the
-// texture coordinates of the normal map. The memory counts towards the limit of `call`.
-bool scene_make_tangents(struct lam_scene *scene, bool all, struct call_control *call, lam_error *error);
 
 // Checks a mesh, copies it to the scene's arena and computes its missing normals. Fails with LAM_BAD_ARGUMENT or
 // LAM_LIMIT.

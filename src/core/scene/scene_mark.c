@@ -3,6 +3,7 @@
 
 #include "fail.h"
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 #include <string.h>

@@ -2,10 +2,12 @@
 // the tone curve.
 #include "scene_internal.h"
 
+#include "environment.h"
 #include "linear.h"
 #include "up_axis.h"
 
 #include <lambent/device.h>
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 #include <float.h>
@@ -17,7 +19,8 @@
 
 bool scene_lit_by_environment(const struct lam_scene *scene)
 {
-    if (scene->lights.count)
+    if (scene->lights.count ||
+        (!scene->environment && !environment_lookups_of(1))) // a build without effects has no studio
         return false;
     int physical = 0, classic = 0;
     for (int i = scene->materials.count ? 0 : -1; i < scene->materials.count; i++) {
@@ -134,7 +137,7 @@ static void place_rig_light(const lam_scene *scene, lam_light *light)
     light->attenuation.quadratic = divided(light->attenuation.quadratic, radius * radius);
 }
 
-int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light lights[LAM_RIG_LIGHTS_MAX])
+int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light *lights)
 {
     if (rig == LAM_RIG_AUTO)
         rig = lam_scene_light_count(scene) || scene_lit_by_environment(scene) ? LAM_RIG_NONE : LAM_RIG_STUDIO;

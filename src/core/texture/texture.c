@@ -1,5 +1,4 @@
-// texture.c: makes textures from pictures: decoding, levels, reference counts.
-#include "codec.h"
+// texture.c: makes textures from pictures: levels, reference counts.
 #include "fail.h"
 #include "float_state.h"
 #include "pages.h"
@@ -173,59 +172,18 @@ struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values
             take_bytes(texture, image);
         mipmaps_make(texture);
     }
-    if (image->pixels)
-        picture_free(call, image);
+    if (image->pixels && call)
+        call_refund(call, pixels_of(image) * pixel_bytes(image->format));
+    lam_image_free(image);
     return texture;
 }
 
-// --- pictures from files
-
-// Decodes the sRGB-encoded 16-bit values of a picture to linear values.
-static bool decode_wide(lam_image *image, lam_error *error)
-{
-    size_t count = (size_t)image->width * (size_t)image->height;
-    float *table = malloc(65536 * sizeof *table), *pixel = image->pixels;
-    if (!table)
-        return fail_memory(error, 65536 * sizeof *table);
-    for (int i = 0; i < 65536; i++)
-        table[i] = (float)srgb_linear(i / 65535.0);
-    for (size_t i = 0; i < count; i++, pixel += 4)
-        for (int channel = 0; channel < 3; channel++)
-            pixel[channel] = table[(int)(pixel[channel] * 65535.0f + 0.5f)];
-    free(table);
-    return true;
-}
-
-static void unpremultiply(lam_image *image)
+void texture_unpremultiply(lam_image *image)
 {
     float *pixel = image->pixels;
     for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++, pixel += 4)
         for (int channel = 0; channel < 3 && pixel[3] > 0 && pixel[3] < 1; channel++)
             pixel[channel] /= pixel[3];
-}
-
-struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
-                                   struct call_control *call, lam_error *error)
-{
-    struct picture_file file = {bytes, size, name, call};
-    lam_image image;
-    bool wide = false;
-    uint64_t state = float_state_enter();
-    bool ok = picture_decode_wide(&file, &wide, &image, error);
-    if (ok && wide && values == LAM_TEXTURE_COLOR) {
-        ok = decode_wide(&image, error);
-        if (!ok)
-            picture_free(call, &image);
-    } else if (ok && !wide && image.format == LAM_RGBA32F)
-        unpremultiply(&image);
-    struct lam_texture *texture = ok ? texture_of_image(&image, values, name, call, error) : NULL;
-    float_state_leave(state);
-    return texture;
-}
-
-bool texture_is_optional(const lam_error *error)
-{
-    return error->code == LAM_CANNOT_READ || error->code == LAM_UNSUPPORTED || error->code == LAM_BAD_ARGUMENT;
 }
 
 // --- public functions
@@ -243,7 +201,7 @@ lam_texture *lam_texture_make(const lam_image *image, lam_texture_values values,
         return NULL;
     uint64_t state = float_state_enter();
     if (copy.format == LAM_RGBA32F)
-        unpremultiply(&copy);
+        texture_unpremultiply(&copy);
     struct lam_texture *texture = texture_of_image(&copy, values, name, NULL, error);
     float_state_leave(state);
     return texture;

@@ -72,13 +72,8 @@ static inline texel texel_at(const struct lam_texture *texture, int level, int x
 struct lam_texture *texture_of_image(lam_image *image, lam_texture_values values, const char *name,
                                      struct call_control *call, lam_error *error);
 
-// Makes a texture from the bytes of a picture file. With LAM_COLOR_RAW as `color`, colours are used without conversion.
-struct lam_texture *texture_decode(const void *bytes, size_t size, const char *name, lam_texture_values values,
-                                   struct call_control *call, lam_error *error);
-
-// Returns whether a model may be loaded without a texture if texture_decode failed with this error. If not, loading the
-// model fails.
-bool texture_is_optional(const lam_error *error);
+// Divides the colours of a picture of floats by their alpha.
+void texture_unpremultiply(lam_image *image);
 
 // Adds a reference.
 struct lam_texture *texture_share(const struct lam_texture *texture);

@@ -14,9 +14,6 @@
 // 2⁻²⁴, coordinates may be up to 16 times the size of the model (lam_mesh.origin), and text files have six digits.
 #define ROUNDING 0x1p-19
 
-#define JOIN_(a, b) a##_##b
-#define JOIN(a, b)  JOIN_(a, b)
-
 // Returns true if the triangle hides points: it is not culled, is not glass, and is opaque at the intersection with
 // this lane's ray.
 static bool is_solid(const struct edge_view *view, const struct ray_triangle *triangle, const struct ray_lanes *ray,
@@ -85,9 +82,9 @@ static void set_ray(struct ray_lanes *ray, int lane, const struct edge_view *vie
     ray->own[lane] = NO_TRIANGLE;
 }
 
-edge_rays JOIN(edge_rays, ISA);
-void JOIN(edge_rays, ISA)(const struct edge_view *view, const struct edge_line *lines, const struct edge_point *points,
-                          size_t count, uint8_t *hidden)
+edge_rays FOR_ISA(edge_rays);
+void FOR_ISA(edge_rays)(const struct edge_view *view, const struct edge_line *lines, const struct edge_point *points,
+                        size_t count, uint8_t *hidden)
 {
     struct ray_lanes ray;
     for (size_t i = 0; i < count; i += LANES) {

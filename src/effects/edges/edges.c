@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-edge_rays edge_rays_scalar, edge_rays_avx2, edge_rays_avx512;
+CPU_VERSIONS(edge_rays, edge_rays);
 
 // --- the list of edges
 
@@ -230,7 +230,7 @@ bool edges_find(struct edge_memory *memory, const struct frame *frame, const str
     struct loop_status loop = {.call = call};
     struct search search = {.memory = memory};
     // The functions for all instruction sets compute identical results.
-    search.rays_of = CPU_WIDEST(lanes, edge_rays_scalar, edge_rays_avx2, edge_rays_avx512);
+    search.rays_of = CPU_WIDEST(lanes, edge_rays);
     if (!is_listed(memory, frame) && !list(memory, frame, call, error))
         return false;
     if (!reserve_threads(memory, pool_threads(pool), call, error))

@@ -6,8 +6,8 @@
 #ifndef EDGES_H
 #define EDGES_H
 
-#include "hierarchy.h"
 #include "mesh_edges.h"
+#include "rays.h"
 
 struct edge_stroke;
 
@@ -37,6 +37,9 @@ struct edge_memory {
 struct edge_counts {
     uint64_t drawn, rays;
 };
+
+// Sets draws_edges and `edges`. `pixel` is the matrix from eye space to pixels.
+void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
 
 // Finds the lines of a frame, and computes the fraction of each pixel that the lines cover. draws_edges of the frame
 // must be set. `hierarchy` belongs to the frame. `lanes` is the maximum number of rays traced at a time.

@@ -1,5 +1,5 @@
 // cube_map.c: implements cube maps in memory: reference counting and lookup.
-#include "environment_light.h"
+#include "environment.h"
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"

@@ -39,35 +39,10 @@ static inline size_t cube_bytes(int size)
     return ((size_t)size + 2) * ((size_t)size + 2) * LAM_FACE_COUNT * 3 * sizeof(float);
 }
 
-// Opens the file of picture number `index`; the caller releases the file. Error messages use *name as the file's name.
-struct call_control;
-struct file_bytes;
-struct picture_source {
-    bool (*open)(void *user, int index, struct call_control *call, struct file_bytes *file, const char **name,
-                 lam_error *error);
-    void *user;
-};
-
-// Makes an environment from one picture or from six faces (`count` is 1 or 6), which are read one after the other.
-// `call` may be NULL. The environment's memory counts towards the call's memory limit, even after this function
-// returns.
-struct lam_environment *environment_read(const struct picture_source *source, int count, lam_color_mode color,
-                                         struct call_control *call, lam_error *error);
-
 // Computes the texels of the borders from the texels of the faces.
 void cube_close(struct lam_environment *cube);
 
 // Computes the direction of a point on a face: major · axis + across · s + down · t (the inverse of OpenGL's table).
 void cube_direction(int face, double major, double across, double down, double out[3]);
-
-// The built-in studio environment. The first call of lazy_environment_studio makes the environment, or returns NULL if
-// memory runs out.
-struct lazy_environment;
-struct lazy_environment *lazy_environment_make(void);
-const struct lam_environment *lazy_environment_studio(struct lazy_environment *lazy, lam_error *error);
-void lazy_environment_free(struct lazy_environment *lazy); // NULL is allowed
-
-// Adds a reference.
-struct lam_environment *cube_share(const struct lam_environment *cube);
 
 #endif

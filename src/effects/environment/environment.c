@@ -1,6 +1,6 @@
 // environment.c: makes cube maps from pictures: six faces, a cross, or an equirectangular picture.
 #include "codec.h"
-#include "cube_map.h"
+#include "environment.h"
 #include "fail.h"
 #include "file.h"
 #include "float_state.h"

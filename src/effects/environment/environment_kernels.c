@@ -184,7 +184,4 @@ static void cube_sums_row(const struct cube_sums *sums, double alpha, struct lam
     }
 }
 
-#define JOIN(a, b) a##b
-#define NAME(isa)  JOIN(environment_kernels_, isa)
-
-const struct environment_kernels NAME(ISA) = {prefilter_row, cube_sums_row};
+const struct environment_kernels FOR_ISA(environment_kernels) = {prefilter_row, cube_sums_row};

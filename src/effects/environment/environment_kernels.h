@@ -4,6 +4,7 @@
 #ifndef ENVIRONMENT_KERNELS_H
 #define ENVIRONMENT_KERNELS_H
 
+#include "cpu_features.h"
 #include "environment_light.h"
 
 // A cell of a lobe, relative to the lobe's axis.
@@ -38,8 +39,7 @@ struct environment_kernels {
     void (*cube_sums_row)(const struct cube_sums *sums, double alpha, struct lam_environment *out, int face, int t);
 };
 
-extern const struct environment_kernels environment_kernels_scalar, environment_kernels_avx2,
-    environment_kernels_avx512;
+CPU_VERSIONS(const struct environment_kernels, environment_kernels);
 
 // Returns the texel whose direction is opposite to the direction of a texel of LAM_FACE_PX, LAM_FACE_PY or LAM_FACE_PZ.
 // On the opposite face, the order of the rows is reversed. On LAM_FACE_NY, the order of the columns is reversed instead

@@ -1,9 +1,9 @@
-// environment_lamp.c: finds the brightest lamp of an environment (environment_lamp.h).
+// environment_lamp.c: finds the brightest lamp of an environment (environment.h).
 //
 // A texel is bright if its luminance exceeds BRIGHT times the mean. For each direction of a small cube, the light of
 // all bright texels within LAMP_COSINE of this direction is summed. The direction with the largest sum is the lamp's
 // direction, and the lamp consists of the texels of this sum. All sums are in double, in a fixed order.
-#include "environment_lamp.h"
+#include "environment.h"
 
 #include "fail.h"
 #include "linear.h"

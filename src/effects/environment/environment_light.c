@@ -3,7 +3,7 @@
 // A texel is a sum over samples. The GGX lobe around the texel's direction is divided into rings, and the rings are
 // divided into cells that are about as wide as high. For each cell, the environment is read from one of the copies of
 // the cube: the copy with texels about as large as the cell. The cells of a level are the same for all texels.
-#include "environment_light.h"
+#include "environment.h"
 
 #include "call_control.h"
 #include "cpu_features.h"
@@ -194,7 +194,7 @@ static bool fill(struct environment_light *light, unsigned parts, struct pool *p
     work->light = light;
     work->parts = parts;
     work->call = call;
-    work->kernels = CPU_WIDEST(16, &environment_kernels_scalar, &environment_kernels_avx2, &environment_kernels_avx512);
+    work->kernels = CPU_WIDEST(16, environment_kernels);
     bool ok = cube_chain_make(&chain, &light->level[0], pool, call, error) && set_up(work, &chain, error) &&
               run(work, pool, far_size, 0, make_far_row, error);
     for (int i = 1; ok && i < ENVIRONMENT_LEVELS; i++)
@@ -319,4 +319,11 @@ bool lam_environment_light_image(const lam_environment *cube, lam_image *image, 
         out[3] = 1;
     }
     return true;
+}
+
+CPU_VERSIONS(const struct environment_lookups, environment_lookups);
+
+const struct environment_lookups *environment_lookups_of(int lanes)
+{
+    return CPU_WIDEST_OF_ALL(lanes, environment_lookups);
 }

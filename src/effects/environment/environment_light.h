@@ -13,6 +13,9 @@
 
 #include "cube_map.h"
 
+struct call_control;
+struct pool;
+
 // Level 0, for ROUGHNESS_MIN, is the environment itself. Level i is for the roughness at which prefilter_level
 // (src/core/lighting/lobes.h) is i.
 enum { ENVIRONMENT_LEVELS = 12, IRRADIANCE_SIZE = 32 };
@@ -24,32 +27,12 @@ struct environment_light {
     size_t held;   // size in bytes of the pages of `texels`
     unsigned made; // bit i is set if level i exists, bit ENVIRONMENT_LEVELS if the irradiance exists; accessed
                    // atomically
-    // See environment_lamp.h; both are NULL before the first use. `without_lamp` shares the levels of this struct.
+    // See struct environment_lamp; both are NULL before the first use. `without_lamp` shares the levels of this struct.
     struct environment_lamp *lamp;
     struct environment_light *without_lamp;
 };
 enum { ENVIRONMENT_LIGHT_ALL = (2 << ENVIRONMENT_LEVELS) - 1 };
 
-// Returns a bit mask of the parts that roughnesses between two levels need: the irradiance, these two levels, the
-// levels between them, and the levels next to them.
-unsigned environment_light_parts(float first, float last);
-
-int prefiltered_size(int level); // texels per side, for levels from 1
-// `texels` contains the levels, starting with level 1, and then the irradiance, each as six faces with their borders
-// (cube_map.h). environment_light_first returns the index of the first texel of a level, or of the irradiance if
-// `level` is ENVIRONMENT_LEVELS. environment_light_rows returns the number of rows of a texture that is
-// ENVIRONMENT_LIGHT_WIDTH texels wide and contains all of these texels.
-enum { ENVIRONMENT_LIGHT_WIDTH = 1024 };
-int environment_light_first(int level);
-int environment_light_rows(void);
-
-// Returns the light of an environment. Computes the parts in `needed` that do not exist yet, and stores them with the
-// environment. Any number of threads may call this function at the same time, and read the parts that they requested.
-// If `pool` is NULL, the function starts its own threads. `call` may be NULL. On failure, returns NULL with LAM_LIMIT
-// or LAM_CANCELLED.
-struct pool;
-const struct environment_light *environment_light(const struct lam_environment *cube, unsigned needed,
-                                                  struct pool *pool, struct call_control *call, lam_error *error);
 void environment_light_free(struct environment_light *light); // NULL is allowed
 
 // --- the steps

@@ -1,5 +1,5 @@
 // environment_made.c: computes the built-in environments, a sky and a studio, with + − × ÷ √ only.
-#include "cube_map.h"
+#include "environment.h"
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"

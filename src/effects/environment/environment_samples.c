@@ -2,8 +2,7 @@
 #define LANES 1
 #include "cube_lookup.h"
 
-#include "environment_light.h"
-#include "environment_samples.h"
+#include "environment.h"
 #include "fail.h"
 #include "linear.h"
 

@@ -1,5 +1,5 @@
-// screen_occlusion.c: memory and passes of ambient occlusion (screen_occlusion.inc contains the kernels).
-#include "screen_occlusion.h"
+// screen_occlusion.c: memory and passes of ambient occlusion (occlusion_kernels.c contains the kernels).
+#include "occlusion_kernels.h"
 
 #include "call_control.h"
 #include "pool.h"
@@ -130,9 +130,9 @@ static void run_rows(void *user, size_t index, int thread)
         pass->rows(pass->occlusion, first, first + OCCLUSION_ROWS < height ? first + OCCLUSION_ROWS : height);
 }
 
-void screen_occlusion_find(struct screen_occlusion *occlusion, const struct occlusion_kernels *kernels,
-                           struct pool *pool, struct call_control *call)
+void screen_occlusion_find(struct screen_occlusion *occlusion, int lanes, struct pool *pool, struct call_control *call)
 {
+    const struct occlusion_kernels *kernels = CPU_WIDEST_OF_ALL(lanes, occlusion_kernels);
     size_t chunks = ((size_t)occlusion->grid_height + OCCLUSION_ROWS - 1) / OCCLUSION_ROWS;
     pool_run(pool, chunks, run_rows, &(struct pass){occlusion, fill_rows_beside, call});
     if (occlusion->step > 1)

@@ -1,5 +1,6 @@
 // hierarchy.c: builds the hierarchy of a frame on demand, and keeps it as long as no mesh moves.
 #include "builder.h"
+#include "rays.h"
 
 #include "fail.h"
 

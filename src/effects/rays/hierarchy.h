@@ -51,13 +51,6 @@ struct hierarchy_memory {
     struct scene_token *token; // referenced; NULL if nothing is built
 };
 
-// Builds the hierarchy of a frame, unless the existing one has the same meshes at the same positions. Stores in *built
-// whether a hierarchy was built. Fails with LAM_LIMIT (memory, time) or LAM_CANCELLED.
-const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, const struct frame *frame,
-                                           struct pool *pool, struct call_control *call, bool *built, lam_error *error);
-void hierarchy_free(struct hierarchy_memory *memory);
-uint64_t hierarchy_bytes(const struct hierarchy_memory *memory);
-
 // Gets a triangle's corners in world space from the mesh's floats.
 static inline void ray_corners(const struct frame_draw *draw, uint32_t triangle, double p[3][3])
 {

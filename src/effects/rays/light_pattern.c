@@ -1,5 +1,5 @@
 // light_pattern.c: computes sample points on a light with a size.
-#include "light_pattern.h"
+#include "rays.h"
 
 #include "linear.h"
 

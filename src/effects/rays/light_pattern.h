@@ -23,7 +23,4 @@ struct light_pattern {
     struct light_points probes, all; // probes.count is 0 if there are no probes
 };
 
-// `count` is N, 1 … LIGHT_POINTS_MAX.
-void light_pattern_fill(struct light_pattern *pattern, int count);
-
 #endif

@@ -3,25 +3,10 @@
 #ifndef LIGHT_RAYS_H
 #define LIGHT_RAYS_H
 
-#include "light_pattern.h"
-#include "opacity.h"
 #include "ray_lanes.h"
+#include "rays.h"
 
 #include <stdlib.h>
-
-// The start points of LANES rays, as rows for ray_lanes.
-struct ray_starts {
-    const double *origin[3], *point[3];
-    const int32_t *own;
-};
-
-struct light_rays {
-    const struct frame *frame;
-    const struct hierarchy *hierarchy;
-    const struct light_pattern *pattern; // used for lights with a size
-    struct ray_layers *layers;
-    uint64_t sent; // number of traced rays
-};
 
 // A ray through an edge intersects both triangles that share this edge. This does not matter for opaque surfaces. If
 // both triangles are translucent, only one of them may dim the light. As in rasterization, the triangle on a fixed side
@@ -239,42 +224,31 @@ static void trace_disc(struct light_rays *r, const struct frame_light *light, co
                   pick(mask_of_bits(penumbra), num_load(sum[c]) / (float)pattern->all.count, num_load(passed[c])));
 }
 
-LANE_FN void rays_from(struct ray_lanes *ray, const struct ray_starts *from)
+// Gets the start points of the rays of LANES points.
+LANE_FN void rays_from(struct ray_lanes *ray, const struct ray_starts *starts, int at)
 {
     for (int part = 0; part < LANES; part += DLANES)
         for (int i = 0; i < 3; i++) {
-            dnum_store(ray->origin[i] + part, dnum_load(from->origin[i] + part));
-            dnum_store(ray->point[i] + part, dnum_load(from->point[i] + part));
+            dnum_store(ray->origin[i] + part, dnum_load(starts->origin[i] + at + part));
+            dnum_store(ray->point[i] + part, dnum_load(starts->point[i] + at + part));
         }
-    inum_store(ray->own, inum_load(from->own));
+    inum_store(ray->own, inum_load(starts->own + at));
 }
 
 // Aims rays at the centre of a light.
-LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, const struct ray_starts *from,
+LANE_FN void rays_to_light(struct ray_lanes *ray, const struct light_rays *r, const struct ray_starts *starts, int at,
                            const struct frame_light *light)
 {
     bool directional = light->kind == LIGHT_DIRECTIONAL;
     double position[3], end = directional ? (double)__builtin_inf() : 1.0;
     ray_point(r->hierarchy, light->world_position, position);
-    rays_from(ray, from);
+    rays_from(ray, starts, at);
     for (int part = 0; part < LANES; part += DLANES) {
         for (int i = 0; i < 3; i++)
             dnum_store(ray->direction[i] + part,
                        directional ? dnum_of(-light->world_axis[i]) : position[i] - dnum_load(ray->origin[i] + part));
         dnum_store(ray->end + part, dnum_of(end));
     }
-}
-
-// Computes the share of a light that reaches the point of each active lane, with passed_channels() channels.
-LANE_FN void trace_light(struct light_rays *r, const struct ray_starts *from, const struct frame_light *light,
-                         unsigned active, float passed[3][LANES])
-{
-    struct ray_lanes ray;
-    rays_to_light(&ray, r, from, light);
-    if (light->radius > 0)
-        trace_disc(r, light, &ray, active, passed);
-    else
-        trace(r, &ray, active, passed);
 }
 
 #endif

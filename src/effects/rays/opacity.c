@@ -1,6 +1,6 @@
 // opacity.c: computes the opacity of a point on a triangle, and the light that passes through this point, from the
 // triangle's material, vertex colours and maps.
-#include "opacity.h"
+#include "rays.h"
 
 #include "layer_kinds.h"
 #include "srgb.h"

@@ -27,10 +27,4 @@ struct ray_layers {
     bool failed; // out of memory
 };
 
-// The first function gets the linear colour, with alpha, of a corner. The mesh must have colours. The second function
-// gets the texture coordinates of a corner from the set with the number `set`, or returns false if the mesh lacks this
-// set. Corners are numbered over all triangles.
-void ray_corner_color(const lam_mesh *mesh, uint32_t corner, float out[4]);
-bool ray_corner_texcoord(const lam_mesh *mesh, int set, uint32_t corner, float out[2]);
-
 #endif

@@ -3,6 +3,8 @@
 
 #include "linear.h"
 
+#include <lambent/light.h>
+
 // Rotates a matrix from the scene's up axis to y up.
 static lam_mat4 placed(const struct glb *glb, lam_mat4 m)
 {

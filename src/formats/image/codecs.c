@@ -6,6 +6,8 @@
 #include "pixels.h"
 #include "spelling.h"
 
+#include <lambent/path.h>
+
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -238,8 +240,8 @@ bool lam_image_is_from_lambent(const char *path)
     // Pipes and devices are not opened. O_NONBLOCK protects against a pipe or device that has replaced the file since
     // stat.
     struct stat about;
-    int file = stat(path, &about) == 0 && S_ISREG(about.st_mode)
-                   ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)
+    int file = lam_path_stat(path, &about) == 0 && S_ISREG(about.st_mode)
+                   ? lam_path_open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)
                    : -1;
     if (file < 0)
         return false;

@@ -6,7 +6,8 @@
 #include "number.h"
 #include "shown_name.h"
 
-#include <dirent.h>
+#include <lambent/path.h>
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -172,7 +173,7 @@ static bool open_beside(const struct import_source *source, const char *name, bo
     bool fresh = file_list_add(companions->files, out->path), outside;
     size_t length = 0;
     char *real = path_within(out->path, confined ? root : "/", &outside, &length);
-    if (outside && !(real = path_allowed(source, out->path, &length)))
+    if (outside && !(real = confined ? path_allowed(source, out->path, &length) : realpath(out->path, NULL)))
         return fail(error, LAM_CANNOT_READ, "%s: leads out of the folder %s%s", out->shown, *root ? root : ".", advice);
     if (!real && errno == ENOMEM)
         return fail_memory(error, COMPANION_NAME_SIZE);
@@ -227,7 +228,7 @@ static int match_case(const struct companions *companions, char *name)
         bool exact = false;
         snprintf(path, sizeof path, "%s%.*s.", companions->folder, (int)(at - name), name);
         snprintf(wanted, sizeof wanted, "%.*s", (int)length, at);
-        DIR *entries = opendir(path);
+        DIR *entries = lam_path_list(path);
         found = 0;
         for (struct dirent *entry; entries && !exact && (entry = readdir(entries));) {
             if (strcasecmp(entry->d_name, wanted) != 0)

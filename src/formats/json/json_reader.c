@@ -163,10 +163,11 @@ bool json_numbers_of(const struct json_reader *r, const struct place *place, con
 {
     char expected[60];
     size_t size = json_is_array(list) ? json_array_size(list) : 0;
+    const char *list_of = r->file ? "a list of " : "";
     if (min == max)
-        snprintf(expected, sizeof expected, "a list of %zu numbers", min);
+        snprintf(expected, sizeof expected, "%s%zu numbers", list_of, min);
     else
-        snprintf(expected, sizeof expected, "a list of %zu to %zu numbers", min, max);
+        snprintf(expected, sizeof expected, "%s%zu to %zu numbers", list_of, min, max);
     if (!json_is_array(list) || size < min || size > max)
         return json_unexpected(r, place, list, expected);
     for (size_t i = 0; i < size; i++)

@@ -5,6 +5,7 @@
 #include "file_list.h"
 #include "float_state.h"
 #include "formats.h"
+#include "prepare.h"
 #include "unsupported_formats.h"
 #include "up_guess.h"
 

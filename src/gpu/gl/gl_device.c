@@ -1,8 +1,7 @@
 // gl_device.c: creates and frees the OpenGL device, runs the steps of a frame, and reports the memory use.
 #include "gl_device.h"
 
-#include "cube_map.h"
-#include "environment_lamp.h"
+#include "environment.h"
 #include "fail.h"
 #include "lecture.h"
 #include "srgb.h"
@@ -66,6 +65,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
             c->output = LAM_OUTPUT_PICTURE;
         return;
     }
+    c->samples = c->stage == LAM_STAGE_FRAGMENT && !c->style ? (uint8_t)f->frame->settings.samples : 1;
     c->widens = f->frame->widens_highlights && frame_is_physical(c->reflection);
     c->shadows = f->frame->settings.shadows && c->light_count && c->reflection != LAM_REFLECTION_NONE;
     c->passes_rays = c->shadows && f->frame->passes_rays;
@@ -93,17 +93,20 @@ static lam_mesh mesh_as_drawn(const struct gl_frame *f, const struct frame_draw_
     return mesh;
 }
 
-static enum vertex_form form_of(const struct gl_frame *f, const struct frame_draw *draw, const lam_mesh *mesh,
+static enum vertex_form form_of(const struct gl_frame *f, const struct frame_draw_range *range, const lam_mesh *mesh,
                                 int draw_all)
 {
     const struct frame *frame = f->frame;
+    const struct frame_draw *draw = &frame->draws[range->draw];
+    struct glsl_choices c;
+    choices_of(f, range, &c);
     if (frame->settings.shading == LAM_SHADING_FLAT && !glsl_output_is_geometry(frame->settings.output))
         return (frame->settings.flat_normal == LAM_FLAT_NORMAL_VERTEX || draw->strokes) && draw->mesh->normals
                    ? FORM_FLAT_VERTEX
                    : FORM_FLAT_FACE;
-    // Shaders compute triangle numbers as gl_VertexID / 3. A vertex that several materials use has a lit colour for
-    // each material.
-    bool counts = f->layered || frame->settings.output == LAM_OUTPUT_IDS ||
+    // Shaders compute triangle numbers as gl_VertexID / 3, and corners as gl_VertexID % 3. A vertex that several
+    // materials use has a lit colour for each material.
+    bool counts = f->layered || c.samples > 1 || frame->settings.output == LAM_OUTPUT_IDS ||
                   (frame->settings.shadows && f->stage != LAM_STAGE_APPLICATION);
     bool two = f->stage == LAM_STAGE_APPLICATION && draw_all > 1;
     return counts || two || !mesh_can_share(mesh) ? FORM_CORNERS : FORM_SHARED;
@@ -154,7 +157,7 @@ static bool set_up_draw(struct gl_frame *f, const struct frame_draw_range *list,
         return false;
     const struct frame_draw *draw = &frame->draws[list->draw];
     lam_mesh drawn = mesh_as_drawn(f, list, count);
-    struct gl_mesh *mesh = mesh_upload(f, &drawn, form_of(f, draw, &drawn, f->draw_call_count - first),
+    struct gl_mesh *mesh = mesh_upload(f, &drawn, form_of(f, list, &drawn, f->draw_call_count - first),
                                        draw->strokes || draw->ground, f->device->runs.data, runs, error);
     if (!mesh)
         return false;

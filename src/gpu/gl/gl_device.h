@@ -19,8 +19,8 @@
 #include "device_type.h"
 #include "fields.h"
 #include "glsl_declarations.h"
-#include "hierarchy.h"
-#include "screen_occlusion.h"
+#include "occlusion.h"
+#include "rays.h"
 #include "vertex_colors.h"
 
 enum {
@@ -114,7 +114,14 @@ struct gl_vertex_lighting {
 // --- programs
 
 // Uniforms that are not rows of glsl_declarations.h. The program's rows follow.
-enum { UNIFORM_SHADOW_MATRIX, UNIFORM_SHADOW_OFFSETS, UNIFORM_SHADOW_ROUNDING, UNIFORM_FIRST_TRIANGLE, UNIFORM_ROWS };
+enum {
+    UNIFORM_SHADOW_MATRIX,
+    UNIFORM_SHADOW_OFFSETS,
+    UNIFORM_SHADOW_ROUNDING,
+    UNIFORM_FIRST_TRIANGLE,
+    UNIFORM_SAMPLE,
+    UNIFORM_ROWS
+};
 
 struct gl_uniform {
     GLint location; // −1 if the program does not have the uniform
@@ -286,6 +293,7 @@ struct gl_frame {
     // The current part of the picture, and the sample's offset from the pixel's centre (in pixels, with y downwards).
     int left, top, width, height;
     float sample_x, sample_y;
+    int sample; // the sample's position in the order of the distances from the centre
 };
 
 // Returns whether a range is composited over the surfaces behind it. Masked surfaces are not composited, because each

@@ -3,8 +3,7 @@
 // are not uploaded.
 #include "gl_device.h"
 
-#include "cube_map.h"
-#include "environment_light.h"
+#include "environment.h"
 #include "fail.h"
 
 #include <string.h>

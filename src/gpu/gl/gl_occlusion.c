@@ -5,11 +5,6 @@
 
 #include "fail.h"
 
-#define LANES 4
-#include "lighting.h"
-
-#include "screen_occlusion.inc"
-
 bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
                     lam_error *error)
 {
@@ -23,7 +18,7 @@ bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct scree
                                                                   ? screen_ground_depth(f->frame, x, y)
                                                                   : SCREEN_EMPTY;
     }
-    screen_occlusion_find(occlusion, &occlusion_kernels, NULL, f->call);
+    screen_occlusion_find(occlusion, 16, NULL, f->call);
     return call_should_continue(f->call) || call_error(f->call, error);
 }
 

@@ -107,6 +107,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
             gl_use_sampler(f->device, unit, 0);
     }
     program_set_int(f, call->program, UNIFORM_FIRST_TRIANGLE, (GLint)draw->first_id);
+    program_set_int(f, call->program, UNIFORM_SAMPLE, f->sample + 1);
     set_sides(f, draw);
     gl_use_program(f->device, call->program->name);
     gl_use_array(f->device, call->array);
@@ -249,6 +250,7 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
         clear_target(f, &t->picture, DEPTH_ID_NEAREST);
     for (int i = 0; i < pattern->count; i++) {
         int s = pattern->by_distance[i];
+        f->sample = i;
         if (!call_should_continue(f->call))
             return call_error(f->call, error);
         f->sample_x = (float)pattern->x[s] * 0.0625f;

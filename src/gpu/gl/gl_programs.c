@@ -73,7 +73,7 @@ static void add_uniform(struct gl_program *program, GLint location, const struct
 static bool find_rows(struct gl_frame *f, struct gl_program *program, lam_error *error)
 {
     static const char *const others[UNIFORM_ROWS] = {"shadow_matrix", "shadow_offsets", "shadow_rounding",
-                                                     "first_triangle"};
+                                                     "first_triangle", "sample_number"};
     const struct gl *gl = f->gl;
     struct glsl_row rows[GLSL_ROWS_MAX];
     struct glsl_stage stage = glsl_stage_of(&program->choices);

@@ -11,7 +11,6 @@
 #include "fail.h"
 #include "gl_device.h"
 #include "layer_kinds.h"
-#include "opacity.h"
 #include "texture_levels.h"
 
 #include <string.h>

@@ -7,7 +7,7 @@ import os
 import re
 import sys
 
-DEFINITIONS = re.compile(r"#ifdef|#endif|precision|#define (?:FN$|STRUCT|num |mask |vec3_of |vec4_of )|float num_of\(")
+DEFINITIONS = re.compile(r"#ifdef|#endif|#pragma|precision|#define (?:FN$|STRUCT|num |mask |vec3_of |vec4_of )|float num_of\(")
 WORDS = {"num": "float", "num_of": "float", "mask": "bool", "vec3_of": "vec3", "vec4_of": "vec4"}
 TOKEN = re.compile(r"(//.*)|\b(?:FN|SCENE|IN_SCENE) |\bSTRUCT\((\w+)\)|\bnum_of\(([-.0-9e]*)f?\)|(?<!\w)(\d\w*)f\b|\b(num|num_of|mask|vec3_of|vec4_of)\b")
 

@@ -179,9 +179,10 @@ static void write_definition(struct text *text, const struct definition *p)
 
 // --- all sources
 
-enum { EQUATIONS = 11, SOURCES_MAX = 24 };
+enum { EQUATIONS = 12, SOURCES_MAX = 24 };
 static const struct stage_source equation_sources[EQUATIONS] = {
     {"functions of vectors and numbers", text_prelude_glsl, .whole = true},
+    {"a point of a surface, and the vectors around it", text_surface_h, .whole = true},
     {"reflection of the light from one direction at a point of a surface", text_lobes_h, .whole = true},
     {"kinds of light", text_light_kinds_h, .whole = true},
     {"light that arrives at a point: direction, distance, attenuation and cone", text_lights_h, .whole = true},

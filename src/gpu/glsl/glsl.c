@@ -1,10 +1,11 @@
 // glsl.c: generates a vertex and a fragment shader from a set of choices.
 #include "glsl.h"
-#include "environment_light.h"
+#include "environment.h"
 #include "fail.h"
 #include "glsl_constants.h"
 #include "glsl_declarations.h"
 #include "glsl_text.h"
+#include "samples.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -190,6 +191,31 @@ static void put_maps(struct constant_table *t, const struct glsl_stage *f)
     constant_number(t, "PROBES_MAX", f->choices->anisotropy);
 }
 
+// Names of values at the point that is lit, which is the fragment's own point unless all samples share a point.
+static void put_point(struct constant_table *t, const struct glsl_stage *f)
+{
+    static const char *const rows[][3] = {{"POINT_POSITION", "eye_position", "AT_POINT(eye_position)"},
+                                          {"POINT_NORMAL", "eye_normal", "AT_POINT(eye_normal)"},
+                                          {"POINT_TANGENT", "eye_tangent", "AT_POINT(eye_tangent)"},
+                                          {"POINT_TINT", "tint", "AT_POINT(tint)"},
+                                          {"POINT_AT", "at", "AT_POINT(at)"},
+                                          {"POINT_P", "p", "AT_POINT(p)"},
+                                          {"POINT_W", "w", "point_w"},
+                                          {"OVER_POINT", "over", "point_w"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        constant_text(t, rows[i][0], rows[i][f->one_point ? 2 : 1]);
+    if (!f->one_point)
+        return;
+    const struct sample_pattern *pattern = sample_pattern(f->choices->samples);
+    constant_number(t, "SAMPLES", pattern->count);
+    struct text *offsets = constant_made(t, "SAMPLE_OFFSETS");
+    text_add(offsets, "vec2(0.0)");
+    for (int i = 0, s; i < pattern->count; i++) {
+        s = pattern->by_distance[i];
+        text_print(offsets, ", vec2(%d.0, %d.0) / 16.0", pattern->x[s], pattern->y[s]);
+    }
+}
+
 static void put_output(struct constant_table *t, const struct glsl_stage *f)
 {
     const struct glsl_choices *c = f->choices;
@@ -271,6 +297,7 @@ void glsl_add_stage(struct text *text, const struct glsl_stage *f)
     put_material(&t, f);
     put_maps(&t, f);
     put_output(&t, f);
+    put_point(&t, f);
     put_loops(&t, f);
     glsl_declare(&uniforms, f, f->fragment);
     if (f->fragment)

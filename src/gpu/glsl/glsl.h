@@ -100,7 +100,11 @@ struct glsl_choices {
     bool converted[2];              // front, back: a metallic-roughness material with maps, lit by a classic model
     uint8_t alpha[2];               // front, back: lam_alpha_mode
     uint8_t anisotropy;             // the maximum number of probes per texture lookup
-    bool hardware_filter;           // glsl_use_hardware_filter
+    // If above 1, a fragment is one of several samples of a pixel, and is lit at the point that the CPU device lights for
+    // all samples of the triangle in the pixel (texture.glsl). The vertices are the corners of the triangles, in order.
+    // Not in 120, and only for the fragment stage.
+    uint8_t samples;
+    bool hardware_filter; // glsl_use_hardware_filter
     // The layers (LAYER_…, layer_kinds.h) of the range's materials, and the layers of all materials of the frame. A
     // block contains the fields for all layers of the frame.
     uint8_t layers, field_layers;

@@ -179,7 +179,7 @@ static void find_attributes(struct glsl_stage *f, const struct glsl_choices *c)
 
 struct glsl_stage glsl_stage_of(const struct glsl_choices *c)
 {
-    struct glsl_stage f = {.choices = c};
+    struct glsl_stage f = {.choices = c, .one_point = c->samples > 1};
     find_output(&f, c);
     find_lights(&f, c);
     find_material(&f, c);

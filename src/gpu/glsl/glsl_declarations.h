@@ -90,11 +90,12 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     X(microfacet) /* the Fresnel factor colours it */ \
     X(layered) /* layers lie over the surface */ \
     X(has_clearcoat) X(has_anisotropy) \
+    X(one_point) /* all samples of a triangle in a pixel are lit at one point */ \
     X(widens_roughness) /* the variance of the normals increases the roughness */ \
     X(has_transmission) /* the fragment shader computes the transmitted light */ \
     X(converts) /* a side's material is converted (glsl_choices.converted) */ \
     X(has_mask) /* a side is masked */ \
-    X(value_masks) /* a side is masked, and the fragment shader writes a value of the surface */ \
+    X(value_masks) /* a side is masked, and the fragment shader writes a value of the surface, or one_point */ \
     /* maps */ \
     X(has_maps) /* the fragment shader reads maps */ \
     X(has_normal_map) X(has_bump_map) \

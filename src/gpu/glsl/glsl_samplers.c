@@ -221,7 +221,7 @@ void glsl_find_maps(struct glsl_stage *f)
         f->has_mask |= c->alpha[side] == LAM_ALPHA_MASK;
         f->separate_texture_terms |= c->maps[side][LAM_MAP_DIFFUSE].used || c->maps[side][LAM_MAP_EMISSION].used;
     }
-    f->value_masks = f->has_mask && values;
+    f->value_masks = f->has_mask && (values || f->one_point);
     f->maps_interpolated_light = !(f->lit && f->per_fragment && f->shading == LAM_SHADING_PHONG);
     f->separate_texture_terms &= f->maps_interpolated_light && !values;
     f->back_material |= two && (f->value_masks || (f->application && !values));

@@ -4,6 +4,8 @@
 #include "fail.h"
 #include "pages.h"
 
+#include <lambent/path.h>
+
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -11,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 const char *path_name(const char *path)
@@ -27,11 +28,19 @@ const char *path_ending(const char *path)
     return dot && dot != name ? dot + 1 : "";
 }
 
+const char *path_reason(int reason, char buffer[PATH_REASON_SIZE])
+{
+    return reason == EMLINK  ? "a link is in the way, and no link is followed here"
+           : reason == EXDEV ? "a link that leads out of the folder that was given; name the file, or allow its folder "
+                               "(lam_load_params.allowed_paths)"
+                             : strerror_r(reason, buffer, PATH_REASON_SIZE);
+}
+
 static bool fail_system(lam_error *error, lam_code code, const char *path, const char *action)
 {
     int reason = errno;
-    char buffer[128];
-    const char *text = strerror_r(reason, buffer, sizeof buffer);
+    char buffer[PATH_REASON_SIZE];
+    const char *text = path_reason(reason, buffer);
     bool by_machine = reason == EMFILE || reason == ENFILE || reason == ENOMEM || reason == EIO || reason == ESTALE;
     return fail(error, by_machine ? LAM_MACHINE : code, "%s: cannot %s: %s", path, action, text);
 }
@@ -231,38 +240,13 @@ static const char *kind_of(mode_t mode)
 bool file_check_regular(const char *path, lam_error *error)
 {
     struct stat about;
-    if (stat(path, &about) != 0)
+    if (lam_path_stat(path, &about) != 0)
         return fail_system(error, LAM_CANNOT_READ, path, "open");
     const char *kind = kind_of(about.st_mode);
     return !kind || fail(error, LAM_CANNOT_READ, "%s: %s", path, kind);
 }
 
 enum { OPEN_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
-
-// Opens a path whose first `folder` bytes name a folder. The rest of the path is opened below that folder, so that a
-// link created after the path was checked cannot point outside the folder. Kernels before 5.6 do not support openat2;
-// on these kernels, the checked path is opened directly.
-static int open_beneath(const char *path, size_t folder)
-{
-#ifdef SYS_openat2
-    const struct {
-        uint64_t flags, mode, resolve;
-    } how = {.flags = OPEN_FLAGS, .resolve = 0x02 | 0x04 | 0x08}; // RESOLVE_NO_MAGICLINKS, _NO_SYMLINKS, _BENEATH
-    char *name = strndup(path, folder);
-    int top = name ? open(name, O_PATH | O_DIRECTORY | O_CLOEXEC) : -1;
-    free(name);
-    if (top >= 0) {
-        int file = (int)syscall(SYS_openat2, top, path + folder, &how, sizeof how), reason = errno;
-        close(top);
-        errno = reason;
-        if (file >= 0 || (reason != ENOSYS && reason != EPERM))
-            return file;
-    }
-#else
-    (void)folder;
-#endif
-    return open(path, OPEN_FLAGS | O_NOFOLLOW);
-}
 
 // Opens a regular file; folders, pipes and devices are never opened. Returns −1 on error. If `shown` is NULL, the path
 // comes from the user.
@@ -271,9 +255,9 @@ static int open_regular(const char *path, size_t folder, const char *shown, stru
     const char *advice = shown ? "" : " (- is standard input)";
     shown = shown ? shown : path;
     int file = -1;
-    bool found = stat(path, about) == 0;
+    bool found = lam_path_stat(path, about) == 0;
     if (found && !kind_of(about->st_mode)) {
-        file = folder ? open_beneath(path, folder) : open(path, OPEN_FLAGS);
+        file = folder ? path_open_in(path, folder, OPEN_FLAGS) : lam_path_open(path, OPEN_FLAGS);
         found = file >= 0 && fstat(file, about) == 0; // another file may have replaced the file since stat
     }
     if (!found)
@@ -333,10 +317,10 @@ bool file_read(const char *path, struct pool *pool, struct call_control *call, s
 
 char *path_within(const char *path, const char *folder, bool *outside, size_t *folder_length)
 {
-    char *real = realpath(path, NULL), *top = real ? realpath(*folder ? folder : ".", NULL) : NULL;
+    char *real = path_real(path), *top = real ? path_real(*folder ? folder : ".") : NULL;
     size_t length = top ? strlen(top) : 0;
     bool begins = top && strncmp(real, top, length) == 0, same = begins && !real[length];
-    *outside = top && !(begins && (same || real[length] == '/' || top[length - 1] == '/'));
+    *outside = top ? !(begins && (same || real[length] == '/' || top[length - 1] == '/')) : errno == EXDEV;
     *folder_length = same ? 0 : length + (length > 0 && top[length - 1] != '/');
     if (top && !*outside) {
         free(top);
@@ -353,7 +337,8 @@ bool file_open_parts(const char *path, struct call_control *call, struct file_pa
                      lam_error *error)
 {
     struct stat about;
-    if (strcmp(path, "-") == 0 || stat(path, &about) != 0 || !S_ISREG(about.st_mode) || about.st_size <= FILE_HEAD) {
+    if (strcmp(path, "-") == 0 || lam_path_stat(path, &about) != 0 || !S_ISREG(about.st_mode) ||
+        about.st_size <= FILE_HEAD) {
         bool done = file_read(path, NULL, call, head, error);
         *out = (struct file_parts){.file = -1, .memory = head->data, .size = head->size};
         return done;

@@ -41,11 +41,21 @@ bool file_read_named(const char *path, size_t folder, const char *shown, bool fr
 // a regular file.
 bool file_check_regular(const char *path, lam_error *error);
 
-// Resolves every link and ".." in a path. If the resolved path is the folder or is inside the folder, returns this
-// path, allocated with malloc. A `folder` of "" is the current folder. Returns NULL if the path is outside (*outside is
-// then true) or cannot be resolved (errno is then set). Sets *length to the length of the folder at the start of the
+// Resolves every link and ".." in a path (path_real). If the resolved path is the folder or is inside the folder, returns
+// this path, allocated with malloc. A `folder` of "" is the current folder. Returns NULL if the path is outside
+// (*outside is then true) or cannot be resolved (errno is then set). Sets *length to the length of the folder at the start of the
 // result, including the final '/', or to 0 if the path is the folder itself.
 char *path_within(const char *path, const char *folder, bool *outside, size_t *length);
+
+// These functions belong to <lambent/path.h>. path_real returns the absolute path without links, allocated with malloc,
+// or NULL and sets errno. path_open_in opens a path whose first `folder` bytes, including the '/', name a folder. It opens
+// the rest below that folder without following links.
+char *path_real(const char *path);
+int path_open_in(const char *path, size_t folder, int flags);
+
+// Returns the reason of a failed call on a path as text. The text is static or in `buffer`.
+enum { PATH_REASON_SIZE = 128 };
+const char *path_reason(int reason, char buffer[PATH_REASON_SIZE]);
 
 // A size at which a reader changes its method: `usual`, or `small` in the fuzzing build (-Dfuzz=true), so that its inputs
 // of a few kilobytes reach both methods.

@@ -14,6 +14,8 @@
 
 #include "fail.h"
 
+#include <lambent/path.h>
+
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -29,8 +31,8 @@ enum { CHUNK = 1 << 20 };
 static bool fail_writing(lam_error *error, const char *path, const char *action)
 {
     int reason = errno;
-    char buffer[128];
-    const char *text = strerror_r(reason, buffer, sizeof buffer);
+    char buffer[PATH_REASON_SIZE];
+    const char *text = path_reason(reason, buffer);
     return fail(error, LAM_CANNOT_WRITE, "%s: cannot %s: %s", path, action, text);
 }
 
@@ -79,7 +81,8 @@ static void hold_signals(sigset_t *before)
 
 // The data to write and their destination.
 struct writing {
-    const char *target;
+    int folder;                  // the folder of the target
+    const char *target;          // its name in this folder
     const struct stat *existing; // NULL if the target does not exist
     const void *data;
     size_t size;
@@ -130,64 +133,49 @@ static bool fill(int file, const struct writing *w, const sigset_t *before)
     return copy < 0 || close(copy) == 0;
 }
 
-// Returns the folder of a path, allocated with malloc.
-static char *folder_of(const char *path)
-{
-    const char *name = path_name(path);
-    return name == path ? strdup(".") : strndup(path, (size_t)(name - path));
-}
-
-// Returns an unused hidden file name in the folder of the target, allocated with malloc. The name contains the host
+// Returns an unused hidden file name, allocated with malloc. The name contains the host
 // name, because several hosts may write to one folder. Process IDs are not unique; in containers, the ID is often 1.
-static char *name_beside(const char *target)
+static char *hidden_name(void)
 {
     char *name, host[65] = "";
-    int folder = (int)(path_name(target) - target);
     if (gethostname(host, sizeof host - 1) != 0 || strchr(host, '/'))
         host[0] = 0;
-    return asprintf(&name, "%.*s.lambent-%ld-%s-%llx.part", folder, target, (long)getpid(), host,
-                    (unsigned long long)now_ns()) < 0
-               ? NULL
-               : name;
+    return asprintf(&name, ".lambent-%ld-%s-%llx.part", (long)getpid(), host, (unsigned long long)now_ns()) < 0 ? NULL
+                                                                                                                : name;
 }
 
 // Flushes the folder, which makes the file's name durable.
-static bool sync_folder(const char *target)
+static bool sync_folder(int parent)
 {
-    char *name = folder_of(target);
-    int folder = name ? open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    int folder = openat(parent, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     bool ok = folder >= 0 && sync_file(folder);
-    int reason = name ? errno : ENOMEM;
-    if (folder >= 0)
-        close(folder);
-    free(name);
-    errno = reason;
+    lam_path_close(folder);
     return ok;
 }
 
 // --- an unnamed file
 
-static bool link_file(int file, const char *name)
+static bool link_file(int file, int folder, const char *name)
 {
     char path[64];
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
-    return linkat(AT_FDCWD, path, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ||
-           (errno != EEXIST && linkat(file, "", AT_FDCWD, name, AT_EMPTY_PATH) == 0); // if /proc is not mounted
+    return linkat(AT_FDCWD, path, folder, name, AT_SYMLINK_FOLLOW) == 0 ||
+           (errno != EEXIST && linkat(file, "", folder, name, AT_EMPTY_PATH) == 0); // if /proc is not mounted
 }
 
 // Links the file to a temporary name in the folder of the target, and renames it over the target.
-static bool link_over(int file, const char *target)
+static bool link_over(int file, const struct writing *w)
 {
     bool ok = false;
     sigset_t before;
     hold_signals(&before);
     for (int attempt = 0; attempt < 100; attempt++) {
-        char *name = name_beside(target);
-        bool linked = name && link_file(file, name);
-        ok = linked && rename(name, target) == 0;
+        char *name = hidden_name();
+        bool linked = name && link_file(file, w->folder, name);
+        ok = linked && renameat(w->folder, name, w->folder, w->target) == 0;
         int reason = name ? errno : ENOMEM;
         if (linked && !ok)
-            unlink(name);
+            unlinkat(w->folder, name, 0);
         free(name);
         errno = reason;
         if (linked || reason != EEXIST)
@@ -202,16 +190,14 @@ static bool link_over(int file, const char *target)
 // Sets *possible to false if the file system does not support unnamed files. In this case, nothing is written.
 static bool write_unnamed(const struct writing *w, bool *possible)
 {
-    char *folder = folder_of(w->target);
-    int file = folder ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
-    free(folder);
+    int file = openat(w->folder, ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
     *possible = file >= 0;
     if (file < 0)
         return false;
     bool filled = fill(file, w, NULL), linked = false;
     if (filled)
-        linked = (!w->existing && link_file(file, w->target)) ||
-                 ((w->existing || errno == EEXIST) && link_over(file, w->target));
+        linked = (!w->existing && link_file(file, w->folder, w->target)) ||
+                 ((w->existing || errno == EEXIST) && link_over(file, w));
     int reason = errno;
     *possible = linked || !filled;
     close(file);
@@ -222,11 +208,11 @@ static bool write_unnamed(const struct writing *w, bool *possible)
 // --- a named file
 
 // Creates a temporary file in the folder of the target, with the permissions that the umask allows.
-static int open_beside(const char *target, char **name)
+static int open_hidden(int folder, char **name)
 {
     for (int attempt = 0; attempt < 100; attempt++) {
-        *name = name_beside(target);
-        int file = *name ? open(*name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+        *name = hidden_name();
+        int file = *name ? openat(folder, *name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
         if (file >= 0)
             return file;
         int reason = *name ? errno : ENOMEM;
@@ -244,17 +230,17 @@ static bool write_named(const struct writing *w)
     char *name = NULL;
     sigset_t before;
     hold_signals(&before);
-    int file = open_beside(w->target, &name);
+    int file = open_hidden(w->folder, &name);
     bool ok = file >= 0 && fill(file, w, &before);
     int reason = errno;
     if (file >= 0)
         close(file); // fill() has already reported the error
-    if (ok && rename(name, w->target) != 0) {
+    if (ok && renameat(w->folder, name, w->folder, w->target) != 0) {
         reason = errno;
         ok = false;
     }
     if (file >= 0 && !ok)
-        unlink(name);
+        unlinkat(w->folder, name, 0);
     free(name);
     pthread_sigmask(SIG_SETMASK, &before, NULL); // pending signals are delivered here
     errno = reason;
@@ -265,7 +251,7 @@ static bool write_named(const struct writing *w)
 
 static bool write_direct(const char *path, const struct writing *w, lam_error *error)
 {
-    int file = open(path, O_WRONLY | O_CLOEXEC);
+    int file = lam_path_open(path, O_WRONLY | O_CLOEXEC);
     if (file < 0)
         return fail_writing(error, path, "open for writing");
     bool ok = write_all(file, w, NULL);
@@ -284,27 +270,32 @@ bool file_write_by(unsigned way, const char *path, const void *data, size_t size
                    lam_error *error)
 {
     struct stat about;
-    bool exists = stat(path, &about) == 0;
-    struct writing w = {
-        .existing = exists ? &about : NULL, .data = data, .size = size, .durable = way & FILE_DURABLE, .call = call};
-    if (exists && S_ISDIR(about.st_mode))
-        return fail(error, LAM_CANNOT_WRITE, "%s: is a directory, expected a file name", path);
-    if (exists && !S_ISREG(about.st_mode))
-        return write_direct(path, &w, error);
-
-    // Keeps a symbolic link and replaces the file that it points to.
-    char *target = exists ? realpath(path, NULL) : strdup(path);
-    bool writable = target && (!exists || access(target, W_OK) == 0), possible = false;
-    w.target = target;
-    bool ok = writable && !(way & FILE_NAMED) && write_unnamed(&w, &possible);
-    if (writable && !possible)
-        ok = write_named(&w);
-    ok = ok && (!w.durable || sync_folder(target));
+    struct writing w = {.data = data, .size = size, .durable = way & FILE_DURABLE, .call = call};
+    // Keeps a symbolic link and replaces the file that it points to, but not if somebody made the link in a held folder.
+    bool held = lam_path_held(path) >= 0, ok = false, possible = false;
+    char *real = held ? NULL : realpath(path, NULL);
+    w.folder = lam_path_parent(real ? real : path, &w.target);
+    bool exists = w.folder >= 0 && fstatat(w.folder, w.target, &about, held ? AT_SYMLINK_NOFOLLOW : 0) == 0;
+    w.existing = exists ? &about : NULL;
+    if (exists && S_ISLNK(about.st_mode)) {
+        errno = EMLINK;
+    } else if (exists && !S_ISREG(about.st_mode)) {
+        lam_path_close(w.folder);
+        free(real);
+        return S_ISDIR(about.st_mode) ? fail(error, LAM_CANNOT_WRITE, "%s: is a directory, expected a file name", path)
+                                      : write_direct(path, &w, error);
+    } else if (w.folder >= 0 && (!exists || faccessat(w.folder, w.target, W_OK, 0) == 0)) {
+        ok = !(way & FILE_NAMED) && write_unnamed(&w, &possible);
+        if (!possible)
+            ok = write_named(&w);
+        ok = ok && (!w.durable || sync_folder(w.folder));
+    }
+    lam_path_close(w.folder);
     if (!ok && errno == ECANCELED && !call_should_continue(call))
         call_error(call, error);
     else if (!ok)
         fail_writing(error, path, "write");
-    free(target);
+    free(real);
     return ok;
 }
 

@@ -43,7 +43,6 @@ static bool add_pair(struct model_diff *diff, const struct batch_model *old, con
     size_t at = diff->plan.count;
     if (!batch_plan_add(&diff->plan, shown->path, shown->root, error))
         return false;
-    diff->plan.models[at].leads_out = shown->leads_out || (old && old->leads_out);
     diff->pairs[at] = (struct model_pair){name_of(shown), old ? old->path : NULL, new ? new->path : NULL};
     return true;
 }
@@ -90,12 +89,10 @@ static void put_json(FILE *file, const struct model_diff *diff, json_t *const *r
 {
     struct json json = {.file = file};
     json_open(&json, NULL, '{');
-    json_text(&json, "lambent", lam_version());
-    json_text(&json, "old", diff->old);
-    json_text(&json, "new", diff->new);
-    json_number(&json, "tolerance", diff->options->diff.tolerance);
+    json_put(&json, TEXT("lambent", lam_version()), TEXT("old", diff->old), TEXT("new", diff->new),
+             NUMBER("tolerance", diff->options->diff.tolerance));
     for (int i = 0; i < CHANGE_COUNT; i++)
-        json_count(&json, change_names[i], diff->counts[i]);
+        json_put(&json, COUNT(change_names[i], diff->counts[i]));
     json_text(&json, "page", diff->page);
     json_open(&json, "models", '[');
     for (size_t i = 0; i < diff->plan.count; i++) {
@@ -103,9 +100,8 @@ static void put_json(FILE *file, const struct model_diff *diff, json_t *const *r
         static const char *const numbers[] = {"maximum", "mean", "share_over_1"};
         static const char *const texts[] = {"counts_before", "counts_after"};
         json_open(&json, NULL, '{');
-        json_text(&json, "name", diff->pairs[i].name);
-        json_text(&json, "change", change_names[diff_change_of(record)]);
-        json_text(&json, "error", json_string_value(json_object_get(record, "error")));
+        json_put(&json, TEXT("name", diff->pairs[i].name), TEXT("change", change_names[diff_change_of(record)]),
+                 TEXT("error", json_string_value(json_object_get(record, "error"))));
         for (int k = 0; k < 3; k++)
             if (json_object_get(record, numbers[k]))
                 json_number(&json, numbers[k], json_number_value(json_object_get(record, numbers[k])));
@@ -173,7 +169,7 @@ static int finish(void *user, json_t *const *records, size_t failed)
 static void reach(void *user, size_t model, struct sandbox_paths *paths)
 {
     const struct model_pair *pair = &((struct model_diff *)user)->pairs[model];
-    if (pair->old && pair->new && !((struct model_diff *)user)->plan.models[model].leads_out)
+    if (pair->old && pair->new)
         sandbox_add_input(paths, pair->old);
 }
 
@@ -215,7 +211,7 @@ int diff_models(char **operands, bool folders, const struct options *options)
                               .new = operands[1],
                               .page = options->picture.output,
                               .folders = folders};
-    struct batch_use use = {diff_draw, reach, right_of, finish, &diff};
+    struct batch_use use = {diff_draw, reach, right_of, {diff.page}, finish, &diff};
     bool ok = check(&diff, &error) && batch_plan_start(&diff.plan, &drawn, &error) &&
               ((diff.rows = shared_count_make()) || complain(&error, LAM_MACHINE, "out of memory"));
     diff.olds.options = diff.news.options = &drawn;

@@ -83,21 +83,12 @@ static void print_json(FILE *file, const struct pair *pair, const struct options
 {
     const lam_difference *d = &pair->difference;
     struct json json = {.file = file};
-    json_open(&json, NULL, '{');
-    json_text(&json, "a", pair->name[0]);
-    json_text(&json, "b", pair->name[1]);
-    json_count(&json, "width", (uint64_t)pair->image[0].width);
-    json_count(&json, "height", (uint64_t)pair->image[0].height);
-    json_number(&json, "maximum", d->maximum);
-    json_number(&json, "mean", d->mean);
-    json_number(&json, "rmse", d->rmse);
-    json_number(&json, "psnr_db", d->psnr_db);
-    json_number(&json, "share_over_1", d->share_over_1);
-    json_number(&json, "share_over_2", d->share_over_2);
-    json_number(&json, "tolerance", o->diff.tolerance);
-    json_count(&json, "differ", differ);
-    json_text(&json, "picture", pair->output);
-    json_close(&json, '}');
+    json_put(&json,
+             OBJECT(NULL, TEXT("a", pair->name[0]), TEXT("b", pair->name[1]), COUNT("width", pair->image[0].width),
+                    COUNT("height", pair->image[0].height), NUMBER("maximum", d->maximum), NUMBER("mean", d->mean),
+                    NUMBER("rmse", d->rmse), NUMBER("psnr_db", d->psnr_db), NUMBER("share_over_1", d->share_over_1),
+                    NUMBER("share_over_2", d->share_over_2), NUMBER("tolerance", o->diff.tolerance),
+                    COUNT("differ", differ), TEXT("picture", pair->output)));
     putc('\n', file);
 }
 

@@ -7,11 +7,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "classroom.h"
 #include "command.h"
 #include "console.h"
 #include "device_option.h"
 #include "drawing.h"
-#include "explain_figure.h"
 #include "explain_json.h"
 #include "interrupt.h"
 #include "job_steps.h"
@@ -89,26 +89,43 @@ static bool draw_picture(struct job *job, struct progress *progress, lam_error *
     return job_make_image(job, LAM_RGBA8, error) && job_draw_frames(job, 0.75, 0.25, 1, &report, progress, error);
 }
 
-static bool write_figure(struct job *job, const lam_explanation *e, const char *path, lam_error *error)
+// Makes the request for a figure: a line of JSON about the page, the line of --json, and the pixels of the picture.
+static bool make_request(const struct job *job, const lam_explanation *e, bool svg, lam_bytes *request,
+                         lam_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    struct json json = {.file = file};
+    if (!file)
+        return complain(error, LAM_MACHINE, "out of memory");
+    json_put(&json, OBJECT(NULL, FLAG("svg", svg), FLAG("threads", lam_reflection_describe(e->reflection)->tangents),
+                           NUMBER("fovy_rad", job->camera.fovy_rad),
+                           NUMBER("ortho_half_height", job->camera.ortho_half_height)));
+    putc('\n', file);
+    explain_json(file, e, job);
+    fwrite(job->image.pixels, 4, (size_t)job->image.width * (size_t)job->image.height, file);
+    bool failed = ferror(file);
+    failed |= fclose(file) != 0;
+    *request = (lam_bytes){text, size};
+    return !failed || complain(error, LAM_MACHINE, "out of memory");
+}
+
+static bool write_figure(struct job *job, const lam_explanation *e, const char *path, struct child *classroom,
+                         lam_error *error)
 {
     const struct options *o = job->options;
-    struct explain_figure figure = {.explanation = e,
-                                    .camera = &job->camera,
-                                    .picture = &job->image,
-                                    .model = job->model,
-                                    .title = o->captions.title};
-    struct drawing drawing;
-    int width, height;
-    explain_figure_size(&figure, &width, &height);
-    if (!drawing_open(&drawing, width, height, drawing_is_svg(path), !o->captions.no_captions, o->captions.font, error))
-        return false;
-    drawing.compress = (lam_compress)o->picture.compress;
-    drawing.quality = o->picture.quality;
-    drawing.durable = o->picture.durable;
-    bool ok = explain_figure_draw(&figure, &drawing, error) && drawing_write(&drawing, path, error);
+    const lam_save_params params = {
+        .compress = (lam_compress)o->picture.compress, .quality = o->picture.quality, .durable = o->picture.durable};
+    lam_bytes request = {0}, page = {0};
+    int size[2];
+    bool ok = make_request(job, e, drawing_is_svg(path), &request, error) &&
+              classroom_ask(classroom, o, &request, &page, error) &&
+              drawing_write_packed(&page, size, path, &params, error);
     if (ok && strcmp(path, "-") != 0 && !o->report.quiet)
-        say_plain("%s  %dx%d\n", path, width, height);
-    drawing_free(&drawing);
+        say_plain("%s  %dx%d\n", path, size[0], size[1]);
+    lam_bytes_free(&request);
+    lam_bytes_free(&page);
     return ok;
 }
 
@@ -124,7 +141,7 @@ static void print(const lam_explanation *explanation, const struct job *job)
 
 // Explains the pixel, prints the explanation unless the figure is written to standard output, and draws the figure if
 // requested.
-static int explain(struct job *job, int x, int y, const char *figure)
+static int explain(struct job *job, int x, int y, const char *figure, struct child *classroom)
 {
     lam_error error = {0};
     struct progress progress;
@@ -137,7 +154,7 @@ static int explain(struct job *job, int x, int y, const char *figure)
     if (ok && !taken)
         print(explanation, job);
     fflush(stdout); // the figure may follow on standard output
-    ok = ok && (!figure || write_figure(job, explanation, figure, &error));
+    ok = ok && (!figure || write_figure(job, explanation, figure, classroom, &error));
     lam_explanation_free(explanation);
     return ok ? 0 : report_job_failure(job, &error);
 }
@@ -170,7 +187,9 @@ int run_explain(int operand_count, char **operands, const struct options *option
     bool ok = check(&job, operands[1], &x, &y, &error);
     char *figure = ok ? figure_path(options, job.model, &failed) : NULL;
     ok = ok && (!failed || complain(&error, LAM_MACHINE, "out of memory"));
-    ok = ok && (!figure || check_figure(figure, options, job.model, &error));
+    struct child classroom = NO_CHILD;
+    ok = ok && (!figure ||
+                (check_figure(figure, options, job.model, &error) && classroom_start(&classroom, options, &error)));
     int code = ok ? 0 : report_failure(&error, options);
     interrupt_start();
     if (ok) {
@@ -179,8 +198,9 @@ int run_explain(int operand_count, char **operands, const struct options *option
         if (figure)
             sandbox_add_output(&paths, figure, !output_is_named(options->picture.output));
         job.device = sandbox_start(options, &paths, &error) ? device_option_make(options, &error) : NULL;
-        code = job.device ? explain(&job, x, y, figure) : report_failure(&error, options);
+        code = job.device ? explain(&job, x, y, figure, &classroom) : report_failure(&error, options);
     }
+    classroom_end(&classroom);
     free(figure);
     job_free(&job);
     lam_device_free(job.device);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include <lambent/fields.h>
+#include <lambent/light.h>
 
 #include "explain_rows.h"
 #include "explain_words.h"

@@ -136,8 +136,7 @@ static bool save_picture(const struct hash_run *run, const char *name, const str
     lam_save_params params = {.threads = job->options->work.threads};
     lam_bytes png = {0};
     bool ok = path || complain(error, LAM_MACHINE, "out of memory");
-    ok = ok && writer_check_links(path, strlen(run->options->hash.pictures), error) &&
-         lam_image_encode(&job->image, "png", &params, &png, error) && writer_save(path, &png, false, error);
+    ok = ok && lam_image_encode(&job->image, "png", &params, &png, error) && writer_save(path, &png, false, error);
     lam_bytes_free(&png);
     free(path);
     return ok;
@@ -268,11 +267,8 @@ static void say_summary(const struct hash_run *run, const struct result *r)
 static void head_json(struct json *json, const struct hash_run *run, const char *options_text)
 {
     json_open(json, NULL, '{');
-    json_text(json, "lambent", lam_version());
-    json_text(json, "file", run->path);
-    json_text(json, "options", options_text);
-    json_text(json, "file_version", run->then.version);
-    json_text(json, "file_options", run->then.options);
+    json_put(json, TEXT("lambent", lam_version()), TEXT("file", run->path), TEXT("options", options_text),
+             TEXT("file_version", run->then.version), TEXT("file_options", run->then.options));
 }
 
 // Writes the hashes and the sheet of old and new pictures. Sets *rows to the number of pictures on the sheet.
@@ -286,8 +282,7 @@ static void say_result(const struct hash_run *run, const struct result *result, 
                        int rows)
 {
     if (run->options->report.json) {
-        json_flag(json, "written", written);
-        json_text(json, "sheet", rows ? run->sheet : NULL);
+        json_put(json, FLAG("written", written), TEXT("sheet", rows ? run->sheet : NULL));
         json_close(json, '}');
         putc('\n', json->file);
     } else if (!run->options->report.quiet && json->file == stdout) {
@@ -363,12 +358,11 @@ static enum writer_right right_of(void *user, const char *path)
     if (strcmp(path, run->path) == 0)
         return WRITER_ANY;
     if (run->sheet && strcmp(path, run->sheet) == 0)
-        return WRITER_NEW_OR_OURS | WRITER_IMPLIED;
-    lam_error ignored;
+        return WRITER_NEW_OR_OURS;
     size_t length = pictures ? strlen(pictures) : 0, all = strlen(path);
     bool kept = length && strncmp(path, pictures, length) == 0 && !strstr(path + length, "../") &&
                 (pictures[length - 1] == '/' || path[length] == '/') && all > 4 && strcmp(path + all - 4, ".png") == 0;
-    return kept && writer_check_links(path, length, &ignored) ? WRITER_NEW_OR_OURS | WRITER_IMPLIED : WRITER_NONE;
+    return kept ? WRITER_NEW_OR_OURS : WRITER_NONE;
 }
 
 static void reach(void *user, size_t model, struct sandbox_paths *paths)
@@ -412,9 +406,11 @@ static int run_with(struct hash_run *run, int operand_count, char **operands)
     run->by_file = !operand_count && !run->options->batch.lists.count;
     drawn.limits.files_inside |=
         run->by_file; // scene files that the hash file lists may refer only to files below their own folders
-    struct batch_use use = {draw, reach, right_of, finish, run};
+    struct batch_use use = {draw, reach, right_of, {NULL, NULL, run->options->hash.pictures}, finish, run};
     bool ok = check(operand_count, run->options, &error) && batch_plan_start(&run->plan, &drawn, &error) &&
               prepare(run, operand_count, operands, &error);
+    use.files[0] = run->path;
+    use.files[1] = run->sheet;
     return ok ? batch_use_run(&run->plan, &use) : report_failure(&error, run->options);
 }
 

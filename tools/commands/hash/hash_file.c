@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <lambent/lambent.h>
+#include <lambent/path.h>
 
 #include "console.h"
 #include "file_io.h"
@@ -259,12 +260,13 @@ bool hash_file_may_name(const char *path, const char *file, const struct options
 {
     if (lam_shape_find(file) >= 0)
         return true;
-    char *folder = output_folder_of(path), *real = realpath(file, NULL);
-    bool may = folder && (real ? path_is_below(real, folder, false) : errno == ENOENT); // a missing file is allowed
-    for (int i = 0; real && !may && i < options->limits.allow_paths.count; i++)
-        may = path_is_below(real, options->limits.allow_paths.items[i], false);
+    char *folder = output_folder_of(path);
+    bool may = folder && lam_path_is_below(file, folder);
+    for (int i = 0; i < options->limits.allow_paths.count; i++)
+        may |= lam_path_is_below(file, options->limits.allow_paths.items[i]);
+    struct stat about;
+    may &= lam_path_stat(file, &about) == 0 || (errno != EXDEV && errno != EMLINK); // a missing file is allowed
     free(folder);
-    free(real);
     return may || complain(error, LAM_CANNOT_READ,
                            "%.200s: names '%.200s', which is not below the folder of this file; --allow-path allows it",
                            path, file);

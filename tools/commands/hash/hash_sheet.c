@@ -139,9 +139,7 @@ bool hash_sheet_write(const struct hash_run *run, json_t *const *records, int *r
     for (size_t i = 0; ok && i < run->plan.count && drawn < *rows; i++)
         if (json_object_get(records[i], "new_picture"))
             ok = draw_row(&d, records[i], run->names[i], first, HEAD + drawn++ * row, error);
-    const char *slash = strrchr(run->sheet, '/');
-    ok = ok && writer_check_links(run->sheet, slash ? (size_t)(slash - run->sheet) : 0, error) &&
-         drawing_write(&d, run->sheet, error);
+    ok = ok && drawing_write(&d, run->sheet, error);
     drawing_free(&d);
     return ok;
 }

@@ -1,6 +1,7 @@
 // info_facts.c: collects the facts about a model that both output formats of the command `info` print.
 #include "info.h"
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 
 struct info_counts info_count(const lam_scene *scene)

@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include <lambent/light.h>
 #include <lambent/material.h>
 #include <lambent/text.h>
 

@@ -134,7 +134,7 @@ static bool read_model(struct batch_job *job, const json_t *root, const struct b
         return refuse(error, "name", "expected a file's name without a folder, of at most 1000 bytes");
     if (model && strcmp(model, "-") == 0)
         return refuse(error, "model", "standard input contains the jobs; send a model's bytes in key 'data'");
-    if (model && lam_shape_find(model) < 0 && !job_roots_have(rules->roots, model, false, error))
+    if (model && lam_shape_find(model) < 0 && !job_roots_have(rules->options, model, false, error))
         return false;
     if (data && !read_bytes(job, json_object_get(root, "data"), error))
         return false;
@@ -177,7 +177,7 @@ static bool check_environment(const struct batch_job *job, const struct batch_jo
     char *names = strchr(text, ',') ? environment_option_faces(text, paths, error) : NULL;
     bool ok = names || !strchr(text, ',');
     for (int i = 0; ok && i < (names ? LAM_FACE_COUNT : 1); i++)
-        ok = job_roots_have(rules->roots, paths[i], false, error);
+        ok = job_roots_have(rules->options, paths[i], false, error);
     free(names);
     return ok;
 }
@@ -192,7 +192,7 @@ static bool check_looks(const struct batch_job *job, const struct batch_job_rule
             value = argument + sizeof option;
         else if (strcmp(argument, option) == 0 && i + 1 < job->word_count)
             value = job->words[i + 1];
-        if (value && *value && !look_find(value) && !job_roots_have(rules->roots, value, false, error))
+        if (value && *value && !look_find(value) && !job_roots_have(rules->options, value, false, error))
             return false;
     }
     return true;
@@ -203,7 +203,8 @@ static bool check_outputs(const struct batch_job *job, const struct batch_job_ru
     bool ok = true;
     for (int i = 0; ok && !job->in_answer && i < job->plan.view_count; i++) {
         char *output = batch_plan_output(&job->plan, 0, i);
-        ok = output ? job_roots_have(rules->roots, output, true, error) : complain(error, LAM_MACHINE, "out of memory");
+        ok = output ? job_roots_have(rules->options, output, true, error)
+                    : complain(error, LAM_MACHINE, "out of memory");
         free(output);
     }
     return ok;

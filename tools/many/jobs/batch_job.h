@@ -26,7 +26,6 @@ struct batch_job {
 struct batch_job_rules {
     const struct options *options; // the options of the worker
     int threads, in_flight;        // threads per job, and the number of jobs that are drawn at the same time
-    const struct job_roots *roots; // allowed folders for files
     bool has_keys;                 // whether there is a journal
 };
 

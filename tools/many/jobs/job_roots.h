@@ -4,18 +4,12 @@
 
 #include "options.h"
 
-struct job_roots {
-    char **paths; // the paths after resolving all links, allocated with malloc
-    int count;
-};
+// Checks the folders. Fails with LAM_BAD_ARGUMENT if one is not a folder.
+bool job_roots_check(const struct options *options, lam_error *error);
 
-// Resolves the folders. Fails with LAM_BAD_ARGUMENT (not a folder) or LAM_LIMIT.
-bool job_roots_start(struct job_roots *roots, const struct options *options, lam_error *error);
-void job_roots_free(struct job_roots *roots);
-
-// Resolves links and ".." in a path, and returns whether the file is below one of the folders. The file need not exist.
-// With `writes`, the caller will write the file, so the file must not be a pipe, a device or a broken link. Fails with
-// LAM_CANNOT_WRITE if `writes` is set, otherwise with LAM_CANNOT_READ.
-bool job_roots_have(const struct job_roots *roots, const char *path, bool writes, lam_error *error);
+// Returns whether a file is below one of the folders, without a link on the way. The file need not exist. With `writes`,
+// the caller will write the file, so the file must not be a pipe or a device. Fails with LAM_CANNOT_WRITE if `writes` is
+// set, otherwise with LAM_CANNOT_READ.
+bool job_roots_have(const struct options *options, const char *path, bool writes, lam_error *error);
 
 #endif

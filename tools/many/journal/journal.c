@@ -12,6 +12,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <lambent/path.h>
+
 #include "batch_key.h"
 #include "console.h"
 #include "file_io.h"
@@ -129,7 +131,7 @@ static bool keep_line(struct journal *j, uint64_t output, const char *line)
 char *journal_read(const char *path, size_t *size)
 {
     struct stat about;
-    int file = open(path, O_RDONLY | O_CLOEXEC);
+    int file = lam_path_open(path, O_RDONLY | O_CLOEXEC);
     char *text = file >= 0 && fstat(file, &about) == 0 ? malloc((size_t)about.st_size + 1) : NULL;
     size_t used = 0;
     if (text)
@@ -271,7 +273,7 @@ static bool lock_running(struct journal *j, lam_error *error)
     while (about.st_nlink == 0) {
         if (j->running >= 0)
             close(j->running);
-        j->running = open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        j->running = lam_path_open(j->running_path, O_RDWR | O_CREAT | O_CLOEXEC);
         if (j->running < 0)
             return complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", j->running_path, strerror(errno));
         if (!wait_for_lock(j->running, until_ms))
@@ -315,7 +317,7 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
     ok = ok && output_make_folder(path, error) && open_running(j, error) &&
          (way == JOURNAL_START ? set_aside(j, error) : read_journal(j, way, run->options, error));
     if (ok) {
-        j->file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+        j->file = lam_path_open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC);
         ok = j->file >= 0 || complain(error, LAM_CANNOT_WRITE, "%s: cannot write: %s", path, strerror(errno));
     }
     // Adds a line end to a truncated line, so that the next record begins on a new line.

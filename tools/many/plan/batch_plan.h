@@ -8,9 +8,6 @@
 struct batch_model {
     char *path; // allocated with malloc
     char *root; // the folder to which {dir} is relative, allocated with malloc; NULL means the path's own folder
-    // The model is a link from a folder to a file outside this folder and outside the folders of --allow-path. The
-    // program reports an error instead of drawing this file, because the user did not name it.
-    bool leads_out;
 };
 
 struct batch_plan {

@@ -1,73 +1,77 @@
 // batch_sources.c: collects the models of `batch`.
 #include "batch_sources.h"
 
-#include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+
+#include <lambent/path.h>
 
 #include "console.h"
 #include "file_io.h"
 #include "output.h"
 
-static int by_name(const struct dirent **a, const struct dirent **b) { return strcmp((*a)->d_name, (*b)->d_name); }
+static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
-// Names that begin with a dot are hidden.
-static int is_visible(const struct dirent *entry) { return entry->d_name[0] != '.'; }
-
-// Returns whether a link leads outside the given folder and outside all folders of --allow-path. Returns false for a
-// broken link.
-static bool leads_out(const struct batch_plan *plan, const char *path, const char *root)
+// Lists the names in a folder in alphabetical order. Names that begin with a dot are hidden. The caller frees the names
+// and the list, also on failure.
+static bool list_names(const char *folder, char ***names, size_t *count, lam_error *error)
 {
-    const struct texts *allowed = &plan->options->limits.allow_paths;
-    char *real = realpath(path, NULL);
-    bool out = real && !path_is_below(real, root, false);
-    for (int i = 0; i < allowed->count && out; i++)
-        out = !path_is_below(real, allowed->items[i], false);
-    free(real);
-    return out;
+    DIR *list = lam_path_list(folder);
+    bool ok = list || complain(error, LAM_CANNOT_READ, "%s: cannot read the folder: %s", folder, strerror(errno));
+    for (struct dirent *entry; ok && (entry = readdir(list));) {
+        if (entry->d_name[0] == '.')
+            continue;
+        char **more = realloc(*names, (*count + 1) * sizeof *more);
+        *names = more ? more : *names;
+        ok = (more && (more[*count] = strdup(entry->d_name))) || complain(error, LAM_MACHINE, "out of memory");
+        *count += ok;
+    }
+    if (list)
+        closedir(list);
+    if (*count)
+        qsort(*names, *count, sizeof **names, by_name);
+    return ok;
 }
 
-// Adds a file without opening it, so the errors for pipes and broken links appear only when the file is read.
-static bool add_file(struct batch_plan *plan, const char *path, const char *root, bool is_link, lam_error *error)
+static bool add_folder(struct batch_plan *plan, const char *folder, const char *root, lam_error *error);
+
+// Adds a model, or the models of a subfolder. Links to folders are not followed, because they may form a cycle. Does not
+// open the file, so the errors for pipes and links that lead nowhere appear only when the file is read.
+static bool add_entry(struct batch_plan *plan, const char *path, const char *root, lam_error *error)
 {
-    if (!is_model_name(path) || (is_link && path_is_folder(path)))
+    struct stat own;
+    const char *name;
+    int parent = lam_path_parent(path, &name);
+    bool found = fstatat(parent, name, &own, AT_SYMLINK_NOFOLLOW) == 0;
+    lam_path_close(parent);
+    if (!found)
         return true;
-    if (!batch_plan_add(plan, path, root, error))
-        return false;
-    plan->models[plan->count - 1].leads_out = is_link && leads_out(plan, path, root);
-    return true;
+    if (S_ISDIR(own.st_mode))
+        return add_folder(plan, path, root, error);
+    return !is_model_name(path) || (S_ISLNK(own.st_mode) && path_is_folder(path)) ||
+           batch_plan_add(plan, path, root, error);
 }
 
-// Adds the models of a folder and its subfolders, in alphabetical order. Links to folders are not followed, because
-// they may form a cycle.
+// Adds the models of a folder and its subfolders, in alphabetical order.
 static bool add_folder(struct batch_plan *plan, const char *folder, const char *root, lam_error *error)
 {
-    struct dirent **entries;
-    int count = scandir(folder, &entries, is_visible, by_name);
-    if (count < 0)
-        return complain(error, LAM_CANNOT_READ, "%s: cannot read the folder: %s", folder, strerror(errno));
-    bool ok = true;
-    for (int i = 0; i < count; i++) {
+    char **names = NULL;
+    size_t count = 0;
+    bool ok = list_names(folder, &names, &count, error), slash = folder[strlen(folder) - 1] != '/';
+    for (size_t i = 0; i < count; i++) {
         char *path = NULL;
-        struct stat own;
-        bool slash = folder[strlen(folder) - 1] != '/';
-        if (ok && asprintf(&path, "%s%s%s", folder, slash ? "/" : "", entries[i]->d_name) < 0) {
+        if (ok && asprintf(&path, "%s%s%s", folder, slash ? "/" : "", names[i]) < 0) {
             path = NULL;
             ok = complain(error, LAM_MACHINE, "out of memory");
         }
-        if (ok && lstat(path, &own) == 0) {
-            if (S_ISDIR(own.st_mode))
-                ok = add_folder(plan, path, root, error);
-            else
-                ok = add_file(plan, path, root, S_ISLNK(own.st_mode), error);
-        }
+        ok = ok && add_entry(plan, path, root, error);
         free(path);
-        free(entries[i]);
+        free(names[i]);
     }
-    free(entries);
+    free(names);
     return ok;
 }
 
@@ -139,7 +143,7 @@ bool batch_add_list(struct batch_plan *plan, const char *path, lam_error *error)
         if (strlen(line) != (size_t)length)
             ok = complain(error, LAM_CANNOT_READ, "%s: expected names, one on each line, found a zero byte", path);
         else if (length) {
-            ok = batch_plan_add(plan, line, NULL, error) &&
+            ok = lam_path_hold(line, false, error) && batch_plan_add(plan, line, NULL, error) &&
                  (!plan->by_list || plan->count - first < 2 || check_order(plan, path, error));
             past = !ours;
         }

@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include <lambent/path.h>
+
 #include "animate.h"
 #include "batch_key.h"
 #include "console.h"
@@ -99,7 +101,7 @@ struct files {
 static bool changed_since(const char *path, const struct timespec *start)
 {
     struct stat about;
-    if (stat(path, &about) != 0)
+    if (lam_path_stat(path, &about) != 0)
         return errno != ENOENT && errno != ENOTDIR;
     return about.st_ctim.tv_sec > start->tv_sec ||
            (about.st_ctim.tv_sec == start->tv_sec && about.st_ctim.tv_nsec >= start->tv_nsec);
@@ -311,21 +313,12 @@ static void finish_picture(struct model_run *r, struct job *job, int view, bool 
         json_object_update(r->result->records[view], r->found);
 }
 
-static bool may_read(const struct batch_item *item, lam_error *error)
-{
-    return !item->leads_out ||
-           complain(error, LAM_CANNOT_READ,
-                    "%.400s: a link that leads out of the folder that was given; name the file, or allow "
-                    "its folder (--allow-path)",
-                    item->model);
-}
-
 static void run_views(struct model_run *r, struct job *job, struct progress *progress)
 {
     lam_error error = {0};
     job->output = r->item->outputs[0];
-    bool read = may_read(r->item, &error) && (!page_wanted(job) || page_refuse_several(&error)) &&
-                job_load(job, progress, &error) && job_arrange(job, progress, &error);
+    bool read = (!page_wanted(job) || page_refuse_several(&error)) && job_load(job, progress, &error) &&
+                job_arrange(job, progress, &error);
     for (int i = 0; i < job->view_count; i++) {
         job->output = r->item->outputs[i];
         job->picture_bytes = r->item->contents ? &r->item->contents[i] : NULL;
@@ -366,13 +359,12 @@ static void draw(struct model_run *r)
     } else {
         lam_error error = {0};
         job.output = item->outputs[0];
-        bool ok = may_read(item, &error);
         const struct batch_use *use = item->use;
         r->found = use ? json_object() : NULL;
-        ok = ok && (use ? use->draw(use->user, item->index, &job, &progress, r->found, &error)
-                    : animation_wanted(job.options) ? animation_run(&job, &progress, &error)
-                    : page_wanted(&job)             ? page_run(&job, &progress, &error)
-                                                    : job_run(&job, &progress, &error));
+        bool ok = use                             ? use->draw(use->user, item->index, &job, &progress, r->found, &error)
+                  : animation_wanted(job.options) ? animation_run(&job, &progress, &error)
+                  : page_wanted(&job)             ? page_run(&job, &progress, &error)
+                                                  : job_run(&job, &progress, &error);
         progress_end(&progress);
         finish_picture(r, &job, 0, ok, &error);
     }

@@ -13,7 +13,6 @@ struct batch_item {
     const char *options_text; // the options as text for the keys; NULL if records have no keys
     bool has_records;         // whether records are needed
     const char *model;
-    bool leads_out;               // the model is a link that leads out of its folder (batch_plan.h)
     const lam_bytes *model_bytes; // the bytes of the model that `model` names; NULL if the model is a file
     const struct job_view *views; // the views of the pictures
     char *const *outputs;         // the paths of the pictures

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include <lambent/path.h>
+
 #include "batch_job.h"
 #include "batch_key.h"
 #include "console.h"
@@ -140,7 +142,7 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
         return written && has_same_key(record, u, view) && is_untouched(record, u->outputs[view]) ? PICTURE_SAME
                                                                                                   : PICTURE_OPEN;
     if (written) {
-        bool whole = stat(u->outputs[view], &found) == 0 &&
+        bool whole = lam_path_stat(u->outputs[view], &found) == 0 &&
                      found.st_size == json_integer_value(json_object_get(record, "bytes"));
         return whole ? PICTURE_BEFORE : PICTURE_OPEN;
     }
@@ -192,7 +194,6 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
                                .options_text = task->options_text,
                                .has_records = b->options_text || task->job || b->use,
                                .model = task->plan->models[task->model].path,
-                               .leads_out = task->plan->models[task->model].leads_out,
                                .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
                                .views = views,
                                .outputs = outputs,

@@ -11,6 +11,7 @@
 #include "job.h"
 #include "sandbox.h"
 
+enum { BATCH_USE_FILES = 3 };
 struct batch_use {
     // Draws a model of the plan. `job` contains the options, the model, the device and the start time. The loop reports
     // the job's warnings and frees the job. The function stores its results in the object `found`, which becomes part
@@ -20,6 +21,7 @@ struct batch_use {
     void (*reach)(void *user, size_t model, struct sandbox_paths *paths);
     // Decides which files a process in the sandbox may write. NULL allows no files.
     writer_rule *right;
+    const char *files[BATCH_USE_FILES]; // these files, and the folders in which it may write; NULL if there are fewer
     // Called after the last model, unless the run was interrupted. Receives the records of all models; `failed` is the
     // number of failed models. Returns the exit code. The loop owns the records.
     int (*finish)(void *user, json_t *const *records, size_t failed);

@@ -156,7 +156,7 @@ static uint64_t put_files(struct json *json, const struct page_model *model, con
         bytes += (uint64_t)about.st_size;
         json_open(json, NULL, '{');
         put_path(json, "path", page_model, model->files[i].inside);
-        json_count(json, "size", (uint64_t)about.st_size);
+        json_put(json, COUNT("size", about.st_size));
         json_close(json, '}');
     }
     json_close(json, ']');
@@ -200,7 +200,7 @@ static void tell_model(struct drawer *d, struct job *job, const struct view_word
     json_open(&json, NULL, '{');
     uint64_t bytes = put_files(&json, &model, w->page_model);
     put_missing(&json, job, w->page_model);
-    json_count(&json, "triangles", job->model_counts.triangles);
+    json_put(&json, COUNT("triangles", job->model_counts.triangles));
     const char *why = reason_of(job, &model, listed, error.text, bytes, reason);
     json_text(&json, "native", why);
     json_close(&json, '}');

@@ -1,18 +1,16 @@
-// view_files.c: opens the files that the viewer serves. The kernel (openat2) ensures that a path stays below the
-// folder: ".." and links cannot lead outside, even if somebody moves links at the same time.
+// view_files.c: opens the files that the viewer serves, below the handle of their folder (lam_path_open).
 #include "view_files.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <lambent/lambent.h>
+#include <lambent/path.h>
 
 #include "console.h"
 #include "file_io.h"
@@ -23,7 +21,7 @@ enum { FLAGS = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK };
 bool view_files_start(struct view_files *files, const char *operand, bool is_folder, lam_error *error)
 {
     const char *slash = is_folder ? NULL : strrchr(operand, '/');
-    *files = (struct view_files){.folder = -1};
+    *files = (struct view_files){0};
     files->prefix = is_folder ? strdup(operand) : slash ? strndup(operand, (size_t)(slash - operand)) : strdup(".");
     files->model_path = is_folder ? NULL : strdup(operand);
     if (!is_folder && asprintf(&files->model, "/%s", slash ? slash + 1 : operand) < 0)
@@ -32,25 +30,20 @@ bool view_files_start(struct view_files *files, const char *operand, bool is_fol
         return complain(error, LAM_MACHINE, "out of memory");
     for (size_t length = strlen(files->prefix); length > 1 && files->prefix[length - 1] == '/';)
         files->prefix[--length] = 0;
-    bool root = !*files->prefix || strcmp(files->prefix, "/") == 0;
-    if (root)
+    if (strcmp(files->prefix, "/") == 0)
         *files->prefix = 0; // otherwise a path would begin with two slashes
-    files->folder = open(root ? "/" : files->prefix, O_PATH | O_DIRECTORY | O_CLOEXEC);
-    return files->folder >= 0 ||
-           complain(error, LAM_CANNOT_READ, "%s: cannot open its folder: %s", operand, strerror(errno));
+    return true;
 }
 
 void view_files_free(struct view_files *files)
 {
-    if (files->folder >= 0)
-        close(files->folder);
     for (int i = 0; i < files->environment_count; i++)
         free(files->environment[i]);
     free(files->environment);
     free(files->prefix);
     free(files->model);
     free(files->model_path);
-    *files = (struct view_files){.folder = -1};
+    *files = (struct view_files){0};
 }
 
 // Returns whether a list of extensions, separated by spaces, contains `ending`.
@@ -75,22 +68,12 @@ static bool is_served(const char *path)
            has_ending("json mtl bin png jpg jpeg webp bmp tga ppm pgm pbm pnm pfm hdr pic exr", dot + 1);
 }
 
-static int open_below(const struct view_files *files, const char *path, int flags)
+static int open_path(const struct view_files *files, const char *path, int flags)
 {
-#ifdef SYS_openat2
-    struct {
-        uint64_t flags, mode, resolve;
-    } how = {.flags = (uint64_t)flags, .resolve = 0x02 | 0x08}; // RESOLVE_NO_MAGICLINKS, RESOLVE_BENEATH
-    int file = (int)syscall(SYS_openat2, files->folder, path[1] ? path + 1 : ".", &how, sizeof how);
-    if (file >= 0 || errno != ENOSYS)
-        return file;
-#endif
-    // Linux before 5.6 has no openat2. Between the check and open(), somebody could replace the file by a link that
-    // leads outside. Only an active sandbox then prevents access.
     char *whole = view_files_path(files, path);
-    int found = whole && path_is_below(whole, *files->prefix ? files->prefix : "/", false) ? open(whole, flags) : -1;
+    int file = whole ? lam_path_open(whole, flags) : -1;
     free(whole);
-    return found;
+    return file;
 }
 
 static bool is_regular(int file)
@@ -112,16 +95,8 @@ static const char *environment_of(const struct view_files *files, const char *pa
 
 int view_files_open(const struct view_files *files, const char *path)
 {
-    const char *environment = environment_of(files, path);
-    int file = -1;
-    if (*path != '/')
-        return -1;
-    if (environment)
-        file = open(environment, FLAGS);
-    else if (files->model && strcmp(path, files->model) == 0)
-        file = open(files->model_path, FLAGS);
-    else if (files->folder >= 0 && is_served(path))
-        file = open_below(files, path, FLAGS);
+    bool named = environment_of(files, path) || (files->model && strcmp(path, files->model) == 0);
+    int file = *path == '/' && (named || (files->prefix && is_served(path))) ? open_path(files, path, FLAGS) : -1;
     if (file >= 0 && !is_regular(file)) {
         close(file);
         file = -1;
@@ -131,8 +106,8 @@ int view_files_open(const struct view_files *files, const char *path)
 
 int view_files_open_folder(const struct view_files *files, const char *path)
 {
-    return files->folder >= 0 && *path == '/' && !strstr(path, "/.")
-               ? open_below(files, path, O_PATH | O_DIRECTORY | O_CLOEXEC)
+    return files->prefix && *path == '/' && !strstr(path, "/.")
+               ? open_path(files, path, O_PATH | O_DIRECTORY | O_CLOEXEC)
                : -1;
 }
 

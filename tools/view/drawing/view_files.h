@@ -7,8 +7,7 @@
 #include <lambent/base.h>
 
 struct view_files {
-    int folder;         // the folder's handle; −1 if nothing is served
-    char *prefix;       // the path of the page's "/" on this machine: "models", "."
+    char *prefix;       // the path of the page's "/" on this machine: "models", "."; NULL if nothing is served
     char *model;        // the model's path in the page; NULL if a folder is shown
     char *model_path;   // the model's own path, which may be a link to another folder
     char **environment; // files of --environment, in any folder; "/.environment/N-NAME" in the page, N from 1

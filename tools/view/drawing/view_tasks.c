@@ -10,10 +10,112 @@
 #include <unistd.h>
 
 #include "console.h"
+#include "file_io.h"
 #include "limit_options.h"
 #include "progress.h"
+#include "sandbox_start.h"
 
-enum { GRACE_MS = 5000 };
+enum {
+    GRACE_MS = 5000,
+    CANCEL_MS = 2000,
+};
+static const uint64_t data_max = (uint64_t)1 << 33; // the maximum size of an answer
+
+struct start {
+    const struct view_files *files;
+    const struct options *options;
+};
+
+static void draw(void *user, int from, int to)
+{
+    const struct start *start = user;
+    // A network connection would otherwise stay open until this process ends.
+    close_files((int[]){from, to}, 2);
+    // The server's filter allows connections and new processes. A drawing process needs neither, so it installs a
+    // stricter filter. Landlock already restricts the folders of the server and of the drawing process.
+    if (sandbox_active()->filter && !sandbox_filter_install(SANDBOX_DRAWS))
+        _exit(1);
+    view_draw_serve(start->files, start->options, from, to);
+}
+
+// Starts a process. Returns false and sets errno on failure.
+static bool process_start(struct view_process *process, const struct view_files *files, const struct options *options)
+{
+    *process = (struct view_process){.child = NO_CHILD};
+    return child_start(&process->child, draw, &(struct start){files, options});
+}
+
+// Sends a request and its words. Returns false and sets errno on failure.
+static bool process_ask(struct view_process *process, const struct view_request *request, const char *words, void *task)
+{
+    char *model = strdup(words);
+    if (!model)
+        return false;
+    free(process->model);
+    process->model = model;
+    process->task = task;
+    process->cancelled = false;
+    process->child.received.size = 0;
+    return write_all(process->child.to, request, sizeof *request) &&
+           write_all(process->child.to, words, (size_t)request->size);
+}
+
+// Requests the cancellation of the current request. A process that does not react is killed after two seconds.
+static void process_cancel(struct view_process *process)
+{
+    if (process->child.pid > 0 && !process->cancelled) {
+        process->cancelled = true;
+        process->child.stop_ms = clock_ms() + CANCEL_MS;
+        kill(process->child.pid, SIGUSR1);
+    }
+}
+
+// Reads the available bytes. If the answer is complete, sets *reply and returns 1. Returns 0 if the answer is
+// incomplete, and −1 if the process has ended or sent an invalid answer.
+static int process_receive(struct view_process *p, struct view_reply *reply)
+{
+    struct child_bytes *received = &p->child.received;
+    size_t whole = sizeof *reply;
+    if (received->size >= sizeof *reply) {
+        memcpy(reply, received->data, sizeof *reply);
+        if (reply->data > data_max)
+            return -1;
+        whole += reply->notes + (size_t)reply->data;
+    }
+    if (!child_bytes_reserve(received, whole - received->size + 1))
+        return -1;
+    if (received->size < whole && child_read(p->child.from, received, whole - received->size) != CHILD_READ)
+        return -1;
+    if (received->size < sizeof *reply || received->size < whole)
+        return 0;
+    memcpy(reply, received->data, sizeof *reply);
+    return received->size == sizeof *reply + reply->notes + reply->data;
+}
+
+// Returns a complete answer: the header, the notes and the data, allocated with malloc. The process can then handle the
+// next request.
+static char *process_take(struct view_process *process)
+{
+    char *received = process->child.received.data;
+    if (received) // process_receive reserved a byte for the end
+        received[process->child.received.size] = 0;
+    process->child.received = (struct child_bytes){0};
+    process->task = NULL;
+    process->child.stop_ms = 0;
+    return received;
+}
+
+// Kills the process and waits for its end.
+static void process_end(struct view_process *process)
+{
+    child_kill(&process->child);
+    child_wait(&process->child);
+    child_free(&process->child);
+    free(process->model);
+    *process = (struct view_process){.child = NO_CHILD};
+}
+
+// --- tasks
 
 void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, const struct options *options,
                       void (*done)(void *user, struct view_result *result))
@@ -63,7 +165,7 @@ static void cancel(struct view_tasks *tasks, struct view_task *task)
     task->superseded = true;
     struct view_process *process = process_of(tasks, task);
     if (process)
-        view_process_cancel(process);
+        process_cancel(process);
 }
 
 struct view_task *view_tasks_add(struct view_tasks *tasks, const struct view_request *request, const char *words,
@@ -119,7 +221,7 @@ static struct view_process *find_process(struct view_tasks *tasks, const struct 
     if (!task->client && pictures >= tasks->count - 1)
         return NULL;
     if (!free_one && waiting) {
-        view_process_end(waiting); // each model has its own process
+        process_end(waiting); // each model has its own process
         free_one = waiting;
     }
     return free_one;
@@ -134,16 +236,16 @@ static void fail(struct view_tasks *tasks, struct view_task *task, int status, c
 
 static bool begin(struct view_tasks *tasks, struct view_task *task, struct view_process *process)
 {
-    if (!process->child.pid && !view_process_start(process, tasks->files, tasks->options))
+    if (!process->child.pid && !process_start(process, tasks->files, tasks->options))
         return false;
     task->running = true;
-    if (!view_process_ask(process, &task->request, task->words, task)) {
+    if (!process_ask(process, &task->request, task->words, task)) {
         int reason = errno;
-        view_process_end(process);
+        process_end(process);
         errno = reason;
         return false;
     }
-    process->stop_ms = tasks->time_limit_ms > 0 ? clock_ms() + tasks->time_limit_ms : 0;
+    process->child.stop_ms = tasks->time_limit_ms > 0 ? clock_ms() + tasks->time_limit_ms : 0;
     return true;
 }
 
@@ -171,7 +273,7 @@ static void lose(struct view_tasks *tasks, struct view_process *process, const c
 {
     struct view_task *task = process->task;
     bool cancelled = process->cancelled;
-    view_process_end(process);
+    process_end(process);
     if (task)
         fail(tasks, task, cancelled ? 409 : 422, cancelled ? "cancelled" : sentence);
 }
@@ -180,21 +282,21 @@ static void receive(struct view_tasks *tasks, struct view_process *process)
 {
     struct view_reply reply;
     struct view_task *task = process->task;
-    int whole = view_process_receive(process, &reply);
+    int whole = process_receive(process, &reply);
     if (whole < 0)
         lose(tasks, process, "the drawing process ended without a result");
     if (whole <= 0)
         return;
     struct view_result result = {
         .status = reply.status, .notes_at = sizeof reply, .notes = reply.notes, .data = (size_t)reply.data};
-    result.bytes = view_process_take(process);
+    result.bytes = process_take(process);
     if (!task) { // no task is waiting for this answer
         free(result.bytes);
-        view_process_end(process);
+        process_end(process);
         return;
     }
     if (!task->client || !reply.keeps) // a thumbnail's model is drawn only once
-        view_process_end(process);
+        process_end(process);
     finish(tasks, task, &result);
 }
 
@@ -213,7 +315,7 @@ void view_tasks_step(struct view_tasks *tasks)
             receive(tasks, p);
         if (p->child.pid > 0 && p->task && p->cancelled)
             kill(p->child.pid, SIGUSR1); // repeated in case the process has not read the request yet
-        if (p->child.pid > 0 && p->task && p->stop_ms > 0 && now > p->stop_ms)
+        if (p->child.pid > 0 && p->task && p->child.stop_ms > 0 && now > p->child.stop_ms)
             lose(tasks, p, "the time limit was reached (--time-limit)");
     }
     begin_waiting(tasks);
@@ -223,7 +325,7 @@ void view_tasks_end(struct view_tasks *tasks)
 {
     for (int i = 0; i < tasks->count; i++)
         if (tasks->processes[i].child.pid > 0)
-            view_process_end(&tasks->processes[i]);
+            process_end(&tasks->processes[i]);
     while (tasks->first)
         fail(tasks, tasks->first, 503, "the viewer has ended");
 }

@@ -3,7 +3,8 @@
 #ifndef VIEW_TASKS_H
 #define VIEW_TASKS_H
 
-#include "view_process.h"
+#include "child.h"
+#include "view_draw.h"
 
 enum { VIEW_PROCESSES_MAX = 64 };
 
@@ -24,6 +25,14 @@ struct view_task {
     bool running;
     bool superseded; // replaced by a newer task
     struct view_task *next;
+};
+
+// A drawing process (view_draw.h), which handles one request at a time.
+struct view_process {
+    struct child child;
+    char *model;    // the model of the last request, or NULL
+    void *task;     // the task of the current request; NULL if the process is idle
+    bool cancelled; // the current request is being cancelled
 };
 
 struct view_tasks {

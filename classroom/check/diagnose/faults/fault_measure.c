@@ -1,12 +1,12 @@
 // fault_measure.c: compares the shader's pictures with pictures that contain faults, cached or drawn.
-#include "fault_measure.h"
+#include "fault_candidate.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "fail.h"
 #include "linear.h"
-#include "shader_constants.h"
+#include "shader_interface.h"
 
 // Copies a scene, reduced to the compared pixels that the fault shader draws. `memory` provides 5 floats for each pixel
 // of the fault shader's pictures.

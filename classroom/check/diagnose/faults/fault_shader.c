@@ -32,7 +32,7 @@ struct program {
 };
 enum { MAX_PROGRAMS = 32 };
 
-enum { MAX_VALUES = 64, MAX_NUMBERS = 512 };
+enum { MAX_VALUES = 64, MAX_FLOATS = 512 };
 
 struct fault_shader {
     struct place place;
@@ -44,7 +44,7 @@ struct fault_shader {
     // The uniform values of the current picture.
     lam_check_value values[MAX_VALUES];
     int value_count;
-    float numbers[MAX_NUMBERS];
+    float numbers[MAX_FLOATS];
     int number_count;
     bool full; // set if `values` or `numbers` is full
 };
@@ -241,7 +241,7 @@ static void set(struct fault_shader *m, const char *name, int count, int each, c
         return;
     if (count > m->program->inputs[input].elements) // a compiler may shorten an array
         count = m->program->inputs[input].elements;
-    m->full = m->full || m->value_count == MAX_VALUES || m->number_count + count * each > MAX_NUMBERS;
+    m->full = m->full || m->value_count == MAX_VALUES || m->number_count + count * each > MAX_FLOATS;
     if (m->full)
         return;
     float *own = m->numbers + m->number_count;

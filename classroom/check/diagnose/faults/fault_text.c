@@ -1,6 +1,8 @@
 // fault_text.c: expands explanations and corrections with the names that the shaders use.
 #include "fault.h"
 
+#include <lambent/light.h>
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

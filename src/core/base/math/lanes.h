@@ -25,8 +25,13 @@
 #include <wasm_simd128.h>
 #endif
 
+// The name of a function or table in the version for one instruction set: FOR_ISA(pass) is pass_avx2 if ISA is avx2.
+#define JOIN_ISA(name, isa)    name##_##isa
+#define NAME_OF_ISA(name, isa) JOIN_ISA(name, isa)
+#define FOR_ISA(name)          NAME_OF_ISA(name, ISA)
+
 // These functions are always inlined, so that lanes stay in registers. The exception is code that computes one pixel at
-// a time (src/core/cpu/kernels.c): there, small code is more important.
+// a time (src/core/cpu/kernels.h): there, small code is more important.
 #ifdef RECORDING
 #define LANE_FN static inline __attribute__((unused))
 #else
@@ -495,6 +500,8 @@ LANE_FN inum igather(const int32_t *from, inum at)
     return x;
 #endif
 }
+
+LANE_FN num gather_float(const float *from, inum at) { return num_of_bits(igather((const int32_t *)from, at)); }
 
 // Gathers three consecutive numbers at each of LANES addresses: lane i of out[k] is the 32 bits at from[stride · at[i]
 // + k]. Nothing else is read, so the array may end with the last of these numbers. On x86 three numbers are loaded at

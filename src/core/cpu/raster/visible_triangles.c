@@ -97,18 +97,18 @@ static void search_tile(void *user, size_t index, int number)
         return;
     uint64_t start = now_ns();
     struct tile tile = tile_number(cpu, index);
-    cpu->kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
+    cpu->kernels->raster->cover_tile(&cpu->raster, &thread->samples, &tile);
     if (cpu->shade.occlusion)
-        cpu->kernels->depth_of_tile(&cpu->raster, &thread->samples, &tile, &cpu->occlusion);
+        cpu->kernels->raster->depth_of_tile(&cpu->raster, &thread->samples, &tile, &cpu->occlusion);
     thread->pixels_covered +=
-        cpu->kernels->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
+        cpu->kernels->raster->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
     struct fragment_store *fragment_store = &cpu->fragment_stores[index];
     uint32_t highest;
     range_of_triangles(&thread->fragments, &fragment_store->lowest, &highest);
     if (cpu->raster.frame->makes_normals)
         add_triangles(&cpu->shade.visible.triangles, &thread->fragments);
-    if (!cpu->kernels->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->settings.samples, highest,
-                                      &search->arenas[number]))
+    if (!cpu->kernels->raster->save_fragments(fragment_store, &thread->fragments, cpu->raster.frame->settings.samples,
+                                              highest, &search->arenas[number]))
         work_fail(&cpu->work, FAILED_MEMORY);
     thread->coverage_ns += now_ns() - start;
 }
@@ -184,8 +184,8 @@ static void measure_tile(void *user, size_t index, int number)
         return;
     uint64_t start = now_ns();
     struct tile tile = tile_number(cpu, index);
-    cpu->kernels->cover_tile(&cpu->raster, &thread->samples, &tile);
-    cpu->kernels->depth_of_tile(&cpu->raster, &thread->samples, &tile, &cpu->occlusion);
+    cpu->kernels->raster->cover_tile(&cpu->raster, &thread->samples, &tile);
+    cpu->kernels->raster->depth_of_tile(&cpu->raster, &thread->samples, &tile, &cpu->occlusion);
     thread->coverage_ns += now_ns() - start;
 }
 

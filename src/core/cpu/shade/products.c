@@ -4,7 +4,7 @@
 
 #include "shade_frame.h"
 
-#include "environment_light.h"
+#include "environment.h"
 
 #include "fail.h"
 #include "fields.h"

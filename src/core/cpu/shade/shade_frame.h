@@ -3,7 +3,7 @@
 #define SHADE_FRAME_H
 
 #include "buffer.h"
-#include "environment_samples.h"
+#include "environment.h"
 #include "frame.h"
 #include "visible_normals.h"
 
@@ -41,6 +41,9 @@ struct shade_frame {
     const struct light_bounds *light_bounds;           // NULL if every light is evaluated everywhere
     const struct hierarchy *hierarchy;                 // NULL if no rays are traced
     const struct light_pattern *light_pattern;         // used for lights with a size
+    // The effects' functions for the lanes of the instruction set.
+    const struct ray_kernels *ray_kernels;
+    const struct environment_lookups *lookups;
     // ambient occlusion of each pixel; NULL if there is none or if rays compute it
     const struct screen_occlusion *occlusion;
     const struct occlusion_pattern *occlusion_pattern; // ambient occlusion by rays, or NULL

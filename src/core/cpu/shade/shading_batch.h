@@ -4,7 +4,7 @@
 
 #include "layer_inputs.h"
 #include "light_cull.h"
-#include "opacity.h"
+#include "rays.h"
 #include "texture_map.h"
 #include "tile.h"
 #include "work.h"
@@ -14,6 +14,7 @@
 // Rows are slightly longer than a batch, so that the same entries of several rows are in different sets of the
 // processor's cache.
 enum { BATCH_MAX = 512, BATCH_ROW = BATCH_MAX + 16, LIGHT_BATCH = 256 };
+_Static_assert((int)BATCH_ROW <= (int)RAY_STARTS_MAX, "ray_starts has space for a batch");
 _Static_assert((int)BATCH_ROW <= (int)TAPS_ROW, "texture_taps has space for a batch");
 
 // Consecutive fragments that show the same triangle form a run. The rows contain the triangle's data
@@ -95,16 +96,10 @@ struct vertex_cache {
     uint32_t count;
 };
 
-// The start points of a batch's shadow rays, as in ray_lanes.
-struct shadow_rows {
-    double origin[3][BATCH_ROW], point[3][BATCH_ROW];
-    int32_t own[BATCH_ROW];
-};
-
 // Scratch memory and counters for the shading of one thread.
 struct shading {
     struct shading_batch *batch;
-    struct shadow_rows *shadows; // NULL if the frame traces no rays
+    struct ray_starts *starts; // NULL if the frame traces no rays
     struct ray_layers ray_layers;
     struct vertex_cache vertices;
     struct light_list lights;

@@ -266,12 +266,9 @@ uint32_t corner_fan_normals(const lam_mesh *mesh, double min_cosine, struct corn
 // --- moves positions with the same number of corners to a struct corner_fan_block, so that corner_fan_simd.c can
 // process them in parallel lanes.
 
-extern const struct corner_fan_simd corner_fan_simd_scalar, corner_fan_simd_avx2, corner_fan_simd_avx512;
+CPU_VERSIONS(const struct corner_fan_simd, corner_fan_simd);
 
-const struct corner_fan_simd *corner_fan_simd_for(int lanes)
-{
-    return CPU_WIDEST(lanes, &corner_fan_simd_scalar, &corner_fan_simd_avx2, &corner_fan_simd_avx512);
-}
+const struct corner_fan_simd *corner_fan_simd_for(int lanes) { return CPU_WIDEST(lanes, corner_fan_simd); }
 
 bool corner_fan_batch_take(struct corner_fan_batch *batch, uint32_t count)
 {

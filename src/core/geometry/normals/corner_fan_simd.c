@@ -275,7 +275,5 @@ static uint32_t locate(struct corner_fan_block *b, const lam_mesh *mesh, const s
     return fans;
 }
 
-#define JOIN(a, b) a##b
-#define NAME(isa)  JOIN(corner_fan_simd_, isa)
-extern const struct corner_fan_simd NAME(ISA);
-const struct corner_fan_simd NAME(ISA) = {.lanes = LANES, .make = make, .locate = locate};
+extern const struct corner_fan_simd FOR_ISA(corner_fan_simd);
+const struct corner_fan_simd FOR_ISA(corner_fan_simd) = {.lanes = LANES, .make = make, .locate = locate};

@@ -2,6 +2,7 @@
 #include "scene_internal.h"
 
 #include <lambent/device.h>
+#include <lambent/light.h>
 
 static const char *const names[LAM_OUTPUT_COUNT] = {
     [LAM_OUTPUT_PICTURE] = "picture",

@@ -1,6 +1,6 @@
 // settings.c: the table of the settings of lam_draw_params. To add a setting, add a member to lam_draw_params and a row
 // to this table. The setting is then an option of the program and a key of scene files. A row in
-// tools/options/option_table.c describes the option and gives its position in the help.
+// program/options/option_table.c describes the option and gives its position in the help.
 #include <lambent/settings.h>
 
 #include <string.h>

@@ -3,7 +3,7 @@
 
 #include "fail.h"
 #include "json_parse.h"
-#include "texture_levels.h"
+#include "texture_batch.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,6 +5,8 @@
 
 #include "linear.h"
 
+#include <lambent/light.h>
+
 #include <math.h>
 
 static const struct json_choice type_words[] = {

@@ -24,12 +24,15 @@ void main()
             discard;
         }
     }
+    if (one_point) {
+        find_point(corner_weights, value_masks ? 0 : sample_number); // the opacity of a mask is that of the sample
+    }
     if (has_maps) {
         footprint first = footprint_of(surface_texcoord);
         footprint second = footprint_of(surface_second_texcoord);
-        surface_maps maps = front_maps(first, second, eye_position, tint);
+        surface_maps maps = front_maps(first, second, eye_position, POINT_TINT);
         if (back_material && !gl_FrontFacing) {
-            maps = back_maps(first, second, eye_position, tint);
+            maps = back_maps(first, second, eye_position, POINT_TINT);
         }
     }
     if (value_masks) {
@@ -42,6 +45,17 @@ void main()
         }
         if (back_masked && !gl_FrontFacing && !(saturate(opacity) >= back_alpha_cutoff)) {
             discard;
+        }
+    }
+    if (one_point && value_masks) {
+        find_point(corner_weights, sample_number);
+        if (has_maps) {
+            first = footprint_of(surface_texcoord);
+            second = footprint_of(surface_second_texcoord);
+            maps = front_maps(first, second, eye_position, POINT_TINT);
+            if (back_material && !gl_FrontFacing) {
+                maps = back_maps(first, second, eye_position, POINT_TINT);
+            }
         }
     }
     if (output_depth) {
@@ -60,24 +74,24 @@ void main()
     } else {
         if (per_fragment) {
             if (has_normal_map) {
-                vec3 bitangent = bitangent_sign * cross3(eye_normal, eye_tangent);
-                vec3 n = mapped_normal(maps.normal, eye_tangent, bitangent, eye_normal);
+                vec3 bitangent = bitangent_sign * cross3(POINT_NORMAL, POINT_TANGENT);
+                vec3 n = mapped_normal(maps.normal, POINT_TANGENT, bitangent, POINT_NORMAL);
             } else {
-                vec3 n = eye_normal;
+                vec3 n = POINT_NORMAL;
             }
             if (has_coat_normal_map) {
-                vec3 coat_bitangent = bitangent_sign * cross3(eye_normal, eye_tangent);
-                vec3 coat = mapped_normal(maps.coat_normal, eye_tangent, coat_bitangent, eye_normal);
+                vec3 coat_bitangent = bitangent_sign * cross3(POINT_NORMAL, POINT_TANGENT);
+                vec3 coat = mapped_normal(maps.coat_normal, POINT_TANGENT, coat_bitangent, POINT_NORMAL);
             } else {
-                vec3 coat = eye_normal;
+                vec3 coat = POINT_NORMAL;
             }
             if (has_bump_map) {
                 n = bumped_normal(unit3(n), maps.across, maps.down, maps.slopes.x, maps.slopes.y);
             }
             if (widens_roughness) {
                 float over = gl_FragCoord.w; // as in footprint_of
-                pixel_variance = normal_variance(eye_normal, (dFdx(eye_normal * over) - eye_normal * dFdx(over)) / over,
-                    (dFdy(eye_normal * over) - eye_normal * dFdy(over)) / over);
+                pixel_variance = normal_variance(POINT_NORMAL, (dFdx(eye_normal * over) - POINT_NORMAL * dFdx(over)) / OVER_POINT,
+                    (dFdy(eye_normal * over) - POINT_NORMAL * dFdy(over)) / OVER_POINT);
                 coat_variance = pixel_variance;
                 if (has_normal_map) {
                     pixel_variance += maps.normal_variance;
@@ -99,16 +113,16 @@ void main()
                 }
             }
             vec3 rest;
-            vec4 light = light_point(eye_position, n, tangent_field ? field_tangent(unit3(n), model_view[1].xyz, model_view[0].xyz)
-                : eye_tangent, turn, coat, tint, gl_FrontFacing, maps, rest);
+            vec4 light = light_point(POINT_POSITION, n, tangent_field ? field_tangent(unit3(n), model_view[1].xyz, model_view[0].xyz)
+                : POINT_TANGENT, turn, coat, POINT_TINT, gl_FrontFacing, maps, rest);
             if (catches) {
                 // Black; alpha is the share of the light that does not reach the point.
                 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
                 float received = dot(luminance, light.rgb);
                 unobstructed = true;
                 float all = dot(luminance,
-                    light_point(eye_position, n, tangent_field ? field_tangent(unit3(n), model_view[1].xyz, model_view[0].xyz)
-                    : eye_tangent, turn, coat, tint, gl_FrontFacing, maps, rest).rgb);
+                    light_point(POINT_POSITION, n, tangent_field ? field_tangent(unit3(n), model_view[1].xyz, model_view[0].xyz)
+                    : POINT_TANGENT, turn, coat, POINT_TINT, gl_FrontFacing, maps, rest).rgb);
                 light = vec4(0.0, 0.0, 0.0, all > received ? light.a * (1.0 - received / all) : 0.0);
             }
         } else {
@@ -134,10 +148,10 @@ void main()
         }
         light.a = saturate(light.a);
         if (!output_vector && !output_material) {
-            if (front_masked && (!back_material || gl_FrontFacing) && !(light.a >= alpha_cutoff)) {
+            if (!value_masks && front_masked && (!back_material || gl_FrontFacing) && !(light.a >= alpha_cutoff)) {
                 discard;
             }
-            if (back_masked && !gl_FrontFacing && !(light.a >= back_alpha_cutoff)) {
+            if (!value_masks && back_masked && !gl_FrontFacing && !(light.a >= back_alpha_cutoff)) {
                 discard;
             }
             if (front_solid && back_solid) {

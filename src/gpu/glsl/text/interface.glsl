@@ -15,8 +15,10 @@ if (needs_vertex_color) {
 SMOOTH_VARYING vec2 surface_texcoord;
 SMOOTH_VARYING vec2 surface_second_texcoord;
 FLAT_VARYING int triangle;
+SMOOTH_VARYING vec3 corner_weights; // the barycentric weights of the triangle's corners
 
 uniform int first_triangle; // number of the draw's first triangle
+uniform int sample_number; // of the current sample in sample_offsets
 uniform usampler2D nearer_depth_ids; // of the previous layer
 uniform usampler2D opaque_depth_ids;
 if (depth_ids) {

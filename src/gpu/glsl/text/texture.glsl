@@ -6,15 +6,41 @@ STRUCT(footprint)
     vec2 at, dx, dy;
 };
 
+// The offsets from the pixel's centre of the centre itself, and of the samples, nearest first.
+const vec2 sample_offsets[SAMPLES + 1] = vec2[SAMPLES + 1](SAMPLE_OFFSETS);
+
+vec2 to_point = vec2(0.0); // from the sample to the point that is lit, in pixels
+float point_w = 0.0; // 1/w at this point
+
+// Finds the point at which all samples of the triangle in the pixel are lit, as weights_of in
+// src/core/cpu/shade/attributes.inc: the pixel's centre or, if it is outside the triangle, the nearest sample inside.
+void find_point(vec3 corner_weights, int sample_number)
+{
+    vec3 own = corner_weights * gl_FragCoord.w;
+    vec3 by_x = dFdx(own);
+    vec3 by_y = dFdy(own);
+    to_point = vec2(0.0);
+    vec2 current = sample_offsets[sample_number];
+    for (int i = SAMPLES - 1; i >= 0; i--) {
+        vec2 to = sample_offsets[i] - current;
+        vec3 there = own + (by_x * to.x + by_y * to.y);
+        to_point = i < sample_number && min(min(there.x, there.y), there.z) >= 0.0 ? to : to_point;
+    }
+    point_w = gl_FragCoord.w + (dFdx(gl_FragCoord.w) * to_point.x + dFdy(gl_FragCoord.w) * to_point.y);
+}
+
+// The value of a varying at this point. Divided by w, a varying is linear in the window (footprint_of).
+#define AT_POINT(v) (((v) * gl_FragCoord.w + (dFdx((v) * gl_FragCoord.w) * to_point.x + dFdy((v) * gl_FragCoord.w) * to_point.y)) / point_w)
+
 // The coordinates divided by w, and 1/w, are linear in the window. Their differences between neighbouring pixels are
 // therefore exact derivatives, and the quotient rule gives the derivatives of the coordinates.
 footprint footprint_of(vec2 at)
 {
     float w = gl_FragCoord.w; // 1/w
     footprint f;
-    f.at = at;
-    f.dx = (dFdx(at * w) - at * dFdx(w)) / w;
-    f.dy = (dFdy(at * w) - at * dFdy(w)) / w;
+    f.at = POINT_AT;
+    f.dx = (dFdx(at * w) - POINT_AT * dFdx(w)) / POINT_W;
+    f.dy = (dFdy(at * w) - POINT_AT * dFdy(w)) / POINT_W;
     return f;
 }
 
@@ -85,8 +111,8 @@ vec4 texel_at(sampler2D map, vec2 at, float detail, sampling how)
 void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3 down)
 {
     float w = gl_FragCoord.w;
-    vec3 px = (dFdx(p * w) - p * dFdx(w)) / w;
-    vec3 py = (dFdy(p * w) - p * dFdy(w)) / w;
+    vec3 px = (dFdx(p * w) - POINT_P * dFdx(w)) / POINT_W;
+    vec3 py = (dFdy(p * w) - POINT_P * dFdy(w)) / POINT_W;
     vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
     vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
     float side = dx.x * dy.y - dy.x * dx.y < 0.0 ? -1.0 : 1.0;

@@ -8,6 +8,10 @@ void main()
     if (output_ids || depth_ids || shadows) {
         triangle = gl_VertexID / 3;
     }
+    if (one_point) {
+        int corner = gl_VertexID % 3;
+        corner_weights = vec3(corner == 0, corner == 1, corner == 2);
+    }
     if (first_texcoords) {
         surface_texcoord = texcoord;
     }

@@ -13,12 +13,9 @@ enum {
     PART_BITS_MAX = 12,
 };
 
-extern const struct position_simd position_simd_scalar, position_simd_avx2, position_simd_avx512;
+CPU_VERSIONS(const struct position_simd, position_simd);
 
-const struct position_simd *position_simd_for(int lanes)
-{
-    return CPU_WIDEST(lanes, &position_simd_scalar, &position_simd_avx2, &position_simd_avx512);
-}
+const struct position_simd *position_simd_for(int lanes) { return CPU_WIDEST(lanes, position_simd); }
 
 void position_hash_plan(struct position_hash *table, size_t vertices)
 {

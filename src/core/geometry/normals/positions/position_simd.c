@@ -69,7 +69,5 @@ static uint32_t list(const uint32_t *indices, const uint32_t *position_of, uint3
     return listed;
 }
 
-#define JOIN(a, b) a##b
-#define NAME(isa)  JOIN(position_simd_, isa)
-extern const struct position_simd NAME(ISA);
-const struct position_simd NAME(ISA) = {.lanes = LANES, .test = test, .number = number, .list = list};
+extern const struct position_simd FOR_ISA(position_simd);
+const struct position_simd FOR_ISA(position_simd) = {.lanes = LANES, .test = test, .number = number, .list = list};

@@ -1,0 +1,123 @@
+// run.c: finds the command, parses its options, and runs it.
+#include "run.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "console.h"
+#include "exit_codes.h"
+#include "failure.h"
+#include "help.h"
+#include "sandbox.h"
+#include "writer.h"
+
+// Scans a command line for --json and -o -, which determine how an error in the command line is reported.
+static struct options scan_report_options(int count, char **words)
+{
+    struct options options = {0};
+    for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
+        bool output =
+            strcmp(words[i], "-o") == 0 || strcmp(words[i], "--output") == 0 || strcmp(words[i], "--out") == 0;
+        if (strcmp(words[i], "--json") == 0)
+            options.report.json = true;
+        if ((output && i + 1 < count && strcmp(words[i + 1], "-") == 0) || strcmp(words[i], "-o-") == 0 ||
+            strcmp(words[i], "--output=-") == 0 || strcmp(words[i], "--out=-") == 0)
+            options.picture.output = "-";
+    }
+    return options;
+}
+
+// Removes the command's name, which may follow options, from the words. Returns the default command if the words
+// contain no command.
+static const struct command *take_command(int *count, char **words)
+{
+    int first = options_first_operand(*count, words);
+    const struct command *command = first >= 0 ? find_command(words[first]) : NULL;
+    if (!command)
+        return command_table;
+    memmove(words + first, words + first + 1, (size_t)(--*count - first) * sizeof *words);
+    return command;
+}
+
+static bool check_operands(const struct command *command, int count, char **operands, const struct options *options,
+                           lam_error *error)
+{
+    if (options->batch.lists.count) // the lists contain the models
+        return true;
+    if (count < command->min_operands && command == command_table)
+        return complain(error, LAM_BAD_ARGUMENT, "no model given, expected a file, a shape's name or -");
+    if (count < command->min_operands)
+        return complain(error, LAM_BAD_ARGUMENT, "%s: missing argument: %s", command->name, command->operands);
+    if (command->max_operands >= 0 && count > command->max_operands)
+        return complain(error, LAM_BAD_ARGUMENT, "%s: unexpected argument '%s'%s%s", command->name,
+                        operands[command->max_operands], command->one_more ? "; " : "",
+                        command->one_more ? command->one_more : "");
+    return true;
+}
+
+static int execute(const struct command *command, int operands, char **words, struct options *options,
+                   run_command_fn *run)
+{
+    lam_error error = {0};
+    if (options->report.help) {
+        (options->report.brief_help ? print_brief_help : print_help)(command);
+        return 0;
+    }
+    if (options->report.version) {
+        char sandbox[SANDBOX_TEXT_SIZE];
+        struct sandbox_state offered = sandbox_offered();
+        printf("lambent %s\n%s\nsandbox %s\n", lam_version(), lam_build_info(), sandbox_text(&offered, sandbox));
+        return 0;
+    }
+    if (options->picture.output && strcmp(options->picture.output, "/dev/stdout") == 0)
+        options->picture.output = "-"; // standard output is reserved for the picture
+    if (!check_operands(command, operands, words, options, &error))
+        return report_failure(&error, options);
+    return run(command, operands, words, options);
+}
+
+// Parses the options, unless the command receives its words verbatim. On failure, sets the error and returns −1.
+// Otherwise, returns the number of operands.
+static int parse(const struct command *command, int count, char **words, struct options *options, lam_error *error)
+{
+    bool help = count && (strcmp(words[0], "-h") == 0 || strcmp(words[0], "--help") == 0);
+    return command->verbatim && !help ? count : options_parse(count, words, command->groups, options, error);
+}
+
+// Runs a command line without the program's name. Changes the order of `words`. `line` is for options->line.
+static int run_words(int count, char **words, char **line, run_command_fn *run)
+{
+    struct options options = option_defaults();
+    lam_error error = {0};
+    struct options scanned = scan_report_options(count, words);
+    const struct command *command = take_command(&count, words);
+    int operands = parse(command, count, words, &options, &error);
+    options.line = line;
+    int code = operands < 0 ? report_failure(&error, &scanned) : execute(command, operands, words, &options, run);
+    options_free(&options);
+    return code;
+}
+
+int run_program(int count, char **words, run_command_fn *run)
+{
+    lam_error error;
+    signal(SIGXFSZ, SIG_IGN); // if a file exceeds the size limit, the write fails, but the program does not end
+    console_start();
+    option_table_fill();
+    char **line = calloc((size_t)count + 2, sizeof *line);
+    if (!line) {
+        say_error("out of memory");
+        return exit_code_of(LAM_MACHINE)->code;
+    }
+    memcpy(line, words, (size_t)count * sizeof *line);
+    int code = run_words(count - (count > 0), words + (count > 0), line, run);
+    free(line);
+    writer_end();
+    if (!finish_output(&error) && code == 0) { // an earlier failure has been reported
+        say_error(error.text);
+        code = exit_code_of(error.code)->code;
+    }
+    return code;
+}

@@ -1,9 +1,9 @@
 // target_hash.c: fuzz target for the files of `lambent hash`. A file that is read is written and read again, with the
 // same entries; the names of its models are resolved as the command does.
-#include "own_folder.h"
+#include "file_io.h"
 #include "target.h"
 
-#include "hash_file.h"
+#include "hash.h"
 
 static void check(const struct hash_file *file, const char *path)
 {

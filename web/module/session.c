@@ -11,16 +11,14 @@
 #include "command_table.h"
 #include "console.h"
 #include "contents.h"
-#include "device_option.h"
+#include "limit_options.h"
 #include "environment_cache.h"
-#include "exit_codes.h"
 #include "explain_json.h"
 #include "job.h"
-#include "job_check.h"
 #include "json.h"
 #include "kept_model.h"
 #include "material_option.h"
-#include "picture_json.h"
+#include "report.h"
 
 static struct kept_model model;
 

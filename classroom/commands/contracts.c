@@ -75,12 +75,8 @@ int run_mistakes(int operand_count, char **operands, const struct options *optio
             if (strcmp(lam_check_mistake(k), mistake.id) == 0)
                 wrong = lam_check_mistake_explanation(k);
         if (as_json) {
-            json_open(&json, NULL, '{');
-            json_text(&json, "mistake", mistake.id);
-            json_text(&json, "wrong", wrong);
-            json_text(&json, "looks", mistake.looks);
-            json_text(&json, "needs", mistake.needs);
-            json_close(&json, '}');
+            json_put(&json, OBJECT(NULL, TEXT("mistake", mistake.id), TEXT("wrong", wrong),
+                                   TEXT("looks", mistake.looks), TEXT("needs", mistake.needs)));
         } else {
             printf("%s\n  Wrong: %s.\n  Seen: %s\n", mistake.id, wrong, mistake.looks);
             if (mistake.needs)

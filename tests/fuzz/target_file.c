@@ -5,7 +5,7 @@
 // The options lengthen the file, so that its header or the whole file ends just before, at or after a size at which the
 // readers change their method. The fuzzing build makes these sizes small (THRESHOLD in file.h); the test run of the
 // corpus keeps them.
-#include "file_io.h"
+#include "own_folder.h"
 #include "small_files.h"
 #include "target.h"
 

@@ -1,6 +1,6 @@
 // target_hash.c: fuzz target for the files of `lambent hash`. A file that is read is written and read again, with the
 // same entries; the names of its models are resolved as the command does.
-#include "file_io.h"
+#include "own_folder.h"
 #include "target.h"
 
 #include "hash.h"

@@ -1,7 +1,7 @@
 // target_journal.c: fuzz target for journals of `lambent batch`. An input is a byte of options, the journal, and after
 // a zero byte the file FILE.running of a killed run. The run continues the journal, as --resume and --skip-same do, and
 // the command `journal` sums it.
-#include "file_io.h"
+#include "own_folder.h"
 #include "target.h"
 
 #include "journal.h"

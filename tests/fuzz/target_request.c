@@ -2,7 +2,7 @@
 // line ("GET /0123…cdef/files/a.obj?w=%2Fa.obj&x=1 HTTP/1.1") and headers; "TOKEN" in the address is the viewer's token.
 // The target takes the place of libmicrohttpd: it decodes the request and receives the answer. A drawing is not
 // started, but its words are parsed as the drawing process does.
-#include "file_io.h"
+#include "own_folder.h"
 #include "target.h"
 
 #include "view_events.h"

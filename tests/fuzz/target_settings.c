@@ -1,6 +1,6 @@
 // target_settings.c: fuzz target for settings files (lambent.json, --config). An input is the file; if it begins with
 // a line of options after "#", these are on the command line: "# --shading flat --size 9".
-#include "file_io.h"
+#include "own_folder.h"
 #include "target.h"
 
 #include "command_table.h"

@@ -289,7 +289,7 @@ int web_contents(int count)
     return end_call(&job, &options, ok, &error);
 }
 
-static void option_json(struct json *json, const struct option *o)
+static void describe_option(struct json *json, const struct option *o)
 {
     json_open(json, NULL, '{');
     json_put(json, TEXT("name", o->name), TEXT("group", group_titles[o->group]), TEXT("value", o->value),
@@ -349,7 +349,7 @@ void web_options(void)
     json_open(&json, "options", '[');
     for (const struct option *o = option_table; o->name; o++)
         if ((PICTURE_GROUPS | 1ull << GROUP_SHAPE) >> o->group & 1)
-            option_json(&json, o);
+            describe_option(&json, o);
     json_close(&json, ']');
     json_close(&json, '}');
     putc('\n', stdout);

@@ -18,7 +18,7 @@ import numpy as np
 
 SIZE, RINGS, SECTORS = 32, 400, 400
 ROUGHNESS_MIN = 0.045
-FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "lighting")
+FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "core", "lighting")
 
 
 def integrals(n_dot_v, roughness):

@@ -5,13 +5,12 @@
 #include "classroom.h"
 #include "command.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "failure.h"
 #include "page.h"
 #include "run.h"
 #include "sandbox_start.h"
 #include "settings_file.h"
-#include "settings_json.h"
+#include "report.h"
 
 // Returns whether the command reads the settings file. The pictures of a web page must not depend on the settings of
 // the user who makes the page.

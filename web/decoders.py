@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import libraries  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-OWN = os.path.join(ROOT, "src", "import", "gltf", "draco", "draco_module.cpp")
+OWN = os.path.join(ROOT, "src", "formats", "import", "gltf", "draco", "draco_module.cpp")
 FLAGS = ["--target=wasm32-wasi", "-std=c++17", "-Oz", "-DNDEBUG", "-fignore-exceptions", "-fno-rtti", "-mbulk-memory", "-mnontrapping-fptoint",
          "-ffp-contract=off", "-w"]
 # Draco's configuration: the features that glTF files use. (Draco's own build generates this

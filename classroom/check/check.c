@@ -2,9 +2,7 @@
 #include "check_run.h"
 #include "draw_request.h"
 #include "diagnostics.h"
-#include "shader_dialect.h"
-#include "recognise.h"
-#include "own_texts.h"
+#include "prefix.h"
 
 #include <stddef.h>
 #include <stdio.h>

@@ -6,7 +6,6 @@
 #include "diagnostics.h"
 #include "draw_request.h"
 #include "fault_shader.h"
-#include "scene_comparison.h"
 #include "shader_interface.h"
 
 struct run {

@@ -8,8 +8,7 @@
 
 #include "check_run.h"
 #include "fail.h"
-#include "own_texts.h"
-#include "recognise.h"
+#include "prefix.h"
 #include "json_parse.h"
 
 // The advice on how to correct an entry with this role. The advice is "" if only the role can be wrong.

@@ -8,7 +8,7 @@ command_fn run_check; // check/check.c
 command_fn run_plot;  // plot/plot.c
 // The parts of other commands of lambent that need the library of checks. lambent starts this program for them.
 command_fn run_contracts; // contracts.c: `generate contract-schema` and `generate contract-NAME`
-command_fn run_mistakes;  // mistakes.c: `shader --mistake list`
+command_fn run_mistakes;  // contracts.c: `shader --mistake list`
 command_fn run_figure;    // explain_figure.c: `explain -o`, for which this program is a filter
 
 #endif

@@ -1,4 +1,4 @@
-// mistakes.c: draws docs/mistakes.md's pictures: each known mistake of lectures and tutorials beside the correct form.
+// contracts.c: draws docs/mistakes.md's pictures: each known mistake of lectures and tutorials beside the correct form.
 //
 //   mistakes FOLDER     writes FOLDER/mistake-NAME.png: the mistake on the left, the correct picture on the right
 //

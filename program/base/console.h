@@ -2,10 +2,11 @@
 #ifndef CONSOLE_H
 #define CONSOLE_H
 
-#include <stdbool.h>
-#include <stdio.h>
-
 #include <lambent/base.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
 
 // Detects once whether standard error is a terminal with colours (NO_COLOR and TERM=dumb disable them).
 void console_start(void);
@@ -26,5 +27,36 @@ bool complain(lam_error *error, lam_code code, const char *format, ...) __attrib
 
 // Flushes standard output. Fails with LAM_CANNOT_WRITE if some output was lost.
 bool finish_output(lam_error *error);
+
+// --- the program's exit codes. main(), the reports, the help, the man page and the docs use the same table. The
+// numbers are independent of lam_code.
+
+enum { EXIT_DIFFERS = 6, EXIT_SOME_FAILED = 7, EXIT_CRASHED = 8 };
+
+struct exit_code {
+    int code;
+    int of;              // the corresponding lam_code, or −1
+    const char *name;    // the name in reports, or NULL
+    const char *meaning; // NULL at the end of the table
+};
+extern const struct exit_code exit_codes[];
+
+const struct exit_code *exit_code_of(lam_code code);
+
+// Returns the table's string that equals `name`, or "failed" if the table does not contain this name.
+const char *exit_code_name(const char *name);
+
+// --- finds the known word that is most similar to a mistyped word.
+
+struct suggestion {
+    const char *typed;
+    const char *best; // NULL if no word is similar enough
+    int distance;
+};
+
+struct suggestion suggest_start(const char *typed);
+void suggest_try(struct suggestion *suggestion, const char *word);
+// Suggests `word` if the typed word is in `others`, a list separated by spaces. `others` may be NULL.
+void suggest_also(struct suggestion *suggestion, const char *word, const char *others);
 
 #endif

@@ -1,13 +1,16 @@
 // file_io.c: reads and writes open files completely, and opens only regular files.
 #include "file_io.h"
+#include "console.h"
+
+#include <lambent/path.h>
 
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <sys/types.h>
 #include <unistd.h>
-
-#include <lambent/path.h>
 
 enum { AT_ONCE = 1 << 30 }; // no system writes more than 2 GiB in one call
 
@@ -83,4 +86,58 @@ void close_files(const int *kept, int count)
         close_unless_kept(entry ? atoi(entry->d_name) : i, kept, count);
     if (list)
         closedir(list);
+}
+
+// --- creates the folder to which a file is written.
+
+char *output_folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    while (slash > path && slash[-1] == '/')
+        slash--;
+    return slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+}
+
+bool output_make_folder(const char *path, lam_error *error)
+{
+    char *folder = output_folder_of(path);
+    if (!folder)
+        return complain(error, LAM_MACHINE, "out of memory");
+    bool ok = true;
+    for (char *end = folder; ok && *end;) { // starts with the topmost folder
+        end += 1 + strcspn(end + 1, "/");
+        char kept = *end;
+        struct stat found;
+        const char *name;
+        *end = 0;
+        bool missing = lam_path_stat(folder, &found) != 0;
+        int parent = missing ? lam_path_parent(folder, &name) : -1;
+        if (missing && (parent == -1 || mkdirat(parent, name, 0777) != 0) && errno != EEXIST)
+            ok =
+                complain(error, LAM_CANNOT_WRITE, "%s: cannot make the folder '%s': %s", path, folder, strerror(errno));
+        lam_path_close(parent);
+        *end = kept;
+    }
+    free(folder);
+    return ok;
+}
+
+// --- finds the folder of this program.
+
+#ifdef __linux__
+#include <sys/auxv.h>
+#endif
+
+bool own_folder(char folder[PATH_MAX])
+{
+    ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
+    folder[length > 0 ? length : 0] = 0;
+#ifdef __linux__
+    const char *file = (const char *)getauxval(AT_EXECFN);
+    if (length <= 0 && (!file || !realpath(file, folder))) // /proc is not mounted
+        folder[0] = 0;
+#endif
+    char *slash = strrchr(folder, '/');
+    folder[slash ? slash + 1 - folder : 0] = 0;
+    return slash != NULL;
 }

@@ -2,6 +2,9 @@
 #ifndef FILE_IO_H
 #define FILE_IO_H
 
+#include <lambent/base.h>
+
+#include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -25,5 +28,21 @@ void close_files(const int *kept, int count);
 
 // Returns whether `path` is a folder or a link to a folder.
 bool path_is_folder(const char *path);
+
+// --- creates the folder to which a file is written.
+
+// Returns the folder of a path, or "." if the path contains no folder. The result is allocated with malloc. Returns
+// NULL if memory runs out.
+char *output_folder_of(const char *path);
+
+// Creates the folder of a path and the folder's parents, if they are missing. output_check must have accepted the path.
+// Fails with LAM_CANNOT_WRITE.
+bool output_make_folder(const char *path, lam_error *error);
+
+// --- finds the folder of this program, for files that are installed beside it.
+
+// Writes the folder that contains the program's file, with a slash at its end. Links to the program are followed.
+// Writes "" and returns false if the folder is unknown.
+bool own_folder(char folder[PATH_MAX]);
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "exit_codes.h"
+#include "console.h"
 
 enum { WIDTH = HELP_WIDTH, LETTER_COLUMN = 6 };
 

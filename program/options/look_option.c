@@ -1,5 +1,5 @@
 // look_option.c: implements --look: finds a look and reads its options.
-#include "look_option.h"
+#include "limit_options.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -10,7 +10,6 @@
 #include "console.h"
 #include "file_io.h"
 #include "looks.inc"
-#include "suggest.h"
 
 static const struct {
     const char *name, *text;

@@ -11,7 +11,6 @@
 
 #include "console.h"
 #include "material_option.h"
-#include "suggest.h"
 
 static void *field_of(struct options *options, size_t field) { return (char *)options + field; }
 

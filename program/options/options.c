@@ -11,8 +11,7 @@
 
 #include "command_table.h"
 #include "console.h"
-#include "look_option.h"
-#include "suggest.h"
+#include "limit_options.h"
 
 struct options option_defaults(void)
 {

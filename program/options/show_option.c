@@ -9,7 +9,6 @@
 
 #include "console.h"
 #include "options.h"
-#include "suggest.h"
 
 static bool takes_light(lam_output show)
 {

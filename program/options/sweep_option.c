@@ -10,7 +10,6 @@
 
 #include "console.h"
 #include "material_option.h"
-#include "suggest.h"
 
 // --- keys
 

@@ -2,7 +2,7 @@
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
-#include "output_folder.h"
+#include "file_io.h"
 #include "output_name.h"
 
 #include <lambent/image.h>

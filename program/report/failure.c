@@ -5,7 +5,6 @@
 
 #include "command_table.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "option_names.h"
 #include "sandbox_start.h"
 

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "console.h"
-#include "exit_codes.h"
 #include "failure.h"
 #include "help.h"
 #include "sandbox.h"

@@ -10,9 +10,8 @@
 #include <lambent/path.h>
 
 #include "console.h"
-#include "device_option.h"
 #include "limit_options.h"
-#include "own_folder.h"
+#include "file_io.h"
 
 static struct sandbox_state active = {.reason = "not entered"};
 

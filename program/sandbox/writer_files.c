@@ -14,7 +14,6 @@
 
 #include "console.h"
 #include "file_io.h"
-#include "output_folder.h"
 
 #ifdef __wasm__ // wasi-libc lacks fchmod, and files in a web page have no permissions
 #define fchmod(file, mode) 0

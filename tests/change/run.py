@@ -142,6 +142,8 @@ def main():
         done = run("meson", "setup", BUILD, TREE, "--buildtype=release", "-Dtests=true")
         if done.returncode:
             sys.exit(done.stdout)
+    done = [patch(name) for name in CHANGES] + [patch(name, "-R") for name in reversed(CHANGES)]
+    check("the patches can be applied together", all(one.returncode == 0 for one in done), "".join(one.stdout for one in done))
     for name in sys.argv[1:] or CHANGES:
         most, tries, tests = CHANGES[name]
         text = open(os.path.join(HERE, name + ".patch")).read()

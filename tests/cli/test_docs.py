@@ -157,7 +157,7 @@ class Docs(Case):
     @unittest.skipUnless(shutil.which("dpkg-query"), "not Debian")
     def test_packages_of_libraries(self):
         """The packages that `make` installs include every library that is loaded when needed; libchafa only draws in terminals."""
-        sources = [path for folder in ("src", "tools") for ending in ("c", "h") for path in (ROOT / folder).rglob("*." + ending)]
+        sources = [path for folder in ("src", "program", "tools", "classroom") for ending in ("c", "h") for path in (ROOT / folder).rglob("*." + ending)]
         names = {name for path in sources for name in re.findall(r'"(lib[\w+-]+\.so\.[\w.]+)"', path.read_text())} - {"libchafa.so.0"}
         self.assertGreaterEqual(names, {"libmeshoptimizer.so.2d", "libwebp.so.7", "libmicrohttpd.so.12"})
         owners = subprocess.run(["dpkg-query", "-S", *("*/" + name for name in names)], capture_output=True, text=True).stdout.splitlines()

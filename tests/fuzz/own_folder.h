@@ -1,4 +1,4 @@
-// own_folder.h: a folder of the target's own, for inputs that a reader opens by path. The folder is in memory if the
+// file_io.h: a folder of the target's own, for inputs that a reader opens by path. The folder is in memory if the
 // system has such a file system, and is removed when the target ends.
 #ifndef OWN_FOLDER_H
 #define OWN_FOLDER_H

@@ -3,7 +3,7 @@
 #include "own_folder.h"
 #include "target.h"
 
-#include "hash_file.h"
+#include "hash.h"
 
 static void check(const struct hash_file *file, const char *path)
 {

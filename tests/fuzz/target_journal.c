@@ -5,7 +5,6 @@
 #include "target.h"
 
 #include "journal.h"
-#include "journal_sum.h"
 
 static void visit(void *user, const char *model, int process, const char *host)
 {

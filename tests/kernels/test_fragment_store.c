@@ -44,8 +44,8 @@ static void comes_back(const struct kernels *kernels, int samples, int count, ui
     arena_start(&arena, NULL);
     struct fragments from = fragments_of(in, count), to = fragments_of(out, 0);
     struct fragment_store fragment_store = {.lowest = lowest};
-    assert_true(kernels->save_fragments(&fragment_store, &from, samples, highest, &arena));
-    kernels->load_fragments(&fragment_store, &to, samples);
+    assert_true(kernels->raster->save_fragments(&fragment_store, &from, samples, highest, &arena));
+    kernels->raster->load_fragments(&fragment_store, &to, samples);
     assert_int_equal(to.count, count);
     assert_memory_equal(out, in, sizeof *in);
     arena_free(&arena);

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch_run.h"
-#include "batch_sources.h"
+#include "batch.h"
+#include "batch_shard.h"
 #include "console.h"
-#include "job_check.h"
+#include "job.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"
@@ -74,7 +74,7 @@ static bool print_mapping(const struct batch_plan *plan, lam_error *error)
 }
 
 // Returns the path of the journal, allocated with malloc. Sets *none if the batch writes no journal.
-static char *journal_path(const struct batch_plan *plan, bool *none)
+static char *path_of_journal(const struct batch_plan *plan, bool *none)
 {
     const char *named = plan->options->batch.journal;
     *none = named ? strcmp(named, "none") == 0 : plan->options->batch.jobs != NULL;
@@ -108,7 +108,7 @@ int run_batch(int operand_count, char **operands, const struct options *options)
               fill(&plan, operand_count, operands, &error);
     if (ok && options->report.dry_run)
         ok = print_mapping(&plan, &error);
-    char *journal = ok && !options->report.dry_run ? journal_path(&plan, &none) : NULL;
+    char *journal = ok && !options->report.dry_run ? path_of_journal(&plan, &none) : NULL;
     if (ok && !options->report.dry_run && !journal)
         ok = complain(&error, LAM_MACHINE, "out of memory");
     int code = 0;

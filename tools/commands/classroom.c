@@ -11,7 +11,6 @@
 #include "console.h"
 #include "failure.h"
 #include "file_io.h"
-#include "own_folder.h"
 
 enum { READ_BYTES = 1 << 16, NOT_STARTED = 127, PATH_SIZE = PATH_MAX + 100 };
 

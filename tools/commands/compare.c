@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "console.h"
-#include "device_option.h"
+#include "limit_options.h"
 #include "drawing.h"
 #include "sheet.h"
 #include "interrupt.h"

@@ -11,10 +11,9 @@
 #include <lambent/export.h>
 
 #include "console.h"
-#include "device_option.h"
+#include "limit_options.h"
 #include "interrupt.h"
 #include "job.h"
-#include "job_inputs.h"
 #include "job_steps.h"
 #include "json.h"
 #include "output.h"

@@ -5,12 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch_page.h"
+#include "batch.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "file_io.h"
 #include "journal.h"
-#include "journal_sum.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"

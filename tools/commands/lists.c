@@ -4,8 +4,7 @@
 #include <stdio.h>
 
 #include "console.h"
-#include "exit_codes.h"
-#include "look_option.h"
+#include "limit_options.h"
 
 int run_shapes(int operand_count, char **operands, const struct options *options)
 {

@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include "animate_frame.h"
-#include "batch_run.h"
-#include "batch_sources.h"
+#include "batch.h"
+#include "batch_shard.h"
 #include "console.h"
-#include "job_check.h"
+#include "job.h"
 #include "output.h"
 #include "report.h"
 #include "terminal.h"

@@ -15,7 +15,6 @@
 #include "output.h"
 #include "report.h"
 #include "sandbox_start.h"
-#include "suggest.h"
 
 // --- the list of inputs
 

@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "console.h"
-#include "exit_codes.h"
 #include "job.h"
-#include "job_check.h"
 #include "output.h"
 #include "page.h"
 #include "report.h"

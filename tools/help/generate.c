@@ -1,10 +1,8 @@
 // generate.c: the command `generate`: prints texts generated from the tables of options, commands and fields.
 #include "classroom.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "command.h"
 #include "help_texts.h"
-#include "suggest.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -6,9 +6,7 @@
 #include <strings.h>
 
 #include "console.h"
-#include "exit_codes.h"
 #include "help_texts.h"
-#include "suggest.h"
 
 enum { LIST_COLUMN = 15 };
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "exit_codes.h"
+#include "console.h"
 
 // Prints text, escaped for roff. A dash becomes \- (roff may show a plain '-' as another dash), `code` becomes bold,
 // and a control character at the start of a line is escaped.

@@ -4,7 +4,7 @@
 // for that frame. The program loads the scene once, marks its state (lam_scene_mark), and resets the scene to this
 // state before each frame. The program loads the scene again only if a swept option affects loading (option.loads). The
 // camera and exposure of the first frame are used for all frames.
-#include "animate.h"
+#include "animate_frame.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 #include "command_table.h"
 #include "console.h"
 #include "environment_option.h"
-#include "job_inputs.h"
+#include "job.h"
 #include "job_steps.h"
 #include "output.h"
 #include "scene_settings.h"

@@ -2,12 +2,13 @@
 #ifndef JOB_H
 #define JOB_H
 
-#include <lambent/scene_file.h>
-#include <lambent/shader.h>
-
 #include "environment_cache.h"
 #include "options.h"
 #include "progress.h"
+
+#include <lambent/scene.h>
+#include <lambent/scene_file.h>
+#include <lambent/shader.h>
 
 struct job_times {
     double start; // clock_ms() at the job's start
@@ -67,7 +68,7 @@ struct job {
     const char *format;       // the format of the picture: "png"
     lam_pixel_format pixels;  // the pixel format for drawing
     struct job_frames frames;
-    struct animation *animation; // during an animation (animate.h); otherwise NULL
+    struct animation *animation; // during an animation (animate_frame.h); otherwise NULL
     lam_scene *scene;            // NULL until the model is loaded
     bool keeps_scene;            // another job will draw the scene again
     struct model_counts model_counts;
@@ -131,5 +132,30 @@ struct lam_explanation *job_explain(struct job *job, int x, int y, struct progre
 
 // Runs both steps and makes the shaders of the picture. Returns NULL on failure.
 lam_shader *job_shader(struct job *job, struct progress *progress, lam_error *error);
+
+// --- checks picture options that exclude each other.
+
+// Checks the options. Fails with LAM_BAD_ARGUMENT.
+bool job_check_options(const struct options *options, lam_error *error);
+
+// Returns whether `model` names a built-in shape, or selects a formula of the options ("parametric" or "implicit").
+bool job_model_is_shape(const char *model);
+
+// Returns whether the formula options match the model. Fails with LAM_BAD_ARGUMENT.
+bool job_check_formula(const char *model, const struct options *options, lam_error *error);
+
+// --- prevents outputs from replacing the files of the model.
+
+// Returns whether writing `path` would leave the scene's input files unchanged. Fails with LAM_BAD_ARGUMENT. With
+// `own`, `path` may be the scene file itself, but not a file that the scene file names.
+bool job_check_inputs(const lam_scene *scene, const char *path, bool own, lam_error *error);
+
+// Returns whether both paths refer to the same existing file.
+bool job_is_same_file(const char *a, const char *b);
+
+// --- suggestions for a model that cannot be read.
+
+// If a model cannot be read, and the program can guess the user's intention, adds a suggestion to the error.
+void model_guess(const char *model, const struct options *options, lam_error *error);
 
 #endif

@@ -1,10 +1,10 @@
 // job_check.c: checks picture options that exclude each other.
-#include "job_check.h"
+#include "animate_frame.h"
+#include "console.h"
+#include "job.h"
 
 #include <string.h>
-
-#include "animate.h"
-#include "console.h"
+#include <sys/stat.h>
 
 // Phong shading needs the fragment stage. Gouraud shading needs the vertex stage or the application stage. Flat shading
 // works in any stage.

@@ -1,6 +1,6 @@
 // model_guess.c: suggests a correction if a model cannot be read, such as another command or a file with a similar
 // name.
-#include "model_guess.h"
+#include "job.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 #include "file_io.h"
 #include "output.h"
 #include "sandbox_start.h"
-#include "suggest.h"
+#include "console.h"
 
 enum { FILE_NAME_SIZE = 256, ADVICE_SIZE = 600 };
 

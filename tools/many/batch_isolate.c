@@ -1,6 +1,6 @@
 // batch_isolate.c: draws each model of a pass in a separate process. The process sends its results back. If a process
 // ends without sending all results, the pictures of its model are recorded with the class `crashed`.
-#include "batch_isolate.h"
+#include "batch.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -14,16 +14,12 @@
 #include <unistd.h>
 
 #include "batch_job.h"
-#include "batch_jobs.h"
-#include "batch_page.h"
 #include "batch_reach.h"
 #include "child.h"
 #include "console.h"
-#include "device_option.h"
-#include "exit_codes.h"
+#include "limit_options.h"
 #include "file_io.h"
 #include "interrupt.h"
-#include "limit_options.h"
 #include "writer.h"
 
 enum { PROCESSES_MAX = 1024, READ_BYTES = 16 << 10 };

@@ -1,5 +1,5 @@
 // batch_isolate_windows.c: rejects --isolate on Windows, which cannot copy a process.
-#include "batch_isolate.h"
+#include "batch.h"
 
 #include "console.h"
 

@@ -1,5 +1,5 @@
 // batch_jobs.c: implements the queue of --jobs: reads jobs as lines of JSON, passes them to workers, and answers them.
-#include "batch_jobs.h"
+#include "batch.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -12,10 +12,7 @@
 
 #include "batch_job.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "interrupt.h"
-#include "job_answer.h"
-#include "job_stream.h"
 
 enum { LINE_LIMIT = 64000000 }; // bytes
 

@@ -1,6 +1,6 @@
 // batch_page.c: writes the page of --report, an HTML file without scripts that shows failures first. Writes thumbnails
 // to a folder beside the file.
-#include "batch_page.h"
+#include "batch.h"
 
 #include <stdio.h>
 #include <stdlib.h>

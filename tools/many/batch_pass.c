@@ -1,5 +1,5 @@
 // batch_pass.c: runs one pass over the models.
-#include "batch_pass.h"
+#include "batch.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -8,9 +8,7 @@
 #include <unistd.h>
 
 #include "batch_job.h"
-#include "batch_jobs.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "host_name.h"
 #include "interrupt.h"
 

@@ -4,10 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "animate.h"
+#include "animate_frame.h"
 #include "batch_job.h"
-#include "batch_jobs.h"
-#include "batch_page.h"
+#include "batch.h"
 #include "console.h"
 #include "limit_options.h"
 #include "output.h"

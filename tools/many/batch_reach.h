@@ -3,7 +3,7 @@
 #ifndef BATCH_REACH_H
 #define BATCH_REACH_H
 
-#include "batch_state.h"
+#include "item.h"
 
 // Creates the folders for pictures, journal and page. The folders of the pictures must exist before the process enters
 // the sandbox. Fails with LAM_CANNOT_WRITE.

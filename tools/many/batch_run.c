@@ -3,7 +3,7 @@
 // A worker is a thread with its own device. If there are enough models, each device draws with one thread. With
 // --isolate, a separate process draws each model. Another thread reads files ahead of the workers, so that reading and
 // drawing overlap. Messages are printed in the order of the models, but journal lines are written immediately.
-#include "batch_run.h"
+#include "batch.h"
 
 #include <fcntl.h>
 #include <inttypes.h>
@@ -16,17 +16,12 @@
 
 #include <lambent/path.h>
 
-#include "batch_isolate.h"
 #include "batch_job.h"
-#include "batch_jobs.h"
-#include "batch_key.h"
-#include "batch_page.h"
-#include "batch_pass.h"
+#include "journal.h"
 #include "batch_reach.h"
-#include "batch_unit.h"
+#include "item.h"
 #include "console.h"
-#include "device_option.h"
-#include "exit_codes.h"
+#include "limit_options.h"
 #include "interrupt.h"
 #include "report.h"
 #include "writer.h"

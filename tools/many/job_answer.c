@@ -1,5 +1,5 @@
 // job_answer.c: writes the answers of --jobs.
-#include "job_answer.h"
+#include "batch.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -10,7 +10,6 @@
 #include "base64.h"
 #include "batch_job.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "interrupt.h"
 #include "journal.h"
 #include "option_names.h"

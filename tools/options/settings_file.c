@@ -14,7 +14,6 @@
 #include "environment_option.h"
 #include "file_io.h"
 #include "json.h"
-#include "suggest.h"
 
 enum { FILE_MAX = 1 << 16, NAME_SIZE = 40 };
 

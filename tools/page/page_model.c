@@ -14,7 +14,7 @@
 #include "foreign.h"
 #include "environment_option.h"
 #include "json.h"
-#include "plan.h"
+#include "report.h"
 
 // --- files
 

@@ -6,7 +6,6 @@
 #include "file_io.h"
 #include "foreign.h"
 #include "output.h"
-#include "own_folder.h"
 #include "page.h"
 #include "scene_settings.h"
 

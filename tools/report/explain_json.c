@@ -1,9 +1,8 @@
 // explain_json.c: prints an explained pixel as one line of JSON. Angles are in degrees; missing values are null.
 #include "explain_json.h"
 
-#include "explain_words.h"
 #include "json.h"
-#include "settings_json.h"
+#include "report.h"
 #include "vectors.h"
 
 #include <lambent/fields.h>

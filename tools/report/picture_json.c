@@ -1,10 +1,9 @@
 // picture_json.c: describes a drawn picture in JSON for web pages.
-#include "picture_json.h"
+#include "light_place.h"
+#include "report.h"
+#include "vectors.h"
 
 #include <lambent/material.h>
-
-#include "light_place.h"
-#include "vectors.h"
 
 static void answer_camera(struct json *json, const struct job *job)
 {
@@ -44,4 +43,30 @@ void picture_json(struct json *json, const struct job *job, double read_ms)
         FLAG("own_lights", from_file && lam_scene_light_count(job->scene) > 0 && !job->options->lighting.lights.count),
         COLOR("color", first_material(job->scene)->diffuse));
     json_warnings(json, job->scene);
+}
+
+// --- prints the values of the user's settings file as a section of a report.
+
+bool settings_are_used(const struct options *options)
+{
+    for (int i = 0; option_table[i].name; i++)
+        if (options->by_config[i])
+            return true;
+    return false;
+}
+
+void option_json(struct json *json, const char *name, const char *value)
+{
+    json_put(json, OBJECT(NULL, TEXT("name", name), TEXT("value", value)));
+}
+
+void settings_json(struct json *json, const struct options *options)
+{
+    if (!settings_are_used(options))
+        return;
+    json_open(json, "settings", '[');
+    for (int i = 0; option_table[i].name; i++)
+        if (options->by_config[i])
+            option_json(json, option_table[i].name, options->values[i]);
+    json_close(json, ']');
 }

@@ -1,13 +1,11 @@
 // plan.c: implements --dry-run: lists the pictures and files without drawing.
-#include "plan.h"
+#include "report.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include <lambent/path.h>
-
-#include "settings_json.h"
 
 int planned_samples(const struct options *options)
 {

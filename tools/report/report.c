@@ -8,9 +8,7 @@
 
 #include "console.h"
 #include "json.h"
-#include "plan.h"
 #include "sandbox_start.h"
-#include "settings_json.h"
 #include "vectors.h"
 
 // Returns the model's format, or "shape" for a built-in shape.

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "console.h"
-#include "suggest.h"
 
 static lam_material material_at(const lam_scene *scene, int index)
 {

@@ -10,7 +10,6 @@
 #include <lambent/shader.h>
 
 #include "console.h"
-#include "suggest.h"
 
 // Most cells do not set the field `look`, so the warning about missing initializers is off.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"

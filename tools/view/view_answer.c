@@ -84,7 +84,7 @@ enum MHD_Result view_answer_result(struct view_connection *c)
     size_t size = result.notes + result.data;
     memmove(result.bytes, result.bytes + result.notes_at, size);
     if (c->thumbnail && result.status == 422) { // browsers show a picture even if the status is an error
-        result.bytes[size] = 0;                 // view_process_receive reserved a byte for the zero
+        result.bytes[size] = 0;                 // process_receive reserved a byte for the zero
         char *picture = view_gallery_failed(c->view, result.bytes, &size);
         free(result.bytes);
         return picture ? view_answer(c->view, c->connection, 422, "image/svg+xml", picture, size, VIEW_OWNED) : MHD_NO;

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "batch_sources.h"
+#include "batch_shard.h"
 #include "console.h"
 #include "foreign.h"
 #include "gallery.inc"

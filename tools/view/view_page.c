@@ -10,7 +10,7 @@
 #include "foreign.h"
 #include "json.h"
 #include "page.h"
-#include "plan.h"
+#include "report.h"
 
 enum { PAGE_MAX = 64 << 20 }; // the maximum size of the page
 

@@ -13,15 +13,13 @@
 #include "command_table.h"
 #include "console.h"
 #include "contents.h"
-#include "device_option.h"
+#include "limit_options.h"
 #include "environment_cache.h"
-#include "exit_codes.h"
 #include "explain_json.h"
 #include "job.h"
-#include "job_check.h"
 #include "json.h"
 #include "kept_model.h"
-#include "picture_json.h"
+#include "report.h"
 
 static struct kept_model model;
 
@@ -281,7 +279,7 @@ int web_contents(int count)
     return end_call(ok);
 }
 
-static void option_json(struct json *json, const struct option *o)
+static void describe_option(struct json *json, const struct option *o)
 {
     json_open(json, NULL, '{');
     json_put(json, TEXT("name", o->name), TEXT("group", group_titles[o->group]), TEXT("value", o->value),
@@ -341,7 +339,7 @@ void web_options(void)
     json_open(&json, "options", '[');
     for (const struct option *o = option_table; o->name; o++)
         if ((PICTURE_GROUPS | 1ull << GROUP_SHAPE) >> o->group & 1)
-            option_json(&json, o);
+            describe_option(&json, o);
     json_close(&json, ']');
     json_close(&json, '}');
     putc('\n', stdout);

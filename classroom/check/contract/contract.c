@@ -1,12 +1,12 @@
 // contract.c: looks up names in a contract, and recognises the contract of a pair of shaders.
 #include "contract.h"
+#include "name_similarity.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "contract_texts.inc"
 #include "fail.h"
-#include "name_similarity.h"
 
 #include <lambent/fields.h>
 

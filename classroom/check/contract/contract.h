@@ -2,11 +2,14 @@
 #ifndef CONTRACT_H
 #define CONTRACT_H
 
-#include <lambent/check.h>
-
 #include "arena.h"
 #include "declarations.h"
+#include "json_reader.h"
 #include "reference_scene.h"
+
+#include <lambent/check.h>
+
+#include <stdbool.h>
 
 // --- the roles (meanings) that a contract can assign to a name.
 
@@ -48,7 +51,7 @@ enum uniform_semantic {
     SEMANTIC_ROUGHNESS,
     SEMANTIC_ROUGHNESS_ANGLE, // Oren–Nayar's sigma
     SEMANTIC_EMISSION,        // factor of the emission map; 0 if there is no emission map
-    // Maps: textures with one texel, which differs between scenes (maps.h).
+    // Maps: textures with one texel, which differs between scenes (contract.h).
     SEMANTIC_BASE_COLOR_MAP,
     SEMANTIC_METALLIC_ROUGHNESS_MAP,
     SEMANTIC_METALLIC_MAP,
@@ -247,7 +250,7 @@ struct contract {
     bool material_strengths; // colours and their strengths are separate inputs
     bool any_strengths; // shaders contain their own strengths and colours; the check fits these values to the pictures
     // True for GLSL 110 and 120, whose shaders use gl_LightSource and similar state. The check rewrites such shaders
-    // (own_texts.h).
+    // (prefix.h).
     bool fixed_state;
     const double *weights; // the weight of each reference scene in the grade
     bool printed;          // the contract of `lambent shader`, whose shaders contain one loop for each kind of light
@@ -288,5 +291,65 @@ struct uniform_value matrix_value(const lam_mat4 *m);
 struct uniform_value uniform_semantic_value(enum uniform_semantic semantic, int light, lam_light_frame space,
                                             const struct reference_scene *reference_scene,
                                             const struct reference_matrices *m);
+
+// --- the maps of a shader in a reference scene. Each map has one texel, so that filters, wraps and levels of detail
+// have no effect. The texel differs between scenes.
+//
+// If a shader reads a map instead of a number, the texel is the number. If a shader multiplies a factor by a map, the
+// product of the factor and the texel is the number. The factor and the texel then differ from each other and from 1.
+
+static inline bool is_map(enum uniform_semantic semantic)
+{
+    return semantic >= SEMANTIC_BASE_COLOR_MAP && semantic <= SEMANTIC_EMISSION_MAP;
+}
+
+// Returns the bit of a map in reference_scene.maps and .factors.
+static inline unsigned map_bit(enum uniform_semantic map) { return 1u << (map - SEMANTIC_BASE_COLOR_MAP); }
+
+// The values of a material that a map can multiply.
+enum map_number { NUMBER_BASE_COLOR, NUMBER_METALLIC, NUMBER_ROUGHNESS, NUMBER_OCCLUSION, NUMBER_EMISSION };
+
+// Returns the factor of a number; `whole` is the product of the factor and the texel. If the map replaces the number,
+// the factor is 1. If there is no map, the factor is `whole`.
+float map_factor(const struct reference_scene *scene, enum map_number number, float whole);
+
+// Returns the texel of a map, as the sampler reads it.
+struct uniform_value map_texel(enum uniform_semantic map, const struct reference_scene *scene);
+
+// --- declares the functions that read the sections of a contract's file.
+
+struct contract_reader {
+    struct json_reader json;
+    struct arena *arena;
+    struct contract *contract;
+    struct contract_name *names; // the names read so far, which become contract->names
+    int name_count;
+};
+
+extern const struct json_choice contract_spaces[]; // eye, world, object
+
+// Returns true if the object contains no comment, or if the comment is a string or an array of strings. The content of
+// the comment is ignored.
+bool contract_check_comment(struct contract_reader *r, const struct place *place, const json_t *object);
+
+// Reports LAM_LIMIT. Returns false.
+bool contract_no_memory(const struct contract_reader *r);
+
+// Returns whether a text can be a name in GLSL. With `plain`, members and arrays are not allowed.
+bool contract_check_name(const struct contract_reader *r, const struct place *place, const char *name, bool plain);
+
+// Reads an array of strings and joins them with `between`; returns NULL if the array is empty. With `of_names`, each
+// string must be a valid name.
+bool contract_read_list(struct contract_reader *r, const struct place *place, const json_t *list, const char *between,
+                        bool of_names, bool plain, const char **out);
+
+// Read the sections of the file.
+bool contract_read_names(struct contract_reader *r, const json_t *root);    // attributes, uniforms, built_ins
+bool contract_read_varyings(struct contract_reader *r, const json_t *root); // after `space`
+bool contract_read_defaults(struct contract_reader *r, const json_t *root); // undeclared
+bool contract_read_constants(struct contract_reader *r, const json_t *root);
+bool contract_read_prefix(struct contract_reader *r, const json_t *root);
+bool contract_read_physical(struct contract_reader *r, const json_t *root);
+bool contract_read_maps(struct contract_reader *r, const json_t *root);
 
 #endif

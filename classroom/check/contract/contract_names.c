@@ -1,6 +1,6 @@
 // contract_names.c: reads the attributes and uniforms of a contract.
-#include "contract_reader.h"
-#include "own_texts.h"
+#include "contract.h"
+#include "prefix.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // contract_read.c: reads a contract from its JSON file.
-#include "contract_reader.h"
+#include "contract.h"
 
 #include <stdlib.h>
 #include <string.h>

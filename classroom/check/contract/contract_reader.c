@@ -1,5 +1,5 @@
 // contract_reader.c: reads lists and names in a contract's file.
-#include "contract_reader.h"
+#include "contract.h"
 
 #include <ctype.h>
 #include <string.h>

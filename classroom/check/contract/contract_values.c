@@ -1,6 +1,6 @@
 // contract_values.c: reads the sections of a contract about varyings, undeclared names, numbers, the engine, and
 // metalness and roughness.
-#include "contract_reader.h"
+#include "contract.h"
 
 #include <stdio.h>
 #include <string.h>

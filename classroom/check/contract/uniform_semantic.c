@@ -1,5 +1,5 @@
 // uniform_semantic.c: computes the value of each uniform in a reference scene.
-#include "maps.h"
+#include "contract.h"
 
 #include "linear.h"
 

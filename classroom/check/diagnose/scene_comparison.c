@@ -1,5 +1,5 @@
 // scene_comparison.c: selects the pixels to compare in two pictures, and compares these pixels.
-#include "scene_comparison.h"
+#include "diagnostics.h"
 
 static float clamped(float x) { return x > 0 ? (x < 1 ? x : 1) : 0; } // NaN: 0
 

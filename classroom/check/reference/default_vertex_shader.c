@@ -1,5 +1,5 @@
 // default_vertex_shader.c: generates a vertex shader for a fragment shader that is checked alone.
-#include "shader_dialect.h"
+#include "draw_request.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 // draw.c: compiles the tested shaders, sets their uniforms for each reference scene, and draws.
 #include "draw_request.h"
-#include "place.h"
-#include "shader_dialect.h"
+#include "reference_scene.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -19,7 +18,7 @@ struct uniform_binding {
 };
 
 struct shader_run {
-    struct place place;
+    struct canvas canvas;
     struct shader_interface interface;
     struct draw_request request;
     struct draw_result drawn;
@@ -69,7 +68,7 @@ static const struct contract_name *look_up(const struct contract *contract, cons
 // Returns whether the program is compiled from desktop GLSL that was rewritten for OpenGL ES (shader_dialect_es).
 static bool is_rewritten(const struct shader_run *run)
 {
-    return run->place.painter.es_only && shader_dialect_language(&run->interface) != LAM_CHECK_LANGUAGE_ES;
+    return run->canvas.painter.es_only && shader_dialect_language(&run->interface) != LAM_CHECK_LANGUAGE_ES;
 }
 
 static void add_binding(struct shader_run *run, int index)
@@ -176,7 +175,7 @@ static bool draw_scene(struct shader_run *run, const struct reference_scene *sce
                                  .value_count = run->binding_count};
     memcpy(drawing.model_view, matrix_value(&m.model_view).v, sizeof drawing.model_view);
     memcpy(drawing.projection, matrix_value(&m.projection).v, sizeof drawing.projection);
-    return place_draw(&run->place, scene->mesh, &drawing, &run->maps, pixels, error);
+    return canvas_draw(&run->canvas, scene->mesh, &drawing, &run->maps, pixels, error);
 }
 
 // --- shaders that loop forever
@@ -220,12 +219,12 @@ static double time_limit_s(int size)
 static bool compile(struct shader_run *run, const char *vertex, const char *fragment, lam_check_program *program,
                     lam_error *error)
 {
-    const lam_check_painter *painter = &run->place.painter;
+    const lam_check_painter *painter = &run->canvas.painter;
     if (!is_rewritten(run))
-        return painter->compile(run->place.place, vertex, fragment, program, error);
+        return painter->compile(run->canvas.context, vertex, fragment, program, error);
     char *es_vertex = shader_dialect_es(vertex, true, error);
     char *es_fragment = es_vertex ? shader_dialect_es(fragment, false, error) : NULL;
-    bool ok = es_fragment && painter->compile(run->place.place, es_vertex, es_fragment, program, error);
+    bool ok = es_fragment && painter->compile(run->canvas.context, es_vertex, es_fragment, program, error);
     free(es_vertex);
     free(es_fragment);
     if (ok) {
@@ -238,7 +237,7 @@ static bool compile(struct shader_run *run, const char *vertex, const char *frag
 
 // Builds the program. Errors are recorded in run->drawn and refer to the unchanged sources. If a shader lowers the
 // precision, both shaders are then built again with full precision, because a correct shader may use a lower precision
-// (shader_dialect.h).
+// (draw_request.h).
 static bool build(struct shader_run *run, lam_error *error)
 {
     const char *vertex = shader_dialect_skip_mark(run->request.vertex),
@@ -262,7 +261,7 @@ static bool build(struct shader_run *run, lam_error *error)
         fail_memory(error, strlen(vertex) + strlen(fragment));
     ok = ok && compile(run, high_vertex, high_fragment, high, error);
     if (ok && high->program) {
-        run->place.painter.forget(run->place.place, &run->program);
+        run->canvas.painter.forget(run->canvas.context, &run->program);
         run->program = *high;
     }
     free(high_vertex);
@@ -302,7 +301,7 @@ static bool draw_scenes(struct shader_run *run, float *pixels, lam_error *error)
 
 static bool draw_all(struct shader_run *run, lam_bytes *out, lam_error *error)
 {
-    snprintf(run->drawn.driver, sizeof run->drawn.driver, "%s", run->place.renderer);
+    snprintf(run->drawn.driver, sizeof run->drawn.driver, "%s", run->canvas.renderer);
     run->drawn.scenes = run->request.scenes;
     size_t count = 0;
     for (int i = 0; i < reference_scene_count; i++)
@@ -340,12 +339,12 @@ bool check_draw(const void *request, size_t size, const lam_check_painter *paint
     } else if (ok) {
         contract = lam_check_contract_read(text, strlen(text), NULL, error);
         ok = contract && shader_interface_make(&run->interface, &texts, &contract->contract, error) &&
-             place_open(&run->place, painter, shader_dialect_language(&run->interface), run->request.size, error) &&
+             canvas_open(&run->canvas, painter, shader_dialect_language(&run->interface), run->request.size, error) &&
              draw_all(run, out, error);
     }
-    if (run->place.place)
-        run->place.painter.forget(run->place.place, &run->program);
-    place_close(&run->place);
+    if (run->canvas.context)
+        run->canvas.painter.forget(run->canvas.context, &run->program);
+    canvas_close(&run->canvas);
     prefix_free(&texts);
     lam_check_contract_free(contract);
     free(run->bindings);

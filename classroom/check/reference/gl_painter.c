@@ -8,7 +8,7 @@
 
 #include "context.h"
 #include "fail.h"
-#include "place.h"
+#include "reference_scene.h"
 
 enum { MAX_BLOCKS = 8, MAX_BLOCK_BYTES = 65536, MAX_TEXTURES = 16, MAX_STREAMS = 8 };
 

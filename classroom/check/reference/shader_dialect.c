@@ -1,5 +1,5 @@
 // shader_dialect.c: determines the shading language of a pair of shaders, and replaces precision qualifiers.
-#include "shader_dialect.h"
+#include "draw_request.h"
 
 #include <ctype.h>
 #include <stdlib.h>

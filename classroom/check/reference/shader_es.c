@@ -1,5 +1,5 @@
 // shader_es.c: converts desktop GLSL to GLSL ES 3.00, line by line.
-#include "shader_dialect.h"
+#include "draw_request.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // fixed_state.c: declares the fixed-function state that a shader reads (GLSL 1.20, section 7.5).
-#include "own_texts.h"
+#include "prefix.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ static const struct {
     {"gl_FrontLightModelProduct", "", {"vec4 sceneColor"}},
     {"gl_FrontLightProduct", "[4]", {"vec4 ambient", "vec4 diffuse", "vec4 specular"}},
 };
-enum { STATES = sizeof states / sizeof *states, MAX_DECLARATIONS = 2048 };
+enum { STATES = sizeof states / sizeof *states, MAX_STATE_LINES = 2048 };
 
 static bool is_name(char c)
 {
@@ -50,17 +50,17 @@ static bool has_word(const char *text, const char *word)
 
 // Declares a state with the members that at least one of the two sources uses. The declaration is the same in both
 // sources. Other members remain undeclared, so the check does not expect the terms of these members.
-static void declare(int state, const char *text, const char *other, char out[MAX_DECLARATIONS])
+static void declare(int state, const char *text, const char *other, char out[MAX_STATE_LINES])
 {
     size_t at = strlen(out);
     const char *name = states[state].name + 3;
-    at += (size_t)snprintf(out + at, MAX_DECLARATIONS - at, "struct fixed_%s_ {", name);
+    at += (size_t)snprintf(out + at, MAX_STATE_LINES - at, "struct fixed_%s_ {", name);
     for (const char *const *member = states[state].members; *member; member++) {
         const char *word = strchr(*member, ' ') + 1;
         if (has_word(text, word) || has_word(other, word))
-            at += (size_t)snprintf(out + at, MAX_DECLARATIONS - at, " %s;", *member);
+            at += (size_t)snprintf(out + at, MAX_STATE_LINES - at, " %s;", *member);
     }
-    snprintf(out + at, MAX_DECLARATIONS - at, " };\nuniform fixed_%s_ fixed_%s%s;\n", name, name,
+    snprintf(out + at, MAX_STATE_LINES - at, " };\nuniform fixed_%s_ fixed_%s%s;\n", name, name,
              states[state].elements);
 }
 
@@ -68,7 +68,7 @@ bool fixed_state_has(const char *name) { return state_at(name, name) >= 0; }
 
 char *fixed_state_rewrite(const char *text, const char *other, bool *ok)
 {
-    char declarations[MAX_DECLARATIONS] = "";
+    char declarations[MAX_STATE_LINES] = "";
     size_t names = 0;
     unsigned used = 0;
     *ok = true;

@@ -1,5 +1,5 @@
 // infer.c: infers the role of each input of two shaders.
-#include "recognise.h"
+#include "prefix.h"
 
 #include <ctype.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // interface_scene.c: changes a reference scene so that a pair of shaders can express the scene. Undeclared inputs have
 // the contract's values, and terms that are not in the contract are switched off.
-#include "maps.h"
+#include "contract.h"
 #include "shader_interface.h"
 
 #include <string.h>

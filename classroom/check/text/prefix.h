@@ -5,6 +5,8 @@
 #include "contract.h"
 #include "declarations.h"
 
+#include <lambent/base.h>
+
 // The shader sources of a program as a compiler receives them, and their declarations.
 struct complete_texts {
     const char *vertex, *fragment; // `vertex` is NULL if it is not given
@@ -32,5 +34,61 @@ struct program_texts {
 // prefix. Returns NULL on failure.
 const struct complete_texts *prefix_texts(struct program_texts *texts, const struct contract *contract,
                                           lam_error *error);
+
+// --- makes the sources that a check uses: normalises line endings, and declares the fixed-function state of GLSL 110
+// and 120 as inputs.
+
+struct own_texts {
+    const char *vertex, *fragment; // the given source, or one of the copies below; may be NULL
+    char *lines[2], *rewritten[2]; // allocated with malloc; NULL if not needed
+};
+
+// Makes the sources for the check from the given sources, which must outlive the result. Returns false on failure:
+// LAM_LIMIT. The caller frees the sources in any case.
+bool own_texts_make(const char *vertex, const char *fragment, struct own_texts *out, lam_error *error);
+void own_texts_free(struct own_texts *texts);
+
+// --- the lights and materials of OpenGL's fixed-function state, which GLSL 110 and 120 can read.
+
+// Rewrites a shader so that it reads uniforms such as fixed_LightSource[i].position, instead of gl_LightSource,
+// gl_FrontMaterial and similar state. A program can set these uniforms. `other` is the source of the other stage and
+// may be NULL. The result is allocated with malloc. Returns NULL if the shader reads no fixed-function state. Also
+// returns NULL, and sets *ok to false, if memory runs out.
+char *fixed_state_rewrite(const char *text, const char *other, bool *ok);
+
+// Returns whether a name is part of the fixed-function state, or of a struct in this state: gl_LightSource[].position.
+bool fixed_state_has(const char *name);
+
+// --- finds the contract whose names a program uses, and describes names that do not match the contract.
+
+// Finds the contract that matches the names in the shaders best. *out is NULL if no contract contains any of them.
+// Returns false on failure (LAM_LIMIT).
+bool contract_recognise(lam_check_contract *const *contracts, int count, struct program_texts *texts,
+                        const struct contract **out, lam_error *error);
+
+// If no contract fits a program, lists the program's names that are missing in `contract`, the nearest contract.
+// `unknown` contains the names that the driver reports.
+void contract_describe_unknown(const struct contract *contract, const struct declarations *vertex,
+                               const struct declarations *fragment, const char *const *unknown, int count, char *out,
+                               size_t capacity);
+
+// Returns whether an unknown name is probably misspelt, that is, whether the contract contains a similar name of the
+// same type that no shader declares.
+bool contract_is_misspelt(const struct contract *contract, const struct declarations *vertex,
+                          const struct declarations *fragment, const char *name);
+
+// --- makes a contract from a pair of shaders: the role of each input is inferred from the input's use, its type, and
+// the words in its name.
+//
+// The result is a guess. The contract allows any strengths, and a verdict is reported only if the pictures confirm the
+// contract (check_fit.c).
+
+// Returns the text of contract number `guess` (0, 1, …) for the shaders, allocated with malloc. The guesses differ in
+// the spaces that the source does not determine. Returns NULL if there is no such guess; for the first guess, `reason`
+// then names the input for which no value is known. Otherwise `reason` is "". `engine` is the contract whose prefix the
+// sources lack, or NULL. With `all`, inputs with unknown roles have the role `zero`, and `reason` names the first of
+// them.
+char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
+                     const struct contract *engine, int guess, bool all, char *reason, size_t capacity);
 
 #endif

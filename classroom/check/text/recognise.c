@@ -1,5 +1,5 @@
 // recognise.c: compares the names of a program with the names of each contract.
-#include "recognise.h"
+#include "prefix.h"
 
 #include <stdio.h>
 #include <string.h>

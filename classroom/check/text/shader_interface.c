@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "fail.h"
-#include "maps.h"
+#include "contract.h"
 
 // Returns whether the shader reads a declared uniform. A member of a struct counts as read if its name occurs after a
 // dot. Any other name counts as read if it occurs at all.

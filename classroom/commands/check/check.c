@@ -9,11 +9,9 @@
 
 #include "commands.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "interrupt.h"
 #include "output.h"
 #include "failure.h"
-#include "suggest.h"
 
 enum { MAX_SCENES = 32 };
 static const size_t max_cache_bytes = (size_t)384 << 20; // the cache of pictures, shared by the shaders of one command

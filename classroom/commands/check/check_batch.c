@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "console.h"
-#include "exit_codes.h"
 #include "interrupt.h"
 #include "output.h"
 

@@ -1,7 +1,7 @@
 // check_report_json.c: prints the report of a check as JSON (docs/check.schema.json).
 #include "check.h"
 
-#include "exit_codes.h"
+#include "console.h"
 #include "json.h"
 
 static const char *kind_name(lam_check_diagnostic_kind kind)

@@ -16,7 +16,6 @@
 #include "output.h"
 #include "failure.h"
 #include "terminal.h"
-#include "suggest.h"
 #include "vectors.h"
 
 enum { TABLE_STEPS = 100 };

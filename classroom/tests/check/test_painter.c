@@ -12,7 +12,6 @@
 #include <cmocka.h>
 
 #include "draw_request.h"
-#include "shader_dialect.h"
 
 #ifndef TEST_SHADERS
 #define TEST_SHADERS "classroom/tests/check"

@@ -29,6 +29,9 @@ static struct {
     char here[PATH_MAX]; // the current folder when the first folder was held
 } table;
 
+// Returns the end of the list. An empty list has no array, to which nothing may be added, not even 0.
+static struct held *held_end(void) { return table.count ? table.list + table.count : table.list; }
+
 // --- paths as text
 
 // Returns the part of `path` after `folder`: "" if both are equal. Returns NULL if the path is not below the folder.
@@ -70,7 +73,7 @@ static void collapse(char *path)
 // Returns NULL if there is none.
 static const struct held *find(const char *path, char whole[WHOLE_SIZE], const char **rest)
 {
-    const struct held *given = NULL, *best = NULL, *end = table.list + table.count;
+    const struct held *given = NULL, *best = NULL, *end = held_end();
     for (const struct held *h = table.list; h < end; h++) {
         const char *inside = after(path, h->given);
         if (inside && (h->folder >= 0 || !*inside) && (!given || strlen(h->given) >= strlen(given->given)))
@@ -203,7 +206,7 @@ int path_open_in(const char *path, size_t folder, int flags)
 int lam_path_parent(const char *path, const char **name)
 {
     char folder[WHOLE_SIZE];
-    for (const struct held *h = table.list; h < table.list + table.count; h++)
+    for (const struct held *h = table.list; h < held_end(); h++)
         if (h->folder == IS_LINK && strcmp(h->given, path) == 0)
             path = h->real;
     *name = last_of(path);
@@ -279,7 +282,7 @@ static bool hold_folder(char folder[PATH_MAX], bool links_may_lead_here)
     char *real = handle >= 0 ? strdup(whole) : realpath(folder, NULL);
     if (real && strcmp(real, "/") == 0)
         *real = 0;
-    for (struct held *h = table.list; real && h < table.list + table.count; h++)
+    for (struct held *h = table.list; real && h < held_end(); h++)
         if (h->folder >= 0 && strcmp(h->real, real) == 0) { // also under another name
             lam_path_close(handle == h->folder ? -1 : handle);
             handle = h->folder;

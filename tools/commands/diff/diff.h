@@ -2,9 +2,8 @@
 #ifndef DIFF_H
 #define DIFF_H
 
-#include "batch_plan.h"
-#include "batch_use.h"
-#include "shared_count.h"
+#include "batch_shard.h"
+#include "item.h"
 
 // diff_pictures.c: compares two pictures. Returns the exit code.
 int diff_pictures(char **operands, const struct options *options);

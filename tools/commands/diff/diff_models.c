@@ -5,12 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch_run.h"
-#include "batch_sources.h"
+#include "batch.h"
+#include "batch_shard.h"
 #include "console.h"
 #include "foreign.h"
-#include "exit_codes.h"
-#include "job_check.h"
+#include "job.h"
 #include "json.h"
 #include "output.h"
 #include "report.h"

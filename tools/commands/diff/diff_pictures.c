@@ -7,10 +7,9 @@
 #include <unistd.h>
 
 #include "console.h"
-#include "exit_codes.h"
 #include "json.h"
 #include "limit_options.h"
-#include "job_inputs.h"
+#include "job.h"
 #include "output.h"
 #include "report.h"
 #include "sandbox_start.h"

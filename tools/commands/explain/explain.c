@@ -10,7 +10,7 @@
 #include "classroom.h"
 #include "command.h"
 #include "console.h"
-#include "device_option.h"
+#include "limit_options.h"
 #include "drawing.h"
 #include "explain_json.h"
 #include "interrupt.h"

@@ -1,5 +1,5 @@
 // explain_layers.c: prints how the layers of a physical material divide the light at a point (docs/lighting/layers.md).
-#include "explain_rows.h"
+#include "explain.h"
 
 #include <stdio.h>
 

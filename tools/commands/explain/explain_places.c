@@ -1,6 +1,6 @@
 // explain_places.c: prints the transforms of a triangle from its mesh to the window: the matrices, and each point in
 // each space.
-#include "explain_rows.h"
+#include "explain.h"
 
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
 // explain_rows.c: prints aligned rows of an explanation: a name, numbers and a remark.
-#include "explain_rows.h"
+#include "explain.h"
 
 #include <stdio.h>
 

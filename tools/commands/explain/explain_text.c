@@ -9,8 +9,7 @@
 #include <lambent/fields.h>
 #include <lambent/light.h>
 
-#include "explain_rows.h"
-#include "explain_words.h"
+#include "explain_json.h"
 #include "foreign.h"
 
 enum { FEW_LIGHTS = 16 }; // with more lights, only contributing lights are printed

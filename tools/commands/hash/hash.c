@@ -8,17 +8,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "batch_key.h"
-#include "batch_run.h"
-#include "batch_sources.h"
+#include "journal.h"
+#include "batch.h"
+#include "batch_shard.h"
 #include "console.h"
 #include "foreign.h"
-#include "exit_codes.h"
 #include "hash.h"
-#include "job_check.h"
+#include "job.h"
 #include "json.h"
 #include "output.h"
-#include "output_folder.h"
+#include "file_io.h"
 #include "report.h"
 #include "sandbox_start.h"
 #include "xxh64.h"

@@ -1,5 +1,5 @@
 // hash_file.c: reads and writes hash files.
-#include "hash_file.h"
+#include "hash.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -14,7 +14,6 @@
 
 #include "console.h"
 #include "file_io.h"
-#include "output_folder.h"
 #include "xxh64.h"
 
 static const char first_line[] = "lambent hashes 1";

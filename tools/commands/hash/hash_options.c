@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch_key.h"
+#include "journal.h"
 #include "command_table.h"
 #include "console.h"
 #include "environment_option.h"
-#include "look_option.h"
+#include "limit_options.h"
 
 enum { WORDS_MAX = 512 };
 

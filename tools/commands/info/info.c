@@ -7,7 +7,6 @@
 
 #include "command.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "interrupt.h"
 #include "limit_options.h"
 #include "report.h"

@@ -8,13 +8,11 @@
 
 #include "animate_frame.h"
 #include "base64.h"
-#include "batch_key.h"
+#include "journal.h"
 #include "console.h"
 #include "environment_option.h"
-#include "job_check.h"
-#include "job_words.h"
+#include "job.h"
 #include "limit_options.h"
-#include "look_option.h"
 #include "output_name.h"
 
 enum { ID_MAX = 200, NAME_MAX_BYTES = 1000 };

@@ -2,7 +2,7 @@
 //
 // The check in this file produces the error message. Files are then opened below the handles of these folders
 // (lam_path_open), so it does not matter if somebody exchanges folders after the check.
-#include "job_roots.h"
+#include "batch_job.h"
 
 #include <errno.h>
 #include <fcntl.h>

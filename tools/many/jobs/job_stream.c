@@ -1,5 +1,5 @@
 // job_stream.c: reads lines from a file or a pipe.
-#include "job_stream.h"
+#include "batch_job.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // job_words.c: converts the options of a job to words and parses them.
-#include "job_words.h"
+#include "batch_job.h"
 
 #include <inttypes.h>
 #include <stdio.h>

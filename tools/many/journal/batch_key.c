@@ -1,5 +1,5 @@
 // batch_key.c: computes the hash of everything that determines a picture.
-#include "batch_key.h"
+#include "journal.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -14,7 +14,6 @@
 
 #include <lambent/path.h>
 
-#include "batch_key.h"
 #include "console.h"
 #include "file_io.h"
 #include "host_name.h"

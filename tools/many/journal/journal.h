@@ -6,11 +6,13 @@
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
-#include <jansson.h>
+#include "batch_shard.h"
+#include "foreign.h"
+#include "options.h"
 
 #include <lambent/base.h>
 
-#include "foreign.h"
+#include <jansson.h>
 
 struct journal;
 
@@ -73,5 +75,89 @@ char *journal_text(const char *text);
 
 // Returns the path from which journal_text made `text`, allocated with malloc. Returns NULL if memory runs out.
 char *journal_path(const char *text);
+
+// --- computes the hash of everything that determines a picture: the options with their defaults, the program's version
+// and the contents of files.
+
+// Returns the options that determine a picture, allocated with malloc: one `name=value` per line, including defaults,
+// but without side and size. If an option names files, the text contains the files' hashes. Returns NULL on failure;
+// LAM_CANNOT_READ means that a file named by an option cannot be read.
+char *batch_options_text(const struct options *options, lam_error *error);
+
+// Returns the options of the command line that affect the picture, as typed: "--size 256 --light 'eye=1/2/3'". Relative
+// paths are unchanged. The text is allocated with malloc. Returns NULL if memory runs out.
+char *batch_options_given(const struct options *options);
+
+// Formats the first options that differ between two texts, as "--size 512 … --size 256", for use in a message.
+void batch_options_difference(const char *then, const char *now, char text[300]);
+
+// The inputs of one picture's key.
+struct batch_key_parts {
+    const char *options; // batch_options_text
+    // The same options, parsed; for a scene file, the key includes the names of the typed options.
+    const struct options *parsed;
+    const char *model;   // the name of a built-in shape; used if no file was read
+    const char *format;  // the model's format: lam_scene_format
+    const char *picture; // the extension of the picture's name
+    int side, width, height;
+    const char *const *files; // hashes of the files, or "absent"
+    int file_count;
+};
+uint64_t batch_key(const struct batch_key_parts *parts);
+
+// --- combines several journals of one batch, to find the batch's finished, failed and missing pictures.
+
+// The state of one journal after its last run.
+struct journal_part {
+    char *path, *build, *options; // allocated with malloc
+    struct batch_shard shard;     // all zero if the batch has no shards
+    size_t pictures;              // the number of planned pictures
+    size_t written, failed;       // numbers of pictures
+    bool ended;                   // whether the run was completed
+    int exit;                     // the exit code of the run; −1 if the journal does not contain it
+    char *text;                   // the contents of the file
+    size_t size;
+};
+
+// The latest line of a picture.
+struct journal_entry {
+    uint64_t output;  // the hash of the picture's path; 0 if free
+    const char *line; // `length` bytes, without the line's end
+    size_t length;
+    const char *folder; // the last line (with its line end) before `line` that names the pictures' folder; or NULL
+    int part;
+    float ms; // the duration of the work; 0 if the picture failed
+};
+
+struct journal_sum {
+    struct journal_part *parts;
+    int part_count;
+    struct journal_entry *entries; // in the order of the journals
+    size_t count, capacity;
+    size_t written, failed;
+    size_t *slots, slot_count; // a hash table; a slot contains an index in `entries` plus 1, or 0
+    size_t doubles;            // number of pictures that are in two journals
+    char *first_double;        // "x.png is in a.jsonl and in b.jsonl", allocated with malloc, or NULL
+};
+
+// Adds a journal. Fails with LAM_CANNOT_READ, LAM_LIMIT or LAM_BAD_ARGUMENT (the file is not a journal, or the options
+// or the number of shards differ from the previous journals).
+bool journal_sum_add(struct journal_sum *sum, const char *path, lam_error *error);
+
+// Adds the journals in a folder: the journals of shards in alphabetical order or, if there are none, lambent.jsonl.
+bool journal_sum_add_folder(struct journal_sum *sum, const char *folder, lam_error *error);
+
+// Returns the record of an entry; the caller calls json_decref. Returns NULL if memory runs out.
+json_t *journal_sum_record(const struct journal_sum *sum, size_t entry);
+
+// Returns true if each shard has a completed journal and no picture is in two journals.
+bool journal_sum_is_whole(const struct journal_sum *sum);
+
+// Returns the exit code of the whole batch: an exit code of a run other than EXIT_SOME_FAILED, if there is one, else
+// EXIT_SOME_FAILED if a run ended with it or if a part is missing.
+int journal_sum_exit(const struct journal_sum *sum);
+bool journal_sum_has_shard(const struct journal_sum *sum, int number);
+
+void journal_sum_free(struct journal_sum *sum);
 
 #endif

@@ -2,7 +2,7 @@
 //
 // Keeps the text of the journals and 40 bytes per picture, but no parsed JSON, because a journal may list a million
 // pictures.
-#include "journal_sum.h"
+#include "journal.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -10,10 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch_key.h"
 #include "console.h"
-#include "exit_codes.h"
-#include "journal.h"
 #include "xxh64.h"
 
 // --- the table of pictures

@@ -1,5 +1,5 @@
 // batch_plan.c: the models to draw, and the names of their pictures.
-#include "batch_plan.h"
+#include "batch_shard.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // batch_sources.c: collects the models of `batch`.
-#include "batch_sources.h"
+#include "batch_shard.h"
 
 #include <errno.h>
 #include <fcntl.h>

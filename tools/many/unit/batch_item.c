@@ -1,5 +1,5 @@
 // batch_item.c: draws one model, and records the results of its pictures.
-#include "batch_item.h"
+#include "item.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -9,18 +9,15 @@
 
 #include <lambent/path.h>
 
-#include "animate.h"
-#include "batch_key.h"
-#include "console.h"
-#include "exit_codes.h"
-#include "interrupt.h"
+#include "animate_frame.h"
 #include "journal.h"
+#include "console.h"
+#include "interrupt.h"
 #include "limit_options.h"
 #include "option_names.h"
 #include "output.h"
-#include "plan.h"
-#include "page.h"
 #include "report.h"
+#include "page.h"
 #include "sandbox_start.h"
 #include "xxh64.h"
 

@@ -1,5 +1,5 @@
 // batch_tell.c: prints the messages of a batch.
-#include "batch_tell.h"
+#include "item.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,18 +1,16 @@
 // batch_unit.c: processes one model of a batch.
-#include "batch_unit.h"
+#include "batch_job.h"
+#include "journal.h"
+#include "console.h"
+#include "item.h"
+#include "report.h"
+#include "xxh64.h"
+
+#include <lambent/path.h>
 
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-#include <lambent/path.h>
-
-#include "batch_job.h"
-#include "batch_key.h"
-#include "console.h"
-#include "exit_codes.h"
-#include "report.h"
-#include "xxh64.h"
 
 bool batch_unit_start(struct batch_unit *u, const struct batch *b, const struct batch_task *task, lam_error *error)
 {
@@ -271,4 +269,20 @@ void batch_unit_fail(struct batch_unit *u, const struct batch *b, const char *cl
             item.has_records ? batch_record_failed(&item, i, class, exit, picture->by_machine, text) : NULL;
         u->is_new[which[i]] = true;
     }
+}
+
+// --- the state of a batch.
+
+void batch_stop(struct batch *b, const lam_error *error)
+{
+    pthread_mutex_lock(&b->lock);
+    int code = exit_code_of(error->code)->code;
+    if (!b->failed) {
+        batch_hide_progress(&b->tally);
+        say_error(error->text);
+    }
+    b->stop_code = b->failed ? b->stop_code : code;
+    b->failed = true;
+    b->code = code > b->code ? code : b->code;
+    pthread_mutex_unlock(&b->lock);
 }

@@ -10,15 +10,15 @@
 #include <unistd.h>
 
 #include "console.h"
-#include "device_option.h"
+#include "limit_options.h"
 #include "environment_cache.h"
 #include "explain_json.h"
 #include "file_io.h"
-#include "job_check.h"
+#include "job.h"
 #include "kept_model.h"
 #include "option_names.h"
 #include "page.h"
-#include "picture_json.h"
+#include "report.h"
 #include "view_words.h"
 
 static lam_cancel cancel; // cancels the current request; it is global because a signal handler uses it

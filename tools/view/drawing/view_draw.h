@@ -9,7 +9,7 @@
 // The kinds of requests.
 enum view_kind {
     VIEW_MODEL,   // JSON: the model's files, and whether the page can draw the model
-    VIEW_PIXELS,  // JSON about the picture (picture_json.h), and its RGBA pixels
+    VIEW_PIXELS,  // JSON about the picture (report.h), and its RGBA pixels
     VIEW_PICTURE, // the picture as a PNG
     VIEW_EXPLAIN, // JSON that explains the pixel x, y
     VIEW_KINDS,

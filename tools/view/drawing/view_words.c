@@ -9,8 +9,8 @@
 #include "command_table.h"
 #include "console.h"
 #include "environment_option.h"
-#include "job_check.h"
-#include "look_option.h"
+#include "job.h"
+#include "limit_options.h"
 #include "page.h"
 
 // Converts the path of a served file from a path in the page to a path on this machine, allocated with malloc. Fails

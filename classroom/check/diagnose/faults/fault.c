@@ -1,6 +1,6 @@
 // fault.c: sets of faults, and the faults that can occur in a pair of shaders.
 #include "fault.h"
-#include "maps.h"
+#include "contract.h"
 
 #include <string.h>
 

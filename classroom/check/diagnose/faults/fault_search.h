@@ -4,7 +4,7 @@
 
 #include "fault_shader.h"
 #include "render_cache.h"
-#include "scene_comparison.h"
+#include "diagnostics.h"
 
 enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32, MAX_ALSO = 3 };
 

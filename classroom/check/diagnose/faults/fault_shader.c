@@ -1,8 +1,8 @@
 // fault_shader.c: a program that computes the lighting with faults switched on or off (fault_light.glsl,
 // fault_physical.glsl).
 #include "fault_shader.h"
-#include "maps.h"
-#include "place.h"
+#include "contract.h"
+#include "reference_scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ enum { MAX_PROGRAMS = 32 };
 enum { MAX_VALUES = 64, MAX_FLOATS = 512 };
 
 struct fault_shader {
-    struct place place;
+    struct canvas canvas;
     struct program programs[MAX_PROGRAMS]; // most recently used first
     int program_count;
     const lam_check_program *program; // the current program
@@ -131,7 +131,7 @@ struct fault_shader *fault_shader_open(const lam_check_painter *painter, int siz
         return fail_memory(error, sizeof *m), NULL;
     m->size = size;
     m->stride = stride;
-    if (!place_open(&m->place, painter, LAM_CHECK_LANGUAGE_CORE, fault_shader_size(size, stride), error)) {
+    if (!canvas_open(&m->canvas, painter, LAM_CHECK_LANGUAGE_CORE, fault_shader_size(size, stride), error)) {
         free(m);
         return NULL;
     }
@@ -151,21 +151,21 @@ static bool is_same(const struct specialization *a, const struct specialization 
 static void forget(struct fault_shader *m, lam_check_program *program)
 {
     if (program)
-        m->place.painter.forget(m->place.place, program);
+        m->canvas.painter.forget(m->canvas.context, program);
     free(program);
 }
 
 static lam_check_program *make_program(struct fault_shader *m, const struct specialization *made_for, lam_error *error)
 {
-    bool es = m->place.painter.es_only;
+    bool es = m->canvas.painter.es_only;
     char *vertex = write_text(made_for, es, false, error),
          *fragment = vertex ? write_text(made_for, es, true, error) : NULL;
     lam_check_program *program = fragment ? calloc(1, sizeof *program) : NULL;
     if (fragment && !program)
         fail_memory(error, sizeof *program);
-    bool ok = program && m->place.painter.compile(m->place.place, vertex, fragment, program, error);
+    bool ok = program && m->canvas.painter.compile(m->canvas.context, vertex, fragment, program, error);
     if (ok && !program->program)
-        ok = fail(error, LAM_UNSUPPORTED, "%s does not build the check's own shaders: %.300s", m->place.renderer,
+        ok = fail(error, LAM_UNSUPPORTED, "%s does not build the check's own shaders: %.300s", m->canvas.renderer,
                   program->refused_vertex     ? program->vertex_log
                   : program->refused_fragment ? program->fragment_log
                                               : program->link_log);
@@ -209,13 +209,13 @@ bool fault_shader_draws(const struct fault_shader *m, int size, int stride)
 
 void fault_shader_rest(struct fault_shader *m)
 {
-    m->place.painter.rest(m->place.place);
+    m->canvas.painter.rest(m->canvas.context);
     m->rests = true;
 }
 
 bool fault_shader_wake(struct fault_shader *m, lam_error *error)
 {
-    bool ok = m->place.painter.wake(m->place.place, error);
+    bool ok = m->canvas.painter.wake(m->canvas.context, error);
     m->rests = m->rests && !ok;
     return ok;
 }
@@ -229,14 +229,14 @@ void fault_shader_close(struct fault_shader *m)
         fault_shader_wake(m, &unused); // the context is closed even if it cannot be made current
     for (int i = 0; i < m->program_count; i++)
         forget(m, m->programs[i].built);
-    place_close(&m->place);
+    canvas_close(&m->canvas);
     free(m);
 }
 
 // Sets the elements of a uniform, but only the elements that the program reads. Each element consists of `each` floats.
 static void set(struct fault_shader *m, const char *name, int count, int each, const float *numbers)
 {
-    int input = place_input(m->program, name, false);
+    int input = canvas_input(m->program, name, false);
     if (input < 0)
         return;
     if (count > m->program->inputs[input].elements) // a compiler may shorten an array
@@ -420,7 +420,7 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
     m->value_count = m->number_count = 0;
     set(m, "fault_on[0]", FAULT_BIT_COUNT, 1, bits);
     set_spaces(m, interface->space, reference_scene, &matrices);
-    float small = (float)(m->stride * m->place.size), scale = (float)m->size / small;
+    float small = (float)(m->stride * m->canvas.size), scale = (float)m->size / small;
     float offset = scale + (float)(m->stride - 1) / small - 1;
     set(m, "window", 1, 4, (float[]){scale, scale, offset, offset});
     for (int i = 0; i < reference_scene->light_count; i++)
@@ -435,17 +435,17 @@ bool fault_shader_draw(struct fault_shader *m, const struct reference_scene *ref
         return fail(error, LAM_LIMIT, "check: more than %d values for its own shader", MAX_VALUES);
     bool upside_down = fault_set_has(set_of_faults, BIT_UPSIDE_DOWN);
     lam_check_drawing drawing = {.program = m->program,
-                                 .position = place_input(m->program, "position", true),
-                                 .normal = place_input(m->program, "normal", true),
+                                 .position = canvas_input(m->program, "position", true),
+                                 .normal = canvas_input(m->program, "normal", true),
                                  .tangent = -1,
                                  .values = m->values,
                                  .value_count = m->value_count,
                                  .cull = !closed       ? LAM_CHECK_CULL_NONE
                                          : upside_down ? LAM_CHECK_CULL_FRONT
                                                        : LAM_CHECK_CULL_BACK};
-    const struct map_inputs inputs = {{place_input(m->program, "texture_coordinate", true), -1},
-                                      place_input(m->program, "tangent", true),
+    const struct map_inputs inputs = {{canvas_input(m->program, "texture_coordinate", true), -1},
+                                      canvas_input(m->program, "tangent", true),
                                       -1,
                                       {-1, -1}};
-    return place_draw(&m->place, reference_scene->mesh, &drawing, &inputs, pixels, error);
+    return canvas_draw(&m->canvas, reference_scene->mesh, &drawing, &inputs, pixels, error);
 }

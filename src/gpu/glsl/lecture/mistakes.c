@@ -1,4 +1,4 @@
-// mistakes.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most of these mistakes occur
+// contracts.c: the known mistakes as edits of shaders in the lecture style (lecture.glsl). Most of these mistakes occur
 // in lectures and tutorials (docs/mistakes.md). `lambent check` explains each mistake under the same id
 // (classroom/check/diagnose/faults/fault_table.c).
 #include <lambent/shader.h>

@@ -5,15 +5,12 @@
 struct dirent {
     char d_name[1024];
 };
-typedef struct windows_folder DIR;
+#include <unistd.h>
 
 DIR *opendir(const char *path);
 struct dirent *readdir(DIR *folder);
 int closedir(DIR *folder);
-// Removes the file `name`, which is in the open folder `folder`.
-int windows_remove_in(DIR *folder, const char *name);
-#define dirfd(folder)                 (folder)
-#define unlinkat(folder, name, flags) windows_remove_in(folder, name)
+#define dirfd(folder) (folder)
 int alphasort(const struct dirent **a, const struct dirent **b);
 int scandir(const char *path, struct dirent ***list, int filter(const struct dirent *),
             int compare(const struct dirent **, const struct dirent **));

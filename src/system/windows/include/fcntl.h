@@ -21,6 +21,7 @@ static inline int posix_fadvise(int file, long long at, long long size, int advi
 }
 
 int windows_open(const char *path, int flags, ...);
-#define open windows_open
+#define open                      windows_open
+#define openat(folder, path, ...) windows_open(path, __VA_ARGS__)
 
 #endif

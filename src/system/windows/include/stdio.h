@@ -9,8 +9,9 @@ FILE *windows_fopen(const char *path, const char *mode);
 int windows_rename(const char *from, const char *to); // replaces a file
 int windows_fclose(FILE *file);
 int windows_fflush(FILE *file);
-#define fopen  windows_fopen
-#define rename windows_rename
+#define fopen                                      windows_fopen
+#define rename                                     windows_rename
+#define renameat(from_folder, from, to_folder, to) windows_rename(from, to)
 // fclose and fflush store the text of a memory stream.
 #define fclose windows_fclose
 #define fflush windows_fflush

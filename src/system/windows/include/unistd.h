@@ -5,6 +5,7 @@
 #include_next <unistd.h>
 
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 int windows_access(const char *path, int mode);
@@ -13,6 +14,17 @@ int windows_rmdir(const char *path);
 #define access(path, mode) windows_access(path, mode)
 #define unlink(path)       windows_unlink(path)
 #define rmdir(path)        windows_rmdir(path)
+
+// Folders are not held open on Windows (src/system/files/path_plain.c): a name relative to a folder is the whole path.
+#define AT_FDCWD                             (-100)
+#define AT_SYMLINK_NOFOLLOW                  0
+#define faccessat(folder, path, mode, flags) windows_access(path, mode)
+#define fchmod(file, mode)                   0
+// Removes the file `name`, which is in the open folder `folder`.
+typedef struct windows_folder DIR;
+int windows_remove_in(DIR *folder, const char *name);
+#define unlinkat(folder, name, flags)                                                                                  \
+    _Generic((folder), DIR *: windows_remove_in((DIR *)(intptr_t)(folder), name), int: windows_unlink(name))
 
 int fsync(int file);
 // These functions read or write at the offset `at`, independently of the file's own position. Any thread may call these

@@ -26,10 +26,12 @@ int windows_stat(const char *path, struct windows_stat *about);
 int windows_fstat(int file, struct windows_stat *about);
 int windows_mkdir(const char *path);
 
-#define stat              windows_stat
-#define fstat             windows_fstat
-#define lstat             windows_stat // stat and lstat follow links
-#define mkdir(path, mode) windows_mkdir(path)
+#define stat                                windows_stat
+#define fstat                               windows_fstat
+#define lstat                               windows_stat // stat and lstat follow links
+#define mkdir(path, mode)                   windows_mkdir(path)
+#define fstatat(folder, path, about, flags) windows_stat(path, about)
+#define mkdirat(folder, path, mode)         windows_mkdir(path)
 
 #define S_ISLNK(mode)  0
 #define S_ISSOCK(mode) 0

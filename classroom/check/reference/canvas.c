@@ -1,5 +1,5 @@
-// place.c: makes the meshes for a painter on first use.
-#include "place.h"
+// canvas.c: makes the meshes for a painter on first use.
+#include "reference_scene.h"
 #include "contract.h"
 
 #include <stdlib.h>
@@ -24,32 +24,32 @@ struct type_shape type_shape(lam_check_type type)
     return (size_t)type < sizeof shapes / sizeof *shapes ? shapes[type] : shapes[LAM_CHECK_TYPE_OTHER];
 }
 
-bool place_open(struct place *p, const lam_check_painter *painter, lam_check_language language, int size,
-                lam_error *error)
+bool canvas_open(struct canvas *p, const lam_check_painter *painter, lam_check_language language, int size,
+                 lam_error *error)
 {
-    *p = (struct place){.painter = *painter, .size = size};
+    *p = (struct canvas){.painter = *painter, .size = size};
     if (!check_reserved("lam_check_painter", painter, error))
         return false;
     if (painter->es_only)
         language = LAM_CHECK_LANGUAGE_ES;
-    p->place = painter->open(painter->user, language, size, p->renderer, error);
-    return p->place != NULL;
+    p->context = painter->open(painter->user, language, size, p->renderer, error);
+    return p->context != NULL;
 }
 
-void place_close(struct place *p)
+void canvas_close(struct canvas *p)
 {
-    if (p->place)
-        p->painter.close(p->place);
+    if (p->context)
+        p->painter.close(p->context);
     for (int i = 0; i < MESH_COUNT; i++) {
         if (p->meshes[i].index_count)
             reference_points_free(&p->points[i]);
         free(p->normals[i]);
         free(p->factors[i]);
     }
-    *p = (struct place){0};
+    *p = (struct canvas){0};
 }
 
-static bool make_mesh(struct place *p, enum reference_mesh mesh, lam_error *error)
+static bool make_mesh(struct canvas *p, enum reference_mesh mesh, lam_error *error)
 {
     struct reference_points *points = &p->points[mesh];
     if (p->meshes[mesh].index_count)
@@ -78,7 +78,7 @@ static bool make_mesh(struct place *p, enum reference_mesh mesh, lam_error *erro
 
 const struct map_inputs no_map_inputs = {{-1, -1}, -1, -1, {-1, -1}};
 
-static bool make_factors(struct place *p, enum reference_mesh mesh, lam_error *error)
+static bool make_factors(struct canvas *p, enum reference_mesh mesh, lam_error *error)
 {
     size_t count = (size_t)p->points[mesh].vertex_count;
     struct reference_matrices none = {0};
@@ -92,8 +92,8 @@ static bool make_factors(struct place *p, enum reference_mesh mesh, lam_error *e
     return all || fail_memory(error, count * 4 * sizeof *all);
 }
 
-bool place_draw(struct place *p, enum reference_mesh mesh, const lam_check_drawing *drawing,
-                const struct map_inputs *inputs, float *pixels, lam_error *error)
+bool canvas_draw(struct canvas *p, enum reference_mesh mesh, const lam_check_drawing *drawing,
+                 const struct map_inputs *inputs, float *pixels, lam_error *error)
 {
     if (!make_mesh(p, mesh, error) || (inputs->factors[0] >= 0 && !make_factors(p, mesh, error)))
         return false;
@@ -113,10 +113,10 @@ bool place_draw(struct place *p, enum reference_mesh mesh, const lam_check_drawi
     for (size_t i = 0; i < STREAMS; i++)
         if (all[i].input >= 0)
             streams[whole.stream_count++] = all[i];
-    return p->painter.draw(p->place, &whole, pixels, error);
+    return p->painter.draw(p->context, &whole, pixels, error);
 }
 
-int place_input(const lam_check_program *program, const char *name, bool attribute)
+int canvas_input(const lam_check_program *program, const char *name, bool attribute)
 {
     for (int i = 0; i < program->input_count; i++)
         if (program->inputs[i].attribute == attribute && strcmp(program->inputs[i].name, name) == 0)

@@ -15,14 +15,15 @@ long __wrap_syscall(long number, ...)
 {
     va_list list;
     va_start(list, number);
-    long a = va_arg(list, long), b = va_arg(list, long), c = va_arg(list, long), d = va_arg(list, long),
-         e = va_arg(list, long), f = va_arg(list, long);
+    long given[6] = {0};
+    for (int i = 0; i < (number == SYS_openat2 ? 4 : 3); i++) // the program's own calls pass no more
+        given[i] = va_arg(list, long);
     va_end(list);
     if (number == SYS_openat2 && is_old) {
         errno = ENOSYS;
         return -1;
     }
-    return __real_syscall(number, a, b, c, d, e, f);
+    return __real_syscall(number, given[0], given[1], given[2], given[3], given[4], given[5]);
 }
 
 // Opens a file and returns its first byte; or '-' and the reason if it cannot be opened.

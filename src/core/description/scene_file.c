@@ -140,7 +140,7 @@ static bool scene_load(struct import_source *source, struct lam_scene *scene, la
     size_t charge = tree_bytes(source->size);
     if (!settings || !call_charge(source->call, charge))
         return call_memory_error(source->call, charge, error);
-    struct reader reader = {.json = {source->name, error ? error : &unwanted},
+    struct reader reader = {.json = {.file = source->name, .error = error ? error : &unwanted},
                             .source = source,
                             .scene = scene,
                             .settings = settings,

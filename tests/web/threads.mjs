@@ -60,9 +60,8 @@ const missingPart = (call) => {
   }
 };
 const apart = await openThreads(parts[0], 2, worker('../../web/thread.js'), files), all = [...PICTURES, ...REFUSED];
-const isScene = ([model]) => model.endsWith('.json'), drawn = all.map((words, i) => (isScene(words) ? expected[i] : pixels(apart, words)));
+const drawn = all.map((words) => pixels(apart, words)); // scene files too: options and scene files have one reader
 ok(same(drawn, expected), 'threads: the same pixels and sentences by the first of two parts', drawn.filter((one, i) => one !== expected[i]).join('; '));
-ok(missingPart(() => apart.draw(['/scene.json'])) === 'threads-more', 'threads: a scene file asks for the second part', missingPart(() => apart.draw(['/scene.json'])));
 ok(missingPart(() => apart.explain(['teapot', '--size=96'], 48, 48)) === 'threads-more', 'threads: explaining asks for the second part', missingPart(() => apart.explain(['teapot', '--size=96'], 48, 48)));
 apart.end();
 const whole = await openThreads(parts[0], 2, worker('../../web/thread.js'), files, null, [parts[1]]);

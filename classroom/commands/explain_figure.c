@@ -1,6 +1,8 @@
 // explain_figure.c: draws the figure of `explain -o`. The figure shows the vectors n, l, v, r and h as arrows on the
 // surface, and the same vectors from the side. For threads, the figure shows t instead of r and h. Tables list the
 // point's coordinates, the vectors, the angles and the terms.
+//
+// The file is longer than 600 lines, because all panels of the figure share its layout and the members of the explanation.
 #include "commands.h"
 
 #include <jansson.h>

@@ -36,7 +36,7 @@ LACKING = {
     "words": {"camera: ortho_half_height", "material: name"},
     "schema": set(),
 }
-# Doors whose refusals use the sentence of the command line. Step 2 adds scene and settings.
+# Doors whose refusals use the sentence of the command line. Files name the path of the key instead.
 SAME_SENTENCES = ("command line", "saved", "page")
 
 # Keys that no row makes visible in the picture, with the reason.

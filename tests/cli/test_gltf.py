@@ -133,6 +133,11 @@ class Gltf(GltfCase):
                 self.assertEqual(len(found), 1, found)
                 self.assertIn(warning, found[0])
         self.given.add("a.png")
+        # Two causes in one object are two warnings.
+        model = self.model(cameras=[{"type": "perspective", "perspective": {"yfov": 0.5, "zfar": "x"}}], nodes=[{"mesh": 0}, {"camera": 0}], scenes=[{"nodes": [0, 1]}])
+        text = self.good(model, "-o", "a.png", "-s", "16").stderr.decode()
+        self.assertIn("zfar: found \"x\"", text)
+        self.assertIn("znear is missing", text)
         for list_name, key in (("buffers", "byteLength"), ("accessors", "count")):
             values = json.loads((self.folder / self.model()).read_text())[list_name]
             values[0][key] = None

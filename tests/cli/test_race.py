@@ -13,7 +13,7 @@ import time
 
 from harness import PROGRAM, Case, long
 
-JOBS = int(os.environ.get("LAMBENT_RACE", "40"))  # of each mode; `make test-long` uses 6,000
+JOBS = int(os.environ.get("LAMBENT_RACE", "6000" if os.environ.get("LAMBENT_LONG") else "40"))  # of each mode
 EXCHANGE = 2  # RENAME_EXCHANGE
 MODES = ([], ["--isolate"], ["--sandbox", "require"], ["--sandbox", "off"], ["--sandbox", "off", "--isolate"])
 SCENE = "mtllib {0}.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 {1} 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"

@@ -16,7 +16,7 @@ struct cell {
     const char *mistake; // the mistake in the shader that draws the picture (--mistake), or NULL
 };
 
-// An option that applies to all pictures unless the command line contains it (sheet.h).
+// An option that applies to all pictures unless the command line contains it.
 struct sheet_default {
     const char *option; // "--light"
     const char *value;  // NULL for --segments means a small number that suits the shape

@@ -51,7 +51,7 @@ enum uniform_semantic {
     SEMANTIC_ROUGHNESS,
     SEMANTIC_ROUGHNESS_ANGLE, // Oren–Nayar's sigma
     SEMANTIC_EMISSION,        // factor of the emission map; 0 if there is no emission map
-    // Maps: textures with one texel, which differs between scenes (contract.h).
+    // Maps: textures with one texel, which differs between scenes.
     SEMANTIC_BASE_COLOR_MAP,
     SEMANTIC_METALLIC_ROUGHNESS_MAP,
     SEMANTIC_METALLIC_MAP,

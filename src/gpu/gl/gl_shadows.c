@@ -1,4 +1,5 @@
-// gl_shadows.c: stores the hierarchy of a frame in a float texture, which the shaders traverse (shadows.glsl).
+// gl_shadows.c: stores the hierarchy of a frame in a float texture, which the shaders traverse (shadows.glsl), with the
+// surfaces that transmit light.
 //
 // The texture contains, in this order:
 //    - Two texels for each child of a node: the low corner of its box, with the child's number; the high corner, with
@@ -7,7 +8,7 @@
 //      the position of the record of a triangle that transmits light, or 0. Three contain the unit normals of the
 //      corners, with the corners' elements.
 //    - A number for each triangle of the frame: its position in that order.
-//    - The data of surfaces that transmit light (gl_shadows.c).
+//    - The data of surfaces that transmit light.
 #include "fail.h"
 #include "gl_device.h"
 #include "layer_kinds.h"

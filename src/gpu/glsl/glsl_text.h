@@ -44,7 +44,7 @@ struct stage_source {
 
 // Appends the definitions that the function `main` needs, directly or indirectly: first from the equations, then from
 // the sources. If the condition of a branch is known, the branch is resolved; names that become unused are removed
-// (glsl_text.h). embed.py has translated the dialect of the equations to GLSL.
+// (specialize_unread). embed.py has translated the dialect of the equations to GLSL.
 void equations_add(struct text *text, const struct stage_source *sources, int count, const struct constant *constants);
 
 #endif

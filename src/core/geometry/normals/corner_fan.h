@@ -51,7 +51,7 @@ static inline uint32_t corner_vertex(const lam_mesh *mesh, size_t corner)
     return mesh->indices ? mesh->indices[corner] : (uint32_t)corner;
 }
 
-// --- computes fans (corner_fan.h) at many positions in parallel lanes. The code is compiled once for each instruction
+// --- computes fans at many positions in parallel lanes. The code is compiled once for each instruction
 // set (meson.build). Every version is bit-identical to corner_fan.c.
 
 enum {
@@ -100,8 +100,8 @@ struct corner_fan_simd {
 const struct corner_fan_simd *corner_fan_simd_for(int lanes);
 
 // --- collects positions by their number of corners. As soon as enough positions have the same number, the normals at
-// these positions are computed in parallel lanes (corner_fan.h). Positions with more than FAN_CORNERS_MAX corners, or
-// with a degenerate triangle, are processed one by one by corner_fan.h. The two methods produce identical bits.
+// these positions are computed in parallel lanes. Positions with more than FAN_CORNERS_MAX corners, or
+// with a degenerate triangle, are processed one by one. The two methods produce identical bits.
 
 enum { FAN_ROWS = FAN_CORNERS_MAX * (FAN_CORNERS_MAX + 1) / 2 };
 

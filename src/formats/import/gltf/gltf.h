@@ -5,7 +5,7 @@
 // (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
 // (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_nodes.c). Materials (gltf_materials.c) request
 // textures, whose pictures are decoded together (gltf_textures.c). An animation first sets the transforms of the nodes
-// (gltf_animation.c). If a mesh has morph targets or a skin (gltf_deform.c, gltf_deform.c), its positions are copied and
+// (gltf_animation.c). If a mesh has morph targets or a skin (gltf_deform.c), its positions are copied and
 // changed.
 //
 // Every count and index is checked when it is read. Errors name the position in the file: "ship.gltf:
@@ -80,14 +80,14 @@ struct gltf {
     int variant;          // the requested variant, or −1
     struct gltf_problem *problems; // gltf_json.c: what is wrong in the file but not needed, in the file's order
 
-    lam_file_image *file_images;   // one element for each image (gltf.h)
+    lam_file_image *file_images;   // one element for each image
     struct gltf_picture *pictures; // gltf_materials.h: two for each image of the file
     struct gltf_map *maps;         // the maps of materials, latest first
     // For each material, the file's numbers of the texture coordinate sets that the material uses, at most two; −1
     // marks an unused element.
     int (*texcoord_sets)[2];
 
-    struct gltf_node *nodes; // gltf.h
+    struct gltf_node *nodes;
     int node_count;
     const int *node_order;    // parents before children, children in the file's order
     struct gltf_mesh *meshes; // gltf_meshes.h

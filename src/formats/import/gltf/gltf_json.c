@@ -194,7 +194,7 @@ static void kind_of(const struct gltf *gltf, const lam_error *error, char out[10
 }
 
 // Returns whether an error only follows from a problem that is already noted: it concerns a value inside the wrong value,
-// or the object whose member is wrong.
+// or it names the wrong member of its object.
 static bool follows(const struct gltf *gltf, const lam_error *error, const lam_error *noted)
 {
     const char *here = sentence_of(gltf, error), *there = sentence_of(gltf, noted);
@@ -204,7 +204,12 @@ static bool follows(const struct gltf *gltf, const lam_error *error, const lam_e
     bool inside = end - here > other_end - there;
     size_t length = (size_t)(inside ? other_end - there : end - here);
     const char after = (inside ? here : there)[length];
-    return memcmp(here, there, length) == 0 && (inside ? after == '.' || after == '[' : after == '.');
+    if (memcmp(here, there, length) != 0 || !(after == '.' || (inside && after == '[')))
+        return false;
+    char member[64]; // the key of the wrong member
+    snprintf(member, sizeof member, "%.*s", inside ? 0 : (int)(other_end - there - (ptrdiff_t)length - 1),
+             there + length + 1);
+    return strstr(end, member) != NULL; // inside, the key is ""
 }
 
 // Counts the error that was just reported as a problem of a kind (NULL: the error's own), and clears the error.

@@ -215,7 +215,7 @@ static inline uint32_t triangles_before(const struct position_search *s, size_t 
 // failed.
 bool within_probe_limit(struct position_search *s, size_t probes, size_t searches);
 
-// --- collects the corners at the positions from positions.h and sorts them into bins, one for each range of positions.
+// --- collects the corners at shared positions and sorts them into bins, one for each range of positions.
 // This is the second step of visible_normals.h.
 
 // Bin r of each thread's lists contains the corners whose position p satisfies p >> shift = r.

@@ -24,7 +24,4 @@ struct http {
 #undef MEMBER
 };
 
-// Loads the library, which stays loaded until the program ends. Fails with LAM_UNSUPPORTED.
-bool http_open(struct http *http, lam_error *error);
-
 #endif

@@ -30,6 +30,32 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+// --- loads libmicrohttpd.
+
+// Finds the address of a function. Copies the address, because ISO C does not allow the conversion of a void * to a
+// function pointer.
+static bool find(void *library, const char *name, void *function)
+{
+    void *address = dlsym(library, name);
+    memcpy(function, &address, sizeof address);
+    return address != NULL;
+}
+
+// Loads the library, which stays loaded until the program ends. Fails with LAM_UNSUPPORTED.
+static bool http_open(struct http *http, lam_error *error)
+{
+    void *library = dlopen(HTTP_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        return complain(error, LAM_UNSUPPORTED,
+                        "view needs " HTTP_LIBRARY
+                        ", which is not installed; install the Debian package libmicrohttpd12 or libmicrohttpd12t64");
+    bool all = true;
+#define LOOK_UP(name) all = find(library, #name, &http->name) && all;
+    HTTP_FUNCTIONS(LOOK_UP)
+    return all || complain(error, LAM_UNSUPPORTED,
+                           HTTP_LIBRARY " lacks functions of libmicrohttpd 0.9.71; install a newer version");
+}
+
 // --- opens an address in the user's browser with xdg-open, which requires a display.
 
 extern char **environ;
@@ -291,29 +317,4 @@ bool view_run(const char *operand, const struct options *options, lam_error *err
     }
     finish(&view);
     return ok;
-}
-
-// --- loads libmicrohttpd.
-
-// Finds the address of a function. Copies the address, because ISO C does not allow the conversion of a void * to a
-// function pointer.
-static bool find(void *library, const char *name, void *function)
-{
-    void *address = dlsym(library, name);
-    memcpy(function, &address, sizeof address);
-    return address != NULL;
-}
-
-bool http_open(struct http *http, lam_error *error)
-{
-    void *library = dlopen(HTTP_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-    if (!library)
-        return complain(error, LAM_UNSUPPORTED,
-                        "view needs " HTTP_LIBRARY
-                        ", which is not installed; install the Debian package libmicrohttpd12 or libmicrohttpd12t64");
-    bool all = true;
-#define LOOK_UP(name) all = find(library, #name, &http->name) && all;
-    HTTP_FUNCTIONS(LOOK_UP)
-    return all || complain(error, LAM_UNSUPPORTED,
-                           HTTP_LIBRARY " lacks functions of libmicrohttpd 0.9.71; install a newer version");
 }

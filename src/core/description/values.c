@@ -81,6 +81,9 @@ bool take_point(struct reader *r, const struct place *place, const json_t *objec
     json_array_foreach(list, i, item)
     {
         bool unit = i < 3 && is_in_radii(item, &n[i]);
+        if (!unit && i < 3 && json_is_string(item))
+            return json_unexpected(&r->json, ELEMENT_OF(here, i), item,
+                                   "a number, or a length in radii such as \"2r\"");
         if (!unit && !json_number_of(&r->json, ELEMENT_OF(here, i), item, -1e30, 1e30, &n[i]))
             return false;
         radii += unit;

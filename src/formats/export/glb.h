@@ -72,10 +72,6 @@ int glb_mesh_of(struct glb *glb, const lam_object *object, int part);
 // in the file.
 int glb_material(struct glb *glb, int material, bool double_sided);
 
-// Returns the JSON object for a map's texture, with its texture coordinates and transform. Returns NULL if there is no
-// map, or if the map's picture cannot be written.
-json_t *glb_texture(struct glb *glb, const lam_texture_map *map);
-
 // Writes the nodes: the scene's objects, lights and cameras.
 bool glb_nodes(struct glb *glb);
 

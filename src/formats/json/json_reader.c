@@ -21,12 +21,6 @@ static size_t print_place(const struct place *place, char *out, size_t capacity)
     return used + (length > 0 ? (size_t)length : 0);
 }
 
-void json_place(const struct place *place, char *out, size_t capacity)
-{
-    *out = 0;
-    print_place(place, out, capacity);
-}
-
 bool json_vfail(const struct json_reader *r, const struct place *place, const char *format, va_list arguments)
 {
     char where[200] = "", sentence[sizeof r->error->text];

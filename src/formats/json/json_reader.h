@@ -30,9 +30,6 @@ struct place {
 #define KEY_OF(parent, name)       (&(struct place){.within = (parent), .key = (name)})
 #define ELEMENT_OF(parent, number) (&(struct place){.within = (parent), .index = (number)})
 
-// Writes "objects[1].material.shininess"; a position that does not fit is truncated.
-void json_place(const struct place *place, char *out, size_t capacity);
-
 // Returns the line (counted from 1) of a member's key or of a list's element. If the value does not exist, returns the
 // line of the innermost enclosing value that exists. Returns 0 if no value exists, or if `place` is NULL.
 int json_line_of(const char *text, size_t size, const struct place *place);

@@ -20,10 +20,6 @@ struct gl_platform {
 };
 enum { GL_PLATFORMS_MAX = 64 };
 
-// Lists the displays, hardware before software: the devices that EGL enumerates or, if there are none, Mesa's
-// surfaceless platform and the default display. Returns their number, at most GL_PLATFORMS_MAX.
-int gl_platforms(const struct egl *egl, struct gl_platform *platforms);
-
 // Debug messages of the driver.
 struct gl_messages {
     int errors;      // number of messages about errors or undefined behaviour
@@ -78,8 +74,5 @@ bool gl_has_extension(const struct gl *gl, const char *extension);
 // Returns true if the driver has sent no debug messages. Otherwise fails with LAM_UNSUPPORTED and the text of the first
 // message.
 bool gl_messages_clean(const struct gl_context *context, const char *doing, lam_error *error);
-
-// Queries the version and names of the current context, and starts to collect debug messages.
-bool gl_context_probe(struct gl_context *context, lam_error *error);
 
 #endif

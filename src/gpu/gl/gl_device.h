@@ -364,8 +364,9 @@ void meshes_free(struct gl_device *device);
 // reads.
 void mesh_describe(struct gl_frame *f, const struct gl_mesh *mesh, GLuint array, bool lit);
 
-// --- gl_textures.c Uploads the textures that a program reads for a range. textures_use can bind these textures until
-// the frame ends.
+// --- gl_textures.c
+
+// Uploads the textures that a program reads for a range. textures_use can bind these textures until the frame ends.
 bool textures_upload(struct gl_frame *f, const struct gl_program *program, const struct frame_draw_range *range,
                      lam_error *error);
 // Binds the textures of the maps.
@@ -374,12 +375,15 @@ void textures_use(struct gl_frame *f, const struct gl_program *program, const st
 void textures_evict(struct gl_frame *f);
 void textures_free(struct gl_device *device);
 
-// --- gl_vertex_lighting.c Returns the vertex array of a draw, with vertex colours from the CPU's shading. Returns 0 on
-// failure.
+// --- gl_vertex_lighting.c
+
+// Returns the vertex array of a draw, with vertex colours from the CPU's shading. Returns 0 on failure.
 GLuint vertex_lighting_upload(struct gl_frame *f, int draw, struct gl_mesh *mesh, lam_error *error);
 void vertex_lighting_free(struct gl_device *device);
 
-// --- gl_occlusion.c The unit from which a program reads ambient occlusion.
+// --- gl_occlusion.c
+
+// The unit from which a program reads ambient occlusion.
 static inline enum texture_unit gl_occlusion_unit(const struct gl_program *program)
 {
     return program->choices.layer == GLSL_PEELS ? UNIT_GROUND_OCCLUSION : UNIT_OCCLUSION;
@@ -391,7 +395,9 @@ bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct scree
 // Uploads the occlusion of the current part of the picture.
 bool occlusion_send(struct gl_frame *f, lam_error *error);
 
-// --- gl_programs.c Returns the program of the choices, compiled on first use. Returns NULL on failure.
+// --- gl_programs.c
+
+// Returns the program of the choices, compiled on first use. Returns NULL on failure.
 struct gl_program *program_for(struct gl_frame *f, const struct glsl_choices *choices, lam_error *error);
 // Set a uniform of a program, unless the uniform already has this value. The value is an int, or 1, 4, 9 or 16 floats
 // (`count`).
@@ -408,19 +414,13 @@ bool environment_send(struct gl_frame *f, lam_error *error);
 bool environment_light_send(struct gl_frame *f, lam_error *error);
 void light_buffers_free(struct gl_device *device);
 
-// --- gl_shadows.c Counts the texels of the surfaces that transmit light, after the texel `first` of a texture that has
-// `most` texels. Sets *same to true if the texels and the hierarchy are the same as in the last packing, otherwise to
-// false. Fails with LAM_LIMIT.
-bool surfaces_count(struct gl_frame *f, size_t first, size_t most, size_t *count, bool *same, lam_error *error);
-// Writes these texels to `out`, which must be zeroed. Call surfaces_count first.
-void surfaces_pack(struct gl_frame *f, size_t first, float *out);
+// --- gl_shadows.c
+
+// The memory of the surfaces that transmit light.
 uint64_t surfaces_bytes(const struct gl_device *device);
 void surfaces_free(struct gl_device *device);
-// Returns the position of the record of triangle `number` of the frame, or 0 if the triangle transmits no light.
-size_t surfaces_record(const struct gl_frame *f, uint32_t number);
-
-// --- gl_shadows.c Uploads the hierarchy of a frame with shadows, and the surfaces that transmit light. Fails with
-// LAM_LIMIT if the texture would be too large.
+// Uploads the hierarchy of a frame with shadows, and the surfaces that transmit light. Fails with LAM_LIMIT if the
+// texture would be too large.
 bool shadows_send(struct gl_frame *f, lam_error *error);
 // Sets the uniforms and textures for a program with shadows.
 void shadows_use(struct gl_frame *f, struct gl_program *program);
@@ -431,7 +431,9 @@ bool targets_make(struct gl_frame *f, int width, int height, bool layered, bool 
 bool targets_find_format(struct gl_device *device, lam_error *error);
 void targets_free(struct gl_device *device);
 
-// --- gl_passes.c Draws the part. The framebuffer with the result stays bound.
+// --- gl_passes.c
+
+// Draws the part. The framebuffer with the result stays bound.
 bool passes_draw(struct gl_frame *f, lam_error *error);
 
 // --- gl_targets.c

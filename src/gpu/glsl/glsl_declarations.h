@@ -130,9 +130,6 @@ struct glsl_stage {
 struct glsl_stage glsl_stage_of(const struct glsl_choices *choices);
 // Returns the facts of one stage.
 struct glsl_stage glsl_stage_of_kind(const struct glsl_stage *stage, bool fragment);
-// Appends the code of a stage, without its version.
-void glsl_add_stage(struct text *text, const struct glsl_stage *stage);
-
 // Returns whether the reflection model uses the material parameter with this name in LOBE_PARAMETERS
 // (src/core/lighting/lobes.h).
 bool glsl_lobe_reads(const struct glsl_stage *stage, const char *parameter);

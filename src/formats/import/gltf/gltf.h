@@ -115,9 +115,6 @@ static inline bool gltf_is_binary(const uint8_t *bytes, size_t size)
     return size >= 4 && bytes[0] == 'g' && bytes[1] == 'l' && bytes[2] == 'T' && bytes[3] == 'F';
 }
 
-// Finds the JSON text: a chunk of a .glb file, or the whole of any other file. Sets gltf->binary.
-bool gltf_container_read(struct gltf *gltf, const uint8_t **text, size_t *size);
-
 // --- checks the extensions that a file uses, and reports which of them are supported.
 
 // Checks "asset" (section 3.2), and the extensions (section 3.12) that gltf_file_info_note found. Fails with LAM_UNSUPPORTED if

@@ -20,11 +20,6 @@ bool gltf_material_is_double_sided(struct gltf *gltf, int32_t material);
 
 // --- the extensions that add layers to a material (KHR_materials_clearcoat and others).
 
-// Reads the layers of a material into `material`, and requests the maps of these layers. `index` is the material's
-// index in the file, and `object` is its JSON object.
-bool gltf_take_layers(struct gltf *gltf, const struct place *place, const json_t *object, int index,
-                      lam_material *material);
-
 // --- reads textures, samplers and images (sections 3.8 and 5.29).
 
 bool gltf_textures_start(struct gltf *gltf);

@@ -764,7 +764,7 @@ class Contracts(CheckTest):
         (self.folder / "my.json").write_bytes(self.good("generate", "contract-threejs").stdout)
         words = self.shader("threejs")
         self.assertEqual(self.report_of(*words, "--contract", "my.json", "--scenes", "all")["verdict"], "passes")
-        self.bad(1, "generate", "contract-nobodys", says="contract-NAME", leaves=("my.json", "s.frag", "s.vert"))
+        self.bad(1, "generate", "contract-nobodys", says="the name of a built-in contract", leaves=("my.json", "s.frag", "s.vert"))
 
     def write(self, vert, frag):
         (self.folder / "s.vert").write_text(vert)

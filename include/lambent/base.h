@@ -112,8 +112,9 @@ typedef struct lam_control {
     // The call fails with LAM_LIMIT this many seconds after its start (wall-clock time). Multiplied by the number of
     // threads, this also limits the processor time. 0 or less: no limit.
     double time_limit_s;
-    // The largest number of bytes that the call may use at once. A call that needs more fails with LAM_LIMIT. 0: no
-    // limit.
+    // The largest number of bytes that the call may use at once. A call that needs more fails with LAM_LIMIT. Scratch
+    // memory of threads counts for one thread. If several threads need too much, one thread draws. The number of threads
+    // therefore decides nothing. 0: no limit.
     uint64_t memory_limit_bytes;
     // Called repeatedly, on the calling thread, with the fraction done, 0..1, and the name of the step ("read",
     // "normals", "frame"). The function must not use the same device or scene. NULL: none.

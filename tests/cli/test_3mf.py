@@ -397,8 +397,13 @@ class Slicers(ThreeMF):
             row = self.info(name)
             self.assertEqual((len(row["warnings"]), row["counts"]["triangles"]), (1, 12), (part, text[:30], row["warnings"]))
             self.assertIn(f"Metadata/{part}.config", row["warnings"][0])
-        for text in ('{"filament_colour": 7}', '{"filament_colour": [7, null, "red", "#12"]}', "[]"):
-            self.assertEqual(self.info(self.save("a.3mf", root, Metadata__project_settings_dot_config=text))["warnings"], [], text)
+        for text, broken in (('{"filament_colour": 7}', 0), ('{"filament_colour": [7, null, "red", "#12", "", "#FF0000"]}', 4), ("[]", 0)):
+            warnings = self.info(self.save("a.3mf", root, Metadata__project_settings_dot_config=text))["warnings"]
+            self.assertEqual(len(warnings), broken, text)
+            self.assertTrue(all("as the colour of filament %d, expected #RRGGBB" % (i + 1) in warning for i, warning in enumerate(warnings)), warnings)
+        prusa = self.save("b.3mf", root, Metadata__Slic3r_PE_dot_config='; extruder_colour = "";blue\n; filament_colour = #FF0000;#123\n')
+        self.assertEqual([w.split("found ")[1][:30] for w in self.info(prusa)["warnings"]],
+                         ['"#123" as the colour of filame', '"blue" as the colour of filame'])
 
     def test_nothing_prints(self):
         """A sliced file, or one of modifiers alone: the sentence names the slicer."""

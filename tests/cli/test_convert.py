@@ -1,4 +1,5 @@
 # test_convert.py: the command `convert`: round trips that draw the same bytes, reported losses, files next to the model, hostile names.
+import base64
 import json
 import os
 import resource
@@ -102,6 +103,18 @@ class Convert(Case):
             self.assertIn(b'displaycolor="#FF8000FF"', archive.read("3D/3dmodel.model"))
 
     # --- round trips
+
+    def test_threshold(self):
+        """A material that its alphaCutoff makes invisible becomes visible in OBJ: a loss."""
+        data = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
+        tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+                "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," + data}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]}
+        for cutoff, lost in ((0.5, False), (2, True)):
+            tree["materials"] = [{"alphaMode": "MASK", "alphaCutoff": cutoff}]
+            (self.folder / "cut.gltf").write_text(json.dumps(tree))
+            self.assertEqual("MTL has no threshold" in self.good("convert", "cut.gltf", "cut-out.obj", "--json").stdout.decode(), lost)
 
     def test_glb_to_glb(self):
         """Every glTF file of the corpus that can be drawn gives the same bytes, or a sentence that lists the losses."""

@@ -102,6 +102,29 @@ class Models(Case):
         self.one_sentence(self.bad(2, self.write("more.ply", header % (b"", b" 5")), says="more.ply:11: vertex 2 of 3: found '5' after z"))
         self.one_sentence(self.bad(2, self.write("zero.ply", header % (b"comment \0\n", b"")), says="zero.ply:3: found a zero byte in the header"))
 
+    def test_broken_attributes(self):
+        """Colours, texture coordinates and normals that cannot be meant give one warning. Standard input with unknown first statements is read."""
+        triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+        ply = "ply\nformat %s 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n" \
+              "property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+        for count, warns in ((0, False), (5, True), (6, False), (7, True)):
+            numbers = [i / 10 for i in range(count)]
+            binary = struct.pack("<9fB3iB%df" % count, 0, 0, 0, 1, 0, 0, 0, 1, 0, 3, 0, 1, 2, count, *numbers)
+            for name, data in (("t.ply", (ply % "ascii" + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 %d %s\n" % (count, " ".join(map(str, numbers)))).encode()),
+                               ("b.ply", (ply % "binary_little_endian").encode() + binary)):
+                warnings = self.good(self.write(name, data), "-s", 8, "-o", "-").stderr.decode()
+                self.assertEqual("1 of 1 faces have lists of texture coordinates of another length" in warnings, warns, (name, count, warnings))
+        for color in ("nan 1 1", "1e30 1 1", "0 inf 0", "0 0 -3"):
+            done = self.good(self.write("c.obj", (triangle.replace("0 0 0", "0 0 0 " + color) + "f 1 2 3\n").encode()), "-s", 8, "-o", "-")
+            self.assertEqual(done.stderr.count(b"warning"), 1, done.stderr)
+            self.assertIn(b"components of vertex colours that are negative, not numbers or above 65535 are limited (1)", done.stderr)
+        self.write("n.obj", (triangle + "vn 0 0 1\nvn 0 1 0\n").encode())
+        self.assertIn(b"found 2 normals for 3 points", self.good("convert", "n.obj", "n-out.ply").stderr)
+        done = self.good("-", "-s", 8, "-o", "-", stdin=("hello world\n" * 40 + triangle + "f 1 2 3\n").encode())
+        self.assertIn(b"standard input:1: unknown statement 'hello', the first of 40", done.stderr)
+        self.bad(2, "-", "-o", "x.png", stdin=b"v for victory\n" * 40, says="unknown model format")
+        self.one_sentence(self.bad(3, self.write("w.obj", b"v -3.4e38 0 0\nv 3.4e38 0 0\nv 0 3e38 0\nf 1 2 3\n"), says="a larger model cannot be drawn"))
+
     def test_meshlab(self):
         """MeshLab writes `Tr 1` for opaque materials: the picture is not blank, and one warning explains this."""
         mtl = b"#\n# Wavefront material file\n# Converted by Meshlab Group\n#\n\nnewmtl material_0\nKa 0.2 0.2 0.2\nKd 0.8 0.1 0.1\nKs 1 1 1\n" \

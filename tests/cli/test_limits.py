@@ -3,6 +3,7 @@ import base64
 import io
 import itertools
 import json
+import math
 import os
 import pathlib
 import resource
@@ -140,6 +141,17 @@ MODELS = {
 }
 
 
+def shared(mode, primitives=1, nodes=1, instances=0):
+    """A glTF file whose primitives, nodes or instances share 24,000 indices of 100 vertices."""
+    data = struct.pack("<300f", *(i * 7919 % 1000 / 1000 for i in range(300))) + struct.pack("<24000B", *(i * 37 % 100 for i in range(24000)))
+    place = {"extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}} if instances else {}
+    return gltf(buffers=[{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+                bufferViews=[{"buffer": 0, "byteLength": 1200}, {"buffer": 0, "byteOffset": 1200, "byteLength": 24000}],
+                accessors=[accessor(bufferView=0, count=100), {"bufferView": 1, "componentType": 5121, "count": 24000, "type": "SCALAR"}, accessor(count=max(instances, 1))],
+                meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": mode}] * primitives}], extensionsUsed=["EXT_mesh_gpu_instancing"],
+                scenes=[{"nodes": list(range(nodes))}], nodes=[{"mesh": 0, "translation": [i, 0, 0], **place} for i in range(nodes)])
+
+
 def pictures(files):
     """A GLB file of a triangle for each picture."""
     binary, views = struct.pack("<15f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1), [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}]
@@ -226,7 +238,7 @@ class Limits(Case):
             "polygon.obj": (square + b"f " + corners + b"\n", "layer-limit"),
             "clear.obj": (b"mtllib clear.mtl\nusemtl a\n" + square + b"f 1 2 3\n" * 11000, "layer-limit"),
             "instances.gltf": (instances(3000000), "object-limit"),
-            "clear-instances.gltf": (instances(90000, materials=clear, meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}]), "layer-limit"),
+            "clear-instances.gltf": (instances(90000, materials=clear, meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}]), "cover"),
             "one-colour.gltf": (gltf(**texture, **textured), "16383×16383 pixels, expected at most"),
             "bits.gltf": (gltf(**{**texture, "images": [{"uri": "data:image/png;base64," + base64.b64encode(
                 png(16000, 16000, 1, 0, bytes(2001 * 16000))).decode()}]}, **textured), "expansion-limit"),
@@ -237,8 +249,12 @@ class Limits(Case):
             "shared.3mf": (package("".join(f'<m:texture2d id="{i}" path="/{spelling}.png" contenttype="image/png"/>'
                                            for i, spelling in enumerate(map("".join, itertools.product(*zip("abcdef", "ABCDEF"))), 2)), abcdef_png=damaged(0)), None),
             "elements.3mf": (package("<a/>" * 20000000), None),
+            "primitives.gltf": (shared(4, primitives=800), "layer-limit"), "nodes.gltf": (shared(4, nodes=1000), None),
+            "line-primitives.gltf": (shared(1, primitives=800), "triangles from lines and points"), "line-strips.gltf": (shared(3, primitives=800), "triangles from lines and points"),
+            "line-nodes.gltf": (shared(1, nodes=1000), "triangles from lines and points"), "line-instances.gltf": (shared(1, instances=400), "triangles from lines and points"),
+            "point-instances.gltf": (shared(0, instances=1000), "triangles from lines and points"), "fewer-point-instances.gltf": (shared(0, instances=150), None),
             "lights.json": (json.dumps({"lambent": 1, "objects": [{"shape": "cube"}], "lights": lights}).encode(), None),
-            "spheres.json": (json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}] * 1000}).encode(), None),
+            "spheres.json": (json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}] * 1000}).encode(), "layer-limit"),
         }
 
     @long
@@ -271,7 +287,7 @@ class Limits(Case):
                 self.assertLess(cpu, 2 * 0.7 if not SANITIZED else 10)
 
     def test_threads_never_decide(self):
-        """Around the smallest sufficient memory limit, every number of threads gives the same exit code, message and picture."""
+        """Around the smallest sufficient memory limit, every number of threads gives the same exit code, message and picture: reading and drawing."""
         for i in range(24):
             side, bits, color = 256 + 16 * (i % 9), 16 if i % 3 else 8, 6 if i % 2 else 2
             row = 1 + side * bits // 8 * (4 if color == 6 else 3)
@@ -280,19 +296,27 @@ class Limits(Case):
         (self.folder / "m.obj").write_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n" +
                                            "".join(f"usemtl m{i}\nf 1/1 2/2 3/3\n" for i in range(24)))
 
-        def answer(limit, threads):
+        rings = [(math.cos(i / 20) * (1 + i % 3), math.sin(i / 20) * 2, i // 100) for i in range(20000)]
+        (self.folder / "n.obj").write_text("".join("v %f %f %f\n" % p for p in rings) + "".join(f"f {i} {i + 1} {i + 100} {i + 99}\n" for i in range(1, 19900)))
+        (self.folder / "fans.obj").write_text("".join("v %f %f %f\n" % p for p in rings[:300]) + ("f " + " ".join(map(str, range(1, 301))) + "\n") * 40)
+
+        def answer(words, limit, threads):
             (self.folder / "m.png").unlink(missing_ok=True)
-            done = subprocess.run([PROGRAM, "m.obj", "-q", "-s", "64", "-o", "m.png", "-j", str(threads), "--memory-limit", str(limit)], cwd=self.folder,
+            done = subprocess.run([PROGRAM, *words, "-q", "-o", "m.png", "-j", str(threads), "--memory-limit", str(limit)], cwd=self.folder,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
             return done.returncode, done.stderr, (self.folder / "m.png").read_bytes() if done.returncode == 0 else b""
-        low, high = 1 << 20, 1 << 28
-        while high - low > 100000:
-            middle = (low + high) // 2
-            low, high = (middle, high) if answer(middle, 1)[0] else (low, middle)
-        for limit in (high - 6000000, high - 3000000, high - 1000000, low, high, high + 1000000, high + 4000000):
-            expected = answer(limit, 1)
-            for threads in (2, 3, 8, 16, 16):
-                self.assertEqual(answer(limit, threads), expected, (limit, threads))
+        rows = [(("m.obj", "-s", "64"), 1000000), (("n.obj", "-s", "64"), 100000), (("fans.obj", "-s", "64"), 100000),
+                (("teapot", "-s", "100", "--edges", "all"), 300000), (("torus", "-s", "64"), 100000), (("n.obj", "-s", "400", "--ao", "rays"), 300000),
+                (("teapot", "-s", "300"), 200000), (("teapot", "-s", "200", "--material", "glass"), 200000)]
+        for words, step in rows[:None if os.environ.get("LAMBENT_LONG") else 5]:
+            low, high = 1 << 18, 1 << 26
+            while high - low > step // 4:
+                middle = (low + high) // 2
+                low, high = (middle, high) if answer(words, middle, 1)[0] else (low, middle)
+            for limit in (high - 3 * step, high - step, low, high, high + step, high + 5 * step):
+                expected = answer(words, limit, 1)
+                for threads in (2, 16):
+                    self.assertEqual(answer(words, limit, threads), expected, (words, limit, threads))
 
     def test_triangles(self):
         triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 5

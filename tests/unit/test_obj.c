@@ -396,7 +396,19 @@ TEST(test_mrgb)
     AUTO_SCENE scene = load_with(text, (lam_load_params){.color = LAM_COLOR_RAW}, NULL, &error);
     static const float colors[16] = {1, 0, 0, 1, 0, 1, 0.2f, 1, 0.2f, 0, 1, 1, 1, 1, 1, 1};
     assert_memory_equal(lam_scene_mesh(scene, 0)->colors, colors, sizeof colors);
-    assert_null(lam_scene_warning(scene, 0));
+    assert_non_null(strstr(lam_scene_warning(scene, 0), "found '12' in #MRGB, expected eight hexadecimal digits"));
+    static const char *const rows[][2] = {{"ffff0000FF00ff33ff0000ffff000000", NULL},
+                                          {"ffff0000FF00ff33ff0000ff", "#MRGB gives colours to 3 of 4 vertices"},
+                                          {"ffff0000FF00ffzz", "found 'FF00ffzz' in #MRGB"},
+                                          {"ffff0000FF00ff33ff0000ffff000000ff000000", "found 'ff000000' in #MRGB"},
+                                          {"?", "found '?' in #MRGB"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char other[200];
+        snprintf(other, sizeof other, SQUARE "#MRGB %s\nf 1 2 3 4\n", rows[i][0]);
+        AUTO_SCENE one = load_with(other, (lam_load_params){0}, NULL, &error);
+        const char *warning = lam_scene_warning(one, 0);
+        assert_true(rows[i][1] ? warning && strstr(warning, rows[i][1]) && !lam_scene_warning(one, 1) : !warning);
+    }
 }
 
 // A file of vertices only is a cloud of points, with one normal for each vertex or none.
@@ -411,6 +423,7 @@ TEST(test_cloud)
     scene = load("v 0 0 0\nv 1 0 0\nvn 0 0 1\n");
     assert_int_equal(lam_scene_mesh(scene, 0)->point_count, 2);
     assert_null(lam_scene_mesh(scene, 0)->normals);
+    assert_non_null(strstr(lam_scene_warning(scene, 0), "found 1 normals for 2 points"));
     lam_scene_free(scene);
 }
 

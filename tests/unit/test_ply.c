@@ -270,7 +270,8 @@ TEST(test_colors_ranges)
         double rgb[3], opacity;
     } rows[] = {
         {"float", "float", "1 0.5 0 0.25", "0 0 0 1", NULL, {1, 0.5, 0}, 0.25},
-        {"double", "float", "0.5 0.25 nan 0.5", "0 -1 0 1", NULL, {0.5, 0.25, 0}, 0.5},
+        {"double", "float", "0.5 0.25 nan 0.5", "0 -1 0 1", "are limited (3)", {0.5, 0.25, 0}, 0.5},
+        {"float", "float", "1 0.5 0 1e30", "0 0 inf 1", "are limited (3)", {1, 0.5, 0}, 1},
         {"float",
          "float",
          "255 51 0 51",
@@ -301,7 +302,7 @@ TEST(test_colors_ranges)
          "reach 255, so their range is taken as 0 to 255, not 0 to 32767",
          {1, 0.2, 0},
          1},
-        {"int", "int", "255 51 -1 51", "0 0 0 255", NULL, {1, 0.2, 0}, 0.2},
+        {"int", "int", "255 51 -1 51", "0 0 0 255", "are limited (1)", {1, 0.2, 0}, 0.2},
         {"uint",
          "uchar",
          "65535 13107 0 255",
@@ -664,8 +665,10 @@ TEST(test_body_errors)
                 "a.ply: the file is truncated: its header declares 1 rows of element \"face\", found 0 in 186 bytes");
     refuse_text(HEADER("ascii") "element vertex 99999999999\n" XYZ FACE("1") "end_header\n" SQUARE, "a.ply",
                 "a.ply: the file is truncated: its header declares 99999999999 rows of element \"vertex\", "
-                "found 4 in "
-                "188 bytes");
+                "found at most 4 in 188 bytes");
+    refuse_text(
+        VERTICES FACE("3") "end_header\n" SQUARE, "a.ply",
+        "a.ply: the file is truncated: its header declares 3 rows of element \"face\", found at most 1 in 178 bytes");
     refuse_text(HEADER("ascii") "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n0 1\n",
                 "a.ply", "a.ply: the file contains edges and no vertices, expected element vertex");
     refuse_text(VERTICES "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n" SQUARE "0 1\n1 4\n",

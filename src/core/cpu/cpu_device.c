@@ -39,18 +39,24 @@ static uint64_t cpu_memory(const struct lam_device *base)
     return bytes;
 }
 
-static void cpu_free(struct lam_device *base)
+static void cpu_release(struct lam_device *base)
 {
     struct cpu_device *device = (struct cpu_device *)base;
-    pool_free(device->pool);
     for (int i = 0; i < device->thread_count; i++)
         thread_free(&device->threads[i], &device->bins[i]);
-    free(device->threads);
-    free(device->bins);
     frame_memory_free(&device->memory);
     buffer_free(&device->visible.sets);
     buffer_free(&device->visible.normals);
     buffer_free(&device->visible.fragment_stores);
+}
+
+static void cpu_free(struct lam_device *base)
+{
+    struct cpu_device *device = (struct cpu_device *)base;
+    cpu_release(base);
+    pool_free(device->pool);
+    free(device->threads);
+    free(device->bins);
     free(device);
 }
 
@@ -154,7 +160,7 @@ static double milliseconds_since(uint64_t *start)
 static void fill_report(lam_frame_report *report, const struct cpu_device *device)
 {
     uint64_t coverage = 0, lighting = 0, resolved = 0;
-    for (int i = 0; i < device->thread_count; i++) {
+    for (int i = 0; i < pool_threads(device->pool); i++) {
         const struct thread_state *thread = &device->threads[i];
         coverage += thread->coverage_ns;
         lighting += thread->lighting_ns;
@@ -250,7 +256,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
                    // coordinates fit into 26 bits.
                    .guard = {65536.0f, 65536.0f},
                    .bins = device->bins,
-                   .thread_count = device->thread_count},
+                   .thread_count = pool_threads(device->pool)},
         .shade = {.frame = frame,
                   .decode_srgb = device->decode_srgb,
                   .decode_linear = device->decode_linear,
@@ -292,7 +298,7 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
         record_tile(&cpu, base->recorder);
     else if (ok)
         pool_run(device->pool, tile_count(&cpu), tile_task, &cpu);
-    visible_buffers_empty(&device->visible, device->thread_count);
+    visible_buffers_empty(&device->visible, pool_threads(device->pool));
     base->report.tiles_ms = milliseconds_since(&clock) + (cpu.fragment_stores ? device->visible.search_ms : 0);
     fill_report(&base->report, device);
     return ok && step_done(&cpu, error);
@@ -302,7 +308,8 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
 
 lam_device *lam_device_cpu(const lam_cpu_params *params, lam_error *error)
 {
-    static const struct device_type type = {cpu_draw, cpu_memory, cpu_free, .makes_normals = true};
+    static const struct device_type type = {cpu_draw, cpu_memory, cpu_free, .release = cpu_release,
+                                            .makes_normals = true};
     static const lam_cpu_params plain = {0};
     if (!params)
         params = &plain;

@@ -140,7 +140,7 @@ static bool set_up_threads(struct cpu_frame *cpu, struct buffer *heads, lam_erro
 uint64_t thread_bytes(const struct thread_state *thread, const struct thread_bins *bins, bool first)
 {
     return (uint64_t)thread->shading.ray_layers.capacity * sizeof *thread->shading.ray_layers.list +
-           (first ? thread->storage.capacity : 0) + slabs_bytes(&bins->blocks) + slabs_bytes(&bins->clipped);
+           (first ? thread->storage.capacity : 0) + bins->blocks.charged + bins->clipped.charged;
 }
 
 void thread_free(struct thread_state *thread, struct thread_bins *bins)
@@ -149,6 +149,7 @@ void thread_free(struct thread_state *thread, struct thread_bins *bins)
     slabs_free(&bins->clipped);
     buffer_free(&thread->storage);
     free(thread->shading.ray_layers.list);
+    *thread = (struct thread_state){0};
 }
 
 // --- parallel tasks
@@ -180,9 +181,7 @@ static bool list_chunks(struct cpu_frame *cpu, struct frame_memory *memory, lam_
     if (vertices > INT32_MAX)
         return fail(error, LAM_LIMIT, "the scene has %llu vertices, at most %d can be drawn at once",
                     (unsigned long long)vertices, INT32_MAX);
-    uint64_t limit = call_triangle_limit(cpu->call);
-    bool follows_files = !cpu->call->control.triangle_limit && limit < LAM_TRIANGLE_LIMIT;
-    if (follows_files && !call_check_triangles(cpu->call, "the scene", vertices, "vertices", error))
+    if (!call_check_unfolded(cpu->call, vertices, "vertices", error))
         return false;
     size_t chunks = vertex_chunks + triangle_chunks;
     if (!buffer_reserve(&memory->chunks,

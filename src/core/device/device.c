@@ -5,6 +5,7 @@
 #include "float_state.h"
 #include "linear.h"
 #include "pixels.h"
+#include "pool.h"
 
 #include <string.h>
 
@@ -58,6 +59,62 @@ static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_cam
     return true;
 }
 
+static bool draw_once(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                      const lam_draw_params *params, lam_image *target, struct call_control *call, lam_error *error)
+{
+    // Memory that the device already uses counts towards the budget.
+    uint64_t held = device->type->memory(device) + own_memory(device);
+    memset(&device->report, 0, sizeof device->report);
+    if (!call_charge(call, held))
+        return call_memory_error(call, held, error);
+    lam_draw_params whole = *params;
+    whole.no_surfaces = false;
+    bool ok = frame_build(&device->frame, scene, camera, &whole, target->width, target->height, call, error);
+    device->report.frame_ms = (double)(now_ns() - call->start_ns) * 1e-6;
+    device->report.triangles = device->frame.triangle_count;
+    device->report.brightened = device->frame.brightened;
+    device->report.depth_near = (double)device->frame.depth_near;
+    device->report.depth_far = (double)device->frame.depth_far;
+    if (ok && device->frame.makes_normals && !device->type->makes_normals)
+        ok = fail(error, LAM_UNSUPPORTED,
+                  "lam_draw: meshes of the scene have no normals (normals_when_drawn), and this device cannot compute "
+                  "them; call lam_scene_make_normals");
+    const struct frame_ground *ground = &device->frame.ground;
+    if (ok && ground->kind && !params->no_surfaces) {
+        device->report.ground = true;
+        device->report.ground_height = v3_dot(ground->middle, ground->up);
+        device->report.ground_square = ground->kind == LAM_GROUND_CHECKER ? ground->square : 0;
+    }
+    return ok && draw_frame(device, scene, camera, params, target, call, error);
+}
+
+// Draws with all threads, if the memory limit leaves memory to spare. Otherwise the device releases what it keeps from
+// earlier frames, and one thread draws. The number of threads and the earlier frames therefore never decide whether the
+// limit is sufficient.
+static bool draw_within_limit(lam_device *device, const lam_scene *scene, const lam_camera *camera,
+                              const lam_draw_params *params, lam_image *target, struct call_control *call,
+                              lam_error *error)
+{
+    // Blocks of memory that are not full may make one thread need this much more than several threads.
+    enum { SPARE = 8 << 20 };
+    const uint64_t limit = call->control.memory_limit_bytes;
+    if (limit && device->type->release)
+        call->control.memory_limit_bytes = limit > SPARE ? limit - SPARE : 1;
+    bool ok = draw_once(device, scene, camera, params, target, call, error);
+    if (ok || call->control.memory_limit_bytes == limit || call->refused == NO_BUDGET)
+        return ok;
+    call->control.memory_limit_bytes = limit;
+    call->memory_used = call->unpacked = 0;
+    device->type->release(device);
+    frame_free(&device->frame);
+    hierarchy_free(&device->hierarchy);
+    edges_free(&device->edges);
+    pool_set_alone(device->pool, true);
+    ok = draw_once(device, scene, camera, params, target, call, error);
+    pool_set_alone(device->pool, false);
+    return ok;
+}
+
 bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *camera, const lam_draw_params *params,
               lam_image *image, const lam_control *control, lam_error *error)
 {
@@ -78,32 +135,9 @@ bool lam_draw(lam_device *device, const lam_scene *scene, const lam_camera *came
     call_start(&call, control);
     call.input_bytes = scene->input_bytes;
     call.control.expansion_limit = UINT64_MAX; // only the file reader needs this limit
-    // Memory that the device already uses counts towards the budget.
-    uint64_t held = device->type->memory(device) + own_memory(device);
-    memset(&device->report, 0, sizeof device->report);
-    if (!call_charge(&call, held))
-        return call_memory_error(&call, held, error);
     uint64_t state = float_state_enter();
     drawn.no_surfaces &= drawn.output == LAM_OUTPUT_PICTURE;
-    lam_draw_params whole = drawn;
-    whole.no_surfaces = false;
-    bool ok = frame_build(&device->frame, scene, camera, &whole, image->width, image->height, &call, error);
-    device->report.frame_ms = (double)(now_ns() - call.start_ns) * 1e-6;
-    device->report.triangles = device->frame.triangle_count;
-    device->report.brightened = device->frame.brightened;
-    device->report.depth_near = (double)device->frame.depth_near;
-    device->report.depth_far = (double)device->frame.depth_far;
-    if (ok && device->frame.makes_normals && !device->type->makes_normals)
-        ok = fail(error, LAM_UNSUPPORTED,
-                  "lam_draw: meshes of the scene have no normals (normals_when_drawn), and this device cannot compute "
-                  "them; call lam_scene_make_normals");
-    const struct frame_ground *ground = &device->frame.ground;
-    if (ok && ground->kind && !params->no_surfaces) {
-        device->report.ground = true;
-        device->report.ground_height = v3_dot(ground->middle, ground->up);
-        device->report.ground_square = ground->kind == LAM_GROUND_CHECKER ? ground->square : 0;
-    }
-    ok = ok && draw_frame(device, scene, camera, &drawn, &target, &call, error);
+    bool ok = draw_within_limit(device, scene, camera, &drawn, &target, &call, error);
     device->report.total_ms = (double)(now_ns() - call.start_ns) * 1e-6;
     device->report.memory_bytes = device->type->memory(device) + own_memory(device);
     float_state_leave(state);

@@ -16,8 +16,9 @@ struct device_type {
                  lam_error *error);
     // Returns the number of bytes that the device keeps from frame to frame.
     uint64_t (*memory)(const struct lam_device *device);
-    void (*free)(struct lam_device *device); // also frees the device itself
-    bool makes_normals;                      // whether the device can draw frames whose makes_normals is set
+    void (*free)(struct lam_device *device);    // also frees the device itself
+    void (*release)(struct lam_device *device); // frees the memory that is kept from frame to frame; may be NULL
+    bool makes_normals;                         // whether the device can draw frames whose makes_normals is set
 };
 
 // The base of every device; a device's own struct begins with this struct.

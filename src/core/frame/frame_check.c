@@ -12,8 +12,14 @@ bool frame_camera_check(const lam_camera *camera, lam_error *error)
         return false;
     if (!v3_finite(camera->eye) || !v3_finite(camera->target) || !v3_finite(camera->up))
         return fail(error, LAM_BAD_ARGUMENT, "camera: eye, target or up is not finite");
-    if (v3_length(v3_sub(camera->eye, camera->target)) == 0)
+    const double distance = v3_length(v3_sub(camera->eye, camera->target)),
+                 farthest = 1e33; // times 65535 pixels, this is a float
+    if (distance == 0)
         return fail(error, LAM_BAD_ARGUMENT, "camera: eye and target are the same point");
+    if (!(distance <= farthest))
+        return fail(error, LAM_UNSUPPORTED,
+                    "camera: the eye is %g units from its target, expected at most %g; a larger model cannot be drawn",
+                    distance, farthest);
     double half = camera->ortho_half_height;
     if (!(half >= 0) || !math_finite(half))
         return fail(error, LAM_BAD_ARGUMENT, "camera: ortho_half_height is %g, expected a positive number or 0", half);

@@ -6,7 +6,11 @@
 
 #include <string.h>
 
-enum { LINE_CORNERS = 4, POINT_CORNERS_MAX = 16 };
+enum {
+    LINE_CORNERS = 4,
+    POINT_CORNERS_MAX = 16,
+    UNFOLDED_BYTES = 6, // these bytes for lines and points count as a triangle, because more memory follows
+};
 
 // The arrays of one mesh's polygons, ordered by alignment; a member is NULL if the mesh lacks the attribute. Corners 0
 // and 3 of a line are at its first end, 1 and 2 at the second.
@@ -91,6 +95,9 @@ bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, c
     }
     frame->stroke_mesh_count = 0;
     frame->strokes_used = 0;
+    // Each instance of a line or point needs its own polygon, unlike instances of triangles.
+    if (!call_check_unfolded(call, bytes / UNFOLDED_BYTES, "triangles from lines and points", error))
+        return false;
     return !bytes || buffer_reserve(&frame->strokes, bytes, call, error);
 }
 

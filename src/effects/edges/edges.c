@@ -274,6 +274,7 @@ void edges_free(struct edge_memory *memory)
     for (int i = 0; i < memory->thread_count; i++)
         free(memory->strokes[i].list);
     free(memory->strokes);
+    *memory = (struct edge_memory){0};
 }
 
 uint64_t edges_bytes(const struct edge_memory *memory)

@@ -151,7 +151,8 @@ static void lose(struct exporting *e, const lam_material *m)
     const lam_texture_map *color = m->maps[LAM_MAP_DIFFUSE];
     if (m->alpha_mode == LAM_ALPHA_OPAQUE && color && !color->texture->opaque)
         export_lose(e, "the alpha channels of opaque materials' textures become opacity: MTL cannot ignore alpha");
-    if (m->alpha_mode == LAM_ALPHA_MASK && (m->diffuse.a < 1 || m->maps[LAM_MAP_OPACITY] || color))
+    if (m->alpha_mode == LAM_ALPHA_MASK &&
+        (m->diffuse.a < 1 || m->alpha_cutoff > 1 || m->maps[LAM_MAP_OPACITY] || color))
         export_lose(e, "masked materials become blended materials: MTL has no threshold");
     if (kr.r > 0 || kr.g > 0 || kr.b > 0 || m->roughness_angle_rad != d.roughness_angle_rad || m->fibre)
         export_lose(e, "the materials' reflectivity, Oren-Nayar roughness and fibre settings are omitted: MTL does not "

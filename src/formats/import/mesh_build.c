@@ -6,9 +6,11 @@
 #include "srgb.h"
 #include "triangulate.h"
 
-#include <float.h>
-
-enum { TASK_POLYGONS = 1024, SMALL_POLYGON = 64 };
+enum {
+    TASK_POLYGONS = 1024,
+    SMALL_POLYGON = 64,
+    SPLIT_BYTES = 128, // memory for a corner of a large polygon while it is split
+};
 
 // A thread's scratch memory.
 struct splitter {
@@ -101,8 +103,17 @@ bool mesh_triangulate(const struct import_source *source, struct lam_scene *scen
         if (!splitting.inner_edges)
             return call_memory_error(call, (size_t)polygons->triangles, error);
     }
+    // The memory of one thread with the largest polygon is counted, so that the number of threads does not decide whether
+    // the call succeeds.
+    size_t most = 0;
+    for (size_t i = 0; i < polygons->count; i++)
+        most = polygons->items[i].count > most ? polygons->items[i].count : most;
+    most = most > SMALL_POLYGON ? most * SPLIT_BYTES : 0;
+    if (!call_charge(call, most))
+        return call_memory_error(call, most, error);
+    call_refund(call, most);
     struct arena memory;
-    arena_start(&memory, call);
+    arena_start(&memory, NULL);
     size_t threads = (size_t)pool_threads(source->pool);
     splitting.splitters = arena_array(&memory, threads, sizeof *splitting.splitters);
     if (!splitting.splitters) {
@@ -111,7 +122,7 @@ bool mesh_triangulate(const struct import_source *source, struct lam_scene *scen
     }
     for (size_t t = 0; t < threads; t++) {
         triangulator_start(&splitting.splitters[t].triangulator, call);
-        arena_start(&splitting.splitters[t].large, call);
+        arena_start(&splitting.splitters[t].large, NULL);
     }
     pool_run(source->pool, (polygons->count + TASK_POLYGONS - 1) / TASK_POLYGONS, split_polygons, &splitting);
     for (size_t t = 0; t < threads; t++) {
@@ -142,7 +153,7 @@ static bool convert_chunk(void *user, size_t index, lam_error *error)
     for (size_t i = 4 * first; i < 4 * last; i++) {
         bool alpha = i % 4 == 3;
         float c = coloring->colors[i] < 0 ? 1 : coloring->colors[i] / coloring->range[alpha];
-        c = c > 1 ? 1 : c;
+        c = c > 1 ? 1 : c > 0 ? c : 0; // NaN becomes 0
         coloring->colors[i] = coloring->raw || alpha ? c : (float)srgb_linear((double)c);
     }
     return true;
@@ -153,9 +164,16 @@ bool mesh_convert_colors(const struct import_source *source, struct lam_scene *s
 {
     struct coloring coloring = {.colors = colors, .count = count, .raw = source->params->color == LAM_COLOR_RAW};
     float largest[2] = {0, 0};
-    for (size_t i = 0; i < 4 * count; i++)
-        if (colors[i] > largest[i % 4 == 3] && colors[i] <= FLT_MAX)
+    size_t broken = 0;
+    for (size_t i = 0; i < 4 * count; i++) {
+        broken += !(colors[i] <= 65535);
+        if (colors[i] > largest[i % 4 == 3] && colors[i] <= 65535)
             largest[i % 4 == 3] = colors[i];
+    }
+    if (broken)
+        scene_warn(scene,
+                   "%s: components of vertex colours that are negative, not numbers or above 65535 are limited (%zu)",
+                   source->name, broken);
     for (int k = 0; k < 2; k++) {
         float most = largest[k], least = ranges[k].least, usual = ranges[k].usual;
         coloring.range[k] = usual == 0 ? 1 : most <= least ? least : most <= 255 ? 255 : usual > 255 ? usual : 65535;

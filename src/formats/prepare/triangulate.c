@@ -59,7 +59,7 @@ struct clip {
 void triangulator_start(struct triangulator *scratch, struct call_control *call)
 {
     *scratch = (struct triangulator){.call = call};
-    arena_start(&scratch->memory, call);
+    arena_start(&scratch->memory, NULL);
 }
 
 void triangulator_stop(struct triangulator *scratch)

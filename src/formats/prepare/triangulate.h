@@ -23,7 +23,8 @@ struct triangulator {
     size_t capacity; // size of the block in bytes
 };
 
-void triangulator_start(struct triangulator *scratch, struct call_control *call); // `call` may be NULL
+// `call` may be NULL. The scratch memory does not count towards its memory limit.
+void triangulator_start(struct triangulator *scratch, struct call_control *call);
 void triangulator_stop(struct triangulator *scratch);
 
 // Splits a polygon into triangles. Corner i of the polygon is at positions[3·corners[i] …], which must be finite, and

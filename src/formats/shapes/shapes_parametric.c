@@ -510,10 +510,11 @@ static bool tessellate(const lam_parametric *surfaces, int count, const struct s
     origin_choose(low, high, t.origin);
     for (int a = 0; a < 3; a++)
         t.size = high[a] - low[a] > t.size ? high[a] - low[a] : t.size;
-    struct arena scratch;
+    struct arena scratch, of_threads; // the latter's memory is not counted, because the number of threads varies
     struct pool *pool = make_pool(request->threads, sizes.attributes);
     arena_start(&scratch, request->call);
-    t.points = arena_array(&scratch, t.widest * (size_t)pool_threads(pool), sizeof *t.points);
+    arena_start(&of_threads, NULL);
+    t.points = arena_array(&of_threads, t.widest * (size_t)pool_threads(pool), sizeof *t.points);
     t.rows = arena_array(&scratch, (size_t)sizes.longest + 1, sizeof *t.rows);
     float *block = arena_array(request->arena, 12 * sizes.attributes + 6 * sizes.triangles, sizeof(float));
     if (block)
@@ -531,6 +532,7 @@ static bool tessellate(const lam_parametric *surfaces, int count, const struct s
     }
     pool_free(pool);
     arena_free(&scratch);
+    arena_free(&of_threads);
     if (!ok)
         return false;
     *mesh = (lam_mesh){

@@ -241,6 +241,12 @@ bool call_check_triangles(const struct call_control *call, const char *name, uin
                                   for_files(call, limit < LAM_TRIANGLE_LIMIT ? given : 1, text));
 }
 
+bool call_check_unfolded(const struct call_control *call, uint64_t count, const char *items, lam_error *error)
+{
+    return call->control.triangle_limit || call_triangle_limit(call) == LAM_TRIANGLE_LIMIT ||
+           call_check_triangles(call, "the scene", count, items, error);
+}
+
 bool call_unpack(struct call_control *call, uint64_t bytes, lam_error *error)
 {
     return !call || add_unpacked(call, bytes) || call_memory_error(call, bytes, error);

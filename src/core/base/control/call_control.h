@@ -81,6 +81,9 @@ uint64_t call_layer_limit(const struct call_control *call);
 bool call_check_triangles(const struct call_control *call, const char *name, uint64_t count, const char *items,
                           lam_error *error);
 
+// Checks a number of items that drawing adds to the scene. Does nothing if the caller set the limit of triangles.
+bool call_check_unfolded(const struct call_control *call, uint64_t count, const char *items, lam_error *error);
+
 // Checks that a model may contain this many objects. Fails with LAM_LIMIT if there are too many.
 bool call_check_objects(const struct call_control *call, const char *name, uint64_t count, lam_error *error);
 

@@ -20,8 +20,8 @@ bool buffer_reserve(struct buffer *buffer, size_t bytes, struct call_control *ca
         buffer->capacity = 0;
         return call_memory_error(call, capacity, error);
     }
-    if (call)
-        call_charge(call, buffer->capacity - capacity);
+    if (call) // a negative refund: whole pages are counted, even beyond the limit
+        call_refund(call, capacity - buffer->capacity);
     return true;
 }
 

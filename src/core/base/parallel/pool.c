@@ -24,6 +24,7 @@ struct pool {
     unsigned finished; // the last round that all workers have finished
     int busy;          // workers that have not yet finished the round
     bool closing;
+    bool alone; // only the caller runs tasks
     bool spins; // whether waiting threads spin before they sleep
 
     // The work of the current round.
@@ -154,11 +155,17 @@ void pool_free(struct pool *pool)
     free(pool);
 }
 
-int pool_threads(const struct pool *pool) { return pool ? pool->threads : 1; }
+int pool_threads(const struct pool *pool) { return pool && !pool->alone ? pool->threads : 1; }
+
+void pool_set_alone(struct pool *pool, bool alone)
+{
+    if (pool)
+        pool->alone = alone;
+}
 
 void pool_run(struct pool *pool, size_t count, pool_task *task, void *user)
 {
-    if (!pool || pool->threads == 1 || count <= 1) {
+    if (pool_threads(pool) == 1 || count <= 1) {
         uint64_t state = float_state_enter();
         for (size_t i = 0; i < count; i++)
             task(user, i, 0);

@@ -11,7 +11,8 @@ struct pool;
 // NULL if memory runs out.
 struct pool *pool_make(int threads);
 void pool_free(struct pool *pool);
-int pool_threads(const struct pool *pool); // 1 if `pool` is NULL
+int pool_threads(const struct pool *pool);          // 1 if `pool` is NULL
+void pool_set_alone(struct pool *pool, bool alone); // while `alone` is set, only the caller runs tasks
 
 // Calls task(user, index, thread) once for each index in [0, count), distributed over the threads of the pool, and
 // returns when all calls are done. `thread` is 0 … pool_threads − 1 and selects the thread's own scratch memory.

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 
 enum {
-    SLAB = 2 << 20,   // a huge page
-    FILLED = 1 << 20, // number of triangles per thread that nearly fill the thread's first slab
+    SLAB = 2 << 20,    // a huge page
+    CHARGE = 64 << 10, // used bytes are counted in such steps
+    FILLED = 1 << 20,  // number of triangles per thread that nearly fill the thread's first slab
 };
 
 // Allocates `bytes` from a list of slabs. New slabs come from the system and are kept for later frames.
@@ -24,16 +25,12 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
                 list->slabs = slabs;
                 list->capacity = capacity;
             }
-            if (list->count > 0 && !call_charge(raster->work->call, SLAB)) // see slabs_bytes
-                goto out_of_memory;
             size_t held;
             // Whether all pages of the slab will be used.
             bool filled = next > 0 || raster->frame->triangle_count / (size_t)raster->thread_count > FILLED;
             void *slab = filled ? pages_get(SLAB, &held) : pages_get_sparse(SLAB, &held);
-            if (!slab) {
-                call_refund(raster->work->call, list->count ? SLAB : 0);
+            if (!slab)
                 goto out_of_memory;
-            }
             list->slabs[list->count++] = slab;
         }
         list->current = next;
@@ -41,6 +38,11 @@ static void *slab_take(const struct raster_frame *raster, struct slab_list *list
     }
     void *memory = (char *)list->slabs[list->current] + list->used;
     list->used += bytes;
+    if ((size_t)list->current * SLAB + list->used > list->charged) {
+        if (!call_charge(raster->work->call, CHARGE))
+            goto out_of_memory;
+        list->charged += CHARGE;
+    }
     return memory;
 
 out_of_memory:
@@ -48,11 +50,9 @@ out_of_memory:
     return NULL;
 }
 
-size_t slabs_bytes(const struct slab_list *list) { return list->count ? (size_t)(list->count - 1) * SLAB : 0; }
-
 size_t slabs_free(struct slab_list *list)
 {
-    size_t bytes = slabs_bytes(list);
+    size_t bytes = list->charged;
     for (int i = 0; i < list->count; i++)
         pages_free(list->slabs[i], SLAB);
     free(list->slabs);

@@ -44,6 +44,7 @@ struct slab_list {
     int count, capacity; // slabs
     int current;         // the slab being filled
     size_t used;         // used bytes of the current slab
+    size_t charged;      // bytes that count towards the call's memory limit
 };
 
 // The bins that one thread fills and all threads read.
@@ -62,8 +63,6 @@ struct bin_block *new_bin_block(const struct raster_frame *raster, struct thread
 struct clipped_triangle *new_clipped_triangle(const struct raster_frame *raster, struct thread_bins *bins,
                                               uint32_t *number);
 const struct clipped_triangle *clipped_triangle(const struct thread_bins *bins, uint32_t number);
-// Returns the bytes that count towards the call's memory limit: all slabs but the first, which each thread has.
-size_t slabs_bytes(const struct slab_list *list);
 size_t slabs_free(struct slab_list *list); // returns the number of freed bytes that counted
 
 // The snapped coordinates of a triangle's corners.

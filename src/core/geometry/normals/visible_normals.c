@@ -188,15 +188,14 @@ static bool start_workers(struct fan_loop *l)
     struct position_search *s = l->search;
     size_t threads = (size_t)pool_threads(s->pool);
     stop_workers(l);
-    l->workers = search_alloc_zeroed(s, threads * sizeof *l->workers);
+    l->workers = arena_alloc_zeroed(&s->of_threads, threads * sizeof *l->workers);
     if (!l->workers)
         return false;
     for (size_t i = 0; i < threads; i++) {
         struct fan_worker *worker = &l->workers[i];
-        arena_start(&worker->arena, s->loop.call);
-        corner_fan_scratch_start(&worker->scratch, s->loop.call);
-        worker->starts = search_alloc(s, &s->arena, ((size_t)1 << l->bins.shift) + 1, sizeof *worker->starts);
-        worker->batch = search_alloc(s, &s->arena, 1, sizeof *worker->batch);
+        corner_fan_scratch_start(&worker->scratch, NULL);
+        worker->starts = arena_array(&s->of_threads, ((size_t)1 << l->bins.shift) + 1, sizeof *worker->starts);
+        worker->batch = arena_array(&s->of_threads, 1, sizeof *worker->batch);
         if (!worker->starts || !worker->batch)
             return false;
         corner_fan_batch_start(worker->batch);

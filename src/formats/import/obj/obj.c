@@ -19,19 +19,20 @@ static bool first_word_known(const uint8_t *at, const uint8_t *end)
     return false;
 }
 
-// The format is certain if all of the first statements are known and one of them occurs in no other format.
+// The format is certain if all of the first statements are known and one of them occurs in no other format, or if three
+// of the first thousand statements are vertices.
 static int obj_probe(const uint8_t *bytes, size_t size, size_t file_size)
 {
     (void)file_size;
-    enum { STATEMENTS = 32 };
+    enum { STATEMENTS = 32, STATEMENTS_SEARCHED = 1000, VERTICES = 3 };
     const uint8_t *at = bytes, *end = bytes + (size < FILE_HEAD ? size : FILE_HEAD);
     if (memchr(bytes, 0, (size_t)(end - bytes)))
         return 0;
     if (end - at >= 3 && memcmp(at, "\xef\xbb\xbf", 3) == 0) // a byte order mark
         at += 3;
-    int known = 0, unknown = 0;
+    int known = 0, unknown = 0, vertices = 0;
     bool typical = false, comments = false;
-    while (at < end && known + unknown < STATEMENTS) {
+    while (at < end && known + unknown < (unknown && vertices < VERTICES ? STATEMENTS_SEARCHED : STATEMENTS)) {
         const uint8_t *stop = text_line_end(at, end);
         at = text_skip_white(at, stop);
         if (at < stop && *at == '#') {
@@ -42,12 +43,13 @@ static int obj_probe(const uint8_t *bytes, size_t size, size_t file_size)
             unknown += !is_known;
             float number;
             const uint8_t *second = text_skip_white(text_skip_word(at, stop), stop);
-            typical |= text_is_word(at, stop, "mtllib") || text_is_word(at, stop, "usemtl") ||
-                       (text_is_word(at, stop, "v") && number_float(second, stop, &number));
+            bool vertex = text_is_word(at, stop, "v") && number_float(second, stop, &number);
+            vertices += vertex;
+            typical |= vertex || text_is_word(at, stop, "mtllib") || text_is_word(at, stop, "usemtl");
         }
         at = stop < end ? stop + 1 : stop;
     }
-    if (unknown == 0)
+    if (unknown == 0 || vertices >= VERTICES)
         return typical ? 2 : known > 0 || comments;
     return typical && known > unknown; // possibly OBJ: unknown statements among known statements
 }

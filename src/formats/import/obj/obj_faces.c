@@ -57,6 +57,10 @@ void obj_complete_normals(struct obj *obj)
     obj->scene->normals_missing |= used && missing; // scene_repair computes these normals
     obj->normal_indices = used ? obj->normal_indices : NULL;
     if (!used && !(obj->is_cloud && obj->total.normals == obj->total.positions)) {
+        if (obj->is_cloud && obj->total.normals)
+            scene_warn(
+                obj->scene, "%s: found %llu normals for %llu points, expected one for each point; they are ignored",
+                obj->source->name, (unsigned long long)obj->total.normals, (unsigned long long)obj->total.positions);
         obj->normals = NULL;
         obj->total.normals = 0;
     }

@@ -60,6 +60,7 @@ struct state {
     const char *part_name;                // "object/group"
     uint32_t smoothing, smoothing_from;   // the smoothing group, and its first triangle
     uint32_t objects;
+    const uint8_t *broken_colors;     // the first text in a statement MRGB that is no colour of a vertex, or NULL
     size_t colors;                    // the number of channels of vertices that MRGB has set
     struct stroke_part strokes[2];    // the parts of points and of lines
     size_t counts[STATEMENTS];        // number of statements of each kind
@@ -228,6 +229,14 @@ static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
     return number_int(at, end, &group) ? (uint32_t)group : 0; // 0 for "off" or a missing group
 }
 
+static bool has_mrgb(const uint8_t *at)
+{
+    int digits = 0;
+    while (digits < 8 && number_hex_digit((char)at[digits]) >= 0)
+        digits++;
+    return digits == 8;
+}
+
 // Reads colours of the next vertices: for each vertex eight hexadecimal digits, of a mask and of red, green and blue.
 // Vertices without a colour are white.
 static bool read_mrgb(struct state *state, const uint8_t *at, lam_error *error)
@@ -242,7 +251,7 @@ static bool read_mrgb(struct state *state, const uint8_t *at, lam_error *error)
     for (size_t i = state->colors; i < numbers && state->colors == 0; i++)
         obj->colors[i] = 1;
     at = text_skip_white(text_skip_word(at, obj->end), obj->end);
-    while (strspn((const char *)at, "0123456789abcdefABCDEF") >= 8 && state->colors < numbers) {
+    while (has_mrgb(at) && state->colors < numbers) {
         float *color = obj->colors + state->colors;
         for (int i = 0; i < 3; i++) {
             int byte = number_hex_digit((char)at[2 + 2 * i]) * 16 + number_hex_digit((char)at[3 + 2 * i]);
@@ -251,6 +260,8 @@ static bool read_mrgb(struct state *state, const uint8_t *at, lam_error *error)
         at += 8;
         state->colors += 4;
     }
+    if (!obj_at_line_end(obj_next_word(at, obj->end), obj->end) && !state->broken_colors)
+        state->broken_colors = at;
     return true;
 }
 
@@ -298,6 +309,15 @@ static void warn_elements(struct state *state)
                    "%s:%zu: free-form curves and surfaces are not drawn: %s is the first of %zu such statements", name,
                    obj_line_number(obj, state->first[FREE_FORM]), text_found(state->first[FREE_FORM], obj->end, found),
                    free_form);
+    if (state->broken_colors)
+        scene_warn(
+            obj->scene,
+            "%s:%zu: found %s in #MRGB, expected eight hexadecimal digits for each vertex; the rest of the line is "
+            "ignored",
+            name, obj_line_number(obj, state->broken_colors), text_found(state->broken_colors, obj->end, found));
+    else if (obj->colors && !obj->colors_present && state->colors < 4 * obj->total.positions)
+        scene_warn(obj->scene, "%s: #MRGB gives colours to %zu of %llu vertices; the others are white", name,
+                   state->colors / 4, (unsigned long long)obj->total.positions);
     if (state->counts[UNKNOWN])
         scene_warn(obj->scene, "%s:%zu: unknown statement %s, the first of %zu that are ignored", name,
                    obj_line_number(obj, state->first[UNKNOWN]), text_found(state->first[UNKNOWN], obj->end, found),

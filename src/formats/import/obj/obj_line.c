@@ -4,6 +4,7 @@
 #include "number_scan.h"
 #include "text_cursor.h"
 
+#include <math.h>
 #include <string.h>
 
 static size_t count_newlines(const uint8_t *at, size_t size)
@@ -69,8 +70,6 @@ static inline const uint8_t *read_numbers(struct obj_reader *reader, const uint8
     return obj_next_word(at, end);
 }
 
-static float non_negative(float x) { return x > 0 ? x : 0; } // NaN becomes 0
-
 // Reads the numbers after x y z, if there are any: a weight w, which only rational curves use, or a colour r g b,
 // possibly followed by further numbers.
 static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, float *color)
@@ -88,7 +87,7 @@ static const uint8_t *read_color(struct obj_reader *reader, const uint8_t *at, f
     reader->chunk->colors |= count >= 3;
     if (color && count >= 3) {
         for (int i = 0; i < 3; i++)
-            color[i] = non_negative(extra[i]);
+            color[i] = extra[i] >= 0 ? extra[i] : NAN; // mesh_convert_colors counts it
     }
     return at;
 }

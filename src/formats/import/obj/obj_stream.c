@@ -299,18 +299,18 @@ static void load_chunk(void *user, size_t index, int thread)
 static bool alloc_scratch(struct stream *stream)
 {
     struct obj *obj = stream->obj;
-    size_t threads = (size_t)pool_threads(obj->source->pool);
-    stream->scratch = arena_alloc_zeroed(&obj->memory, threads * sizeof *stream->scratch);
+    size_t threads = (size_t)pool_threads(obj->source->pool), heads = threads * sizeof *stream->scratch;
     size_t text = OBJ_CHUNK + TAIL + FILE_PADDING, bytes = text;
     for (enum array kind = 0; kind < ARRAYS; kind++)
         bytes += (rows_max(kind, OBJ_CHUNK) + 1) * array_kinds[kind].row / 64 * 64 + 64;
     // The memory of one thread is counted, so that the number of threads does not decide whether the call succeeds.
-    if (!stream->scratch || !call_charge(stream->loop.call, bytes))
+    if (!call_charge(stream->loop.call, bytes + sizeof *stream->scratch))
         return false;
-    stream->scratch_bytes = bytes;
-    uint8_t *memory = stream->scratch_memory = pages_malloc(threads * bytes); // the picture may use this memory later
+    stream->scratch_bytes = bytes + sizeof *stream->scratch;
+    uint8_t *memory = stream->scratch_memory = pages_malloc(threads * bytes + heads); // the picture may use it later
     if (!memory)
         return false;
+    stream->scratch = memset(memory + threads * bytes, 0, heads);
     for (size_t t = 0; t < threads; t++) {
         struct chunk_scratch *scratch = &stream->scratch[t];
         scratch->text = memory;

@@ -84,7 +84,8 @@ struct ply_table {
     const uint32_t *starts; // one more element than the table has rows
     // The requested list of texture coordinates: two numbers for each item above, with the same layout. 0 if missing.
     float *wedges;
-    bool all_used; // true if every number below the request's item_limit certainly occurs as an item
+    size_t odd_wedges; // rows with items whose list has another length; accessed atomically
+    bool all_used;     // true if every number below the request's item_limit certainly occurs as an item
 };
 
 // The data that a caller requests from an element.
@@ -110,8 +111,8 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
 // ply_rows.c. Sets offsets, types and stride for rows without their lists.
 bool ply_plan_rows(const struct import_source *source, const struct ply_request *request, struct arena *scratch,
                    struct ply_table *table, lam_error *error);
-// Reports that the file ends within a row of the element. `row` counts from 0.
-bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
+// Reports that the file ends within a row of the element. `row` counts from 0; if it is not `exact`, it is an upper bound.
+bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row, bool exact,
                         lam_error *error);
 // Fails with LAM_LIMIT, because the file contains more elements than 32-bit indices can address.
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error);

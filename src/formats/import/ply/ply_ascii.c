@@ -118,18 +118,18 @@ static bool index_rows(struct ply_reader *reader, const uint8_t **at, lam_error 
         for (int i = 0; i < element->property_count; i++) {
             word = text_skip_white(word, end);
             if (word == end)
-                return ply_fail_truncated(reader->source, element, row, error);
+                return ply_fail_truncated(reader->source, element, row, true, error);
             const uint8_t *next = text_skip_word(word, end);
             if (element->properties[i].list) {
                 int64_t items = 0;
                 if (!read_integer(reader, word, &items) || items < 0)
                     return fail_number(reader, row, i, word, "the number of items", error);
                 if (items > (end - next) / 2) // each item needs at least two bytes
-                    return ply_fail_truncated(reader->source, element, row, error);
+                    return ply_fail_truncated(reader->source, element, row, true, error);
                 for (int64_t item = 0; item < items; item++) {
                     next = text_skip_white(next, end);
                     if (next == end)
-                        return ply_fail_truncated(reader->source, element, row, error);
+                        return ply_fail_truncated(reader->source, element, row, true, error);
                     next = text_skip_word(next, end);
                 }
                 if (i == reader->request->list)
@@ -165,10 +165,12 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
         }
         int64_t count = 0;
         at = read_integer(reader, at, &count); // index_rows has checked the count
-        bool kept = items && count >= 3;
+        bool kept = items && count >= 3, wedges = &element->properties[i] == reader->request->wedges && reader->wedges;
+        if (at && wedges)
+            ply_check_wedges(reader, row, (size_t)count);
         for (int64_t item = 0; at && item < count; item++) {
             at = text_skip_white(at, end);
-            if (&element->properties[i] == reader->request->wedges && reader->wedges) {
+            if (wedges) {
                 float number = 0;
                 if (!number_float(at, end, &number))
                     return fail_number(reader, row, i, at, "a number", error), NULL;
@@ -225,7 +227,7 @@ bool ply_read_ascii(const struct import_source *source, const struct ply_element
     // the last number may lack the white space.
     uint64_t left = (uint64_t)(source->size - *at) + 1, row_bytes = 2 * (uint64_t)element->property_count;
     if (row_bytes > 0 && element->count > left / row_bytes)
-        return ply_fail_truncated(source, element, left / row_bytes, error);
+        return ply_fail_truncated(source, element, left / row_bytes, false, error);
 
     static const struct ply_request nothing = {.list = -1};
     struct ply_reader reader = {.source = source, .element = element, .request = table ? request : &nothing};

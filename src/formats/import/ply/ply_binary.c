@@ -168,7 +168,7 @@ static bool index_rows(struct ply_reader *reader, size_t *offset, lam_error *err
             const struct ply_property *property = &element->properties[i];
             size_t size = ply_type_size(property->list ? property->count_type : property->type);
             if ((size_t)(file_end - at) < size)
-                return ply_fail_truncated(reader->source, element, row, error);
+                return ply_fail_truncated(reader->source, element, row, true, error);
             if (property->list) {
                 int64_t items = ply_load_integer(at, property->count_type, reader->table->swapped);
                 char shown[2][SHOWN_NAME_SIZE];
@@ -180,7 +180,7 @@ static bool index_rows(struct ply_reader *reader, size_t *offset, lam_error *err
                 at += size;
                 size = (size_t)items * ply_type_size(property->type); // at most 2³² · 8
                 if ((size_t)(file_end - at) < size)
-                    return ply_fail_truncated(reader->source, element, row, error);
+                    return ply_fail_truncated(reader->source, element, row, true, error);
                 if (i == reader->request->list)
                     ply_count_items(reader, items);
             }
@@ -214,6 +214,8 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
                         : read_items(reader, at, count, count < 3 ? unused : reader->items + reader->starts[row]);
                 if (good < count)
                     return fail_item(reader, row, at, reader->offset + (size_t)(at - reader->first), good, error);
+                if (property == reader->request->wedges)
+                    ply_check_wedges(reader, row, count);
                 for (uint32_t k = 0; property == reader->request->wedges && k < count; k++)
                     ply_put_wedge(reader, row, k,
                                   (float)ply_load_double(at + k * size, property->type, reader->table->swapped));
@@ -235,7 +237,7 @@ bool ply_read_binary(const struct import_source *source, const struct ply_header
     // Check the file's size before any allocation.
     uint64_t left = source->parts.size - *at;
     if (element->min_bytes > 0 && element->count > left / element->min_bytes)
-        return ply_fail_truncated(source, element, left / element->min_bytes, error);
+        return ply_fail_truncated(source, element, left / element->min_bytes, !element->list_count, error);
 
     static const struct ply_request nothing = {.list = -1};
     struct ply_table unused = {0};

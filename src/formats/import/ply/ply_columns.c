@@ -6,6 +6,7 @@
 #include "ply_load.h"
 
 #include <float.h>
+#include <math.h>
 
 void ply_copy_column(const struct ply_table *table, int property, const uint8_t *rows, size_t count, float divisor,
                      float *out, size_t step)
@@ -85,9 +86,11 @@ struct columns {
 static void clean_vector(enum kind kind, float *v)
 {
     for (int c = 0; kind >= COLORS && c < 4; c++) {
-        // The base colour of a Gaussian splat: the constant spherical harmonic is √(1/4π).
+        // The base colour of a Gaussian splat: the constant spherical harmonic is √(1/4π). It may be negative.
         float value = kind == COLORS_SPLAT && c < 3 ? 0.5f + 0.2820948f * v[c] : v[c];
-        v[c] = value >= 0.0f ? value : 0.0f; // NaN becomes 0
+        v[c] = value >= 0.0f                          ? value
+               : value < 0.0f && kind == COLORS_SPLAT ? 0.0f
+                                                      : NAN; // mesh_convert_colors counts it
     }
     if (kind == NORMALS || kind == TEXNUMBERS || kind >= COLORS)
         return;

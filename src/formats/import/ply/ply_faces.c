@@ -99,6 +99,11 @@ static bool wedge_texcoords(const struct import_source *source, const struct ply
         return call_memory_error(source->call, corners * sizeof *indices, error);
     for (size_t i = 0; i < corners; i++)
         indices[i] = (uint32_t)i;
+    if (faces->odd_wedges)
+        scene_warn(scene,
+                   "%s: %zu of %zu faces have lists of texture coordinates of another length than two numbers for each "
+                   "corner; missing numbers are 0",
+                   source->name, faces->odd_wedges, faces->rows.count);
     mesh->texcoords = faces->wedges;
     mesh->texcoord_count = (uint32_t)corners;
     mesh->texcoord_indices = indices;

@@ -5,14 +5,14 @@
 #include "ply_load.h"
 #include "shown_name.h"
 
-bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row,
+bool ply_fail_truncated(const struct import_source *source, const struct ply_element *element, uint64_t row, bool exact,
                         lam_error *error)
 {
     char shown[SHOWN_NAME_SIZE];
     return fail(error, LAM_CANNOT_READ,
-                "%s: the file is truncated: its header declares %llu rows of element \"%s\", found %llu in %zu bytes",
+                "%s: the file is truncated: its header declares %llu rows of element \"%s\", found %s%llu in %zu bytes",
                 source->name, (unsigned long long)element->count, shown_name(element->name, shown),
-                (unsigned long long)row, source->parts.size);
+                exact || !row ? "" : "at most ", (unsigned long long)row, source->parts.size);
 }
 
 bool ply_fail_too_many(const struct import_source *source, const struct ply_element *element, lam_error *error)

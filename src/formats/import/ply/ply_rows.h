@@ -55,6 +55,14 @@ static inline void ply_put_wedge(const struct ply_reader *reader, size_t row, si
         reader->wedges[2 * start + index] = number - number == 0 ? number : 0;
 }
 
+// Counts a list of texture coordinates that does not contain two numbers for each corner of the row.
+static inline void ply_check_wedges(const struct ply_reader *reader, size_t row, size_t count)
+{
+    size_t room = reader->starts[row + 1] - reader->starts[row];
+    if (room > 0 && count > 0 && count != 2 * (room / 3 + 2))
+        __atomic_add_fetch(&reader->table->odd_wedges, 1, __ATOMIC_RELAXED);
+}
+
 // Reads the rows after the serial pass and fills the table.
 bool ply_read_rows(struct ply_reader *reader, parallel_rows_task *read_chunk, struct arena *keep, struct arena *scratch,
                    lam_error *error);

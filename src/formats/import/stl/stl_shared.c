@@ -249,7 +249,7 @@ bool stl_share_vertices(const struct import_source *source, const struct row_byt
     if (facets->count < FACETS_MIN)
         return false;
     struct arena scratch;
-    arena_start(&scratch, source->call);
+    arena_start(&scratch, NULL); // most of this memory is for threads, so it is not counted
     struct sharing s = {.source = source,
                         .loop = {.call = source->call},
                         .facets = facets,

@@ -33,8 +33,18 @@ static bool take_color(struct threemf *file, size_t index, const char *text, siz
         memcpy(color, begin, 7);
     lam_material made = lam_material_default();
     if (strspn(color + !!*color, "0123456789abcdefABCDEF") != 6 ||
-        !lam_color_parse(color, file->source->params->color, &made.diffuse, NULL))
-        return true;
+        !lam_color_parse(color, file->source->params->color, &made.diffuse, NULL)) {
+        while (length && strchr(" \t\r\n\"", *text))
+            text++, length--;
+        while (length && strchr(" \t\r\n\"", text[length - 1]))
+            length--;
+        char shown[SHOWN_NAME_SIZE];
+        const char *found = length ? arena_string_of(&file->scene->arena, text, length) : NULL;
+        if (found)
+            scene_warn(file->scene, "%s: found \"%s\" as the colour of filament %zu, expected #RRGGBB; it is ignored",
+                       file->source->name, shown_name(found, shown), index + 1);
+        return !length || found;
+    }
     made.ambient = (lam_rgb){made.diffuse.r, made.diffuse.g, made.diffuse.b};
     snprintf(name, sizeof name, "filament %zu", index + 1);
     made.name = arena_string(&file->scene->arena, name);
@@ -96,7 +106,8 @@ static bool read_project(struct threemf *file, const char *part)
     bool ok = root != NULL;
     for (size_t i = 0; ok && i < json_array_size(list); i++) {
         const char *color = json_string_value(json_array_get(list, i));
-        ok = take_color(file, i, color ? color : "", color ? strlen(color) : 0);
+        color = color ? color : "a value that is no text";
+        ok = take_color(file, i, color, strlen(color));
     }
     json_decref(root);
     return ok;

@@ -154,6 +154,10 @@ struct position_search {
     size_t vertices, corners;
 
     struct arena arena;
+    // Memory of threads and their lists. It does not count towards the memory limit, because the number of threads must
+    // not decide whether the call succeeds. `charged` bytes are counted for the lists instead.
+    struct arena of_threads;
+    size_t charged;
     struct position_hash table;
     struct block_lists *lists; // the lists of each thread
     int probe_limit_reached;   // set atomically if positions collide more often than in any ordinary file

@@ -171,12 +171,15 @@ static bool start_lists(struct position_search *s)
     size_t slab = SLAB;
     while (slab > 16 * BLOCK_BYTES && slab / 2 > s->corners * 8)
         slab /= 2;
-    s->lists = search_alloc_zeroed(s, threads * sizeof *s->lists);
+    size_t bytes = s->positions * sizeof(struct vertex_key);
+    if (s->loop.call && !call_charge(s->loop.call, bytes))
+        return false;
+    s->charged += s->loop.call ? bytes : 0;
+    s->lists = arena_alloc_zeroed(&s->of_threads, threads * sizeof *s->lists);
     for (size_t i = 0; s->lists && i < threads; i++) {
         struct block_lists *lists = &s->lists[i];
         *lists = (struct block_lists){.scratch = &s->scratch, .loop = &s->loop, .slab_bytes = slab};
-        arena_start(&lists->arena, s->loop.call);
-        lists->bins = search_alloc_zeroed(s, (size_t)position_hash_parts(&s->table) * sizeof *lists->bins);
+        lists->bins = arena_alloc_zeroed(&s->of_threads, (size_t)position_hash_parts(&s->table) * sizeof *lists->bins);
         if (!lists->bins)
             return false;
     }
@@ -189,6 +192,10 @@ void position_search_free(struct position_search *s)
         arena_free(&s->lists[i].arena);
     s->lists = NULL;
     arena_free(&s->arena);
+    arena_free(&s->of_threads);
+    if (s->charged)
+        call_refund(s->loop.call, s->charged);
+    s->charged = 0;
 }
 
 // Clears the cache entries: sets all their bits to one. No valid position has these bits.
@@ -206,11 +213,11 @@ static bool start_caches(struct position_search *s)
     while (capacity < CACHE_MAX && capacity < s->corners / 4)
         capacity *= 2;
     s->caches_mask = (uint32_t)capacity - 1;
-    s->caches = search_alloc(s, &s->arena, threads, sizeof *s->caches);
+    s->caches = arena_array(&s->of_threads, threads, sizeof *s->caches);
     if (!s->caches)
         return false;
     for (size_t i = 0; i < threads; i++) {
-        s->caches[i] = search_alloc(s, &s->arena, capacity, sizeof **s->caches);
+        s->caches[i] = arena_array(&s->of_threads, capacity, sizeof **s->caches);
         if (!s->caches[i])
             return false;
     }

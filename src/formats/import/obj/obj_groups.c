@@ -231,10 +231,9 @@ static uint32_t read_smoothing(const struct obj *obj, const uint8_t *at)
 
 static bool has_mrgb(const uint8_t *at)
 {
-    int digits = 0;
-    while (digits < 8 && number_hex_digit((char)at[digits]) >= 0)
-        digits++;
-    return digits == 8;
+    char digits[9] = "";
+    memcpy(digits, at, 8);
+    return strspn(digits, "0123456789abcdefABCDEF") == 8;
 }
 
 // Reads colours of the next vertices: for each vertex eight hexadecimal digits, of a mask and of red, green and blue.

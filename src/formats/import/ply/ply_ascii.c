@@ -165,16 +165,14 @@ static const uint8_t *read_row(const struct ply_reader *reader, size_t row, cons
         }
         int64_t count = 0;
         at = read_integer(reader, at, &count); // index_rows has checked the count
-        bool kept = items && count >= 3, wedges = &element->properties[i] == reader->request->wedges && reader->wedges;
-        if (at && wedges)
-            ply_check_wedges(reader, row, (size_t)count);
+        bool kept = items && count >= 3;
         for (int64_t item = 0; at && item < count; item++) {
             at = text_skip_white(at, end);
-            if (wedges) {
+            if (&element->properties[i] == reader->request->wedges && reader->wedges) {
                 float number = 0;
                 if (!number_float(at, end, &number))
                     return fail_number(reader, row, i, at, "a number", error), NULL;
-                ply_put_wedge(reader, row, (size_t)item, number);
+                ply_put_wedge(reader, row, (size_t)item, (size_t)count, number);
             }
             at = i != reader->request->list ? text_skip_word(at, end)
                                             : read_item(reader, row, at, kept ? &items[item] : &unused_item, error);

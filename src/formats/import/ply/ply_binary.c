@@ -214,10 +214,8 @@ static bool read_chunk(void *user, size_t index, lam_error *error)
                         : read_items(reader, at, count, count < 3 ? unused : reader->items + reader->starts[row]);
                 if (good < count)
                     return fail_item(reader, row, at, reader->offset + (size_t)(at - reader->first), good, error);
-                if (property == reader->request->wedges)
-                    ply_check_wedges(reader, row, count);
                 for (uint32_t k = 0; property == reader->request->wedges && k < count; k++)
-                    ply_put_wedge(reader, row, k,
+                    ply_put_wedge(reader, row, k, count,
                                   (float)ply_load_double(at + k * size, property->type, reader->table->swapped));
                 size *= count;
             } else if (reader->rows) {

@@ -47,19 +47,15 @@ static inline void ply_count_items(struct ply_reader *reader, int64_t items)
     reader->has_other_counts |= items != 3;
 }
 
-// Stores number `index` of a row's list of texture coordinates. Numbers without a corner are ignored.
-static inline void ply_put_wedge(const struct ply_reader *reader, size_t row, size_t index, float number)
+// Stores number `index` of `count` in a row's list of texture coordinates. Numbers without a corner are ignored, and lists
+// of another length than two numbers for each corner are counted.
+static inline void ply_put_wedge(const struct ply_reader *reader, size_t row, size_t index, size_t count, float number)
 {
     size_t start = reader->starts[row], room = reader->starts[row + 1] - start;
-    if (room > 0 && index < 2 * (room / 3 + 2))
+    size_t numbers = room ? 2 * (room / 3 + 2) : 0;
+    if (index < numbers)
         reader->wedges[2 * start + index] = number - number == 0 ? number : 0;
-}
-
-// Counts a list of texture coordinates that does not contain two numbers for each corner of the row.
-static inline void ply_check_wedges(const struct ply_reader *reader, size_t row, size_t count)
-{
-    size_t room = reader->starts[row + 1] - reader->starts[row];
-    if (room > 0 && count > 0 && count != 2 * (room / 3 + 2))
+    if (index == 0 && numbers && count != numbers)
         __atomic_add_fetch(&reader->table->odd_wedges, 1, __ATOMIC_RELAXED);
 }
 

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/path.h>
+
 #include "batch_job.h"
 #include "console.h"
 #include "host_name.h"
@@ -82,7 +84,7 @@ void batch_remove_parts(const struct batch_plan *plan, size_t model, int process
         char *output = batch_plan_output(plan, model, i), *slash = output ? strrchr(output, '/') : NULL;
         if (slash)
             slash[slash == output] = 0;
-        DIR *folder = output ? opendir(slash ? output : ".") : NULL;
+        DIR *folder = output ? lam_path_list(slash ? output : ".") : NULL;
         for (struct dirent *entry; folder && (entry = readdir(folder));)
             if (is_part(entry->d_name, begin))
                 unlinkat(dirfd(folder), entry->d_name, 0);

@@ -1,0 +1,139 @@
+# test_machine.py: strange machines. strange.c is built here and preloaded into the program: file systems that lack calls or lose handles, kernels without
+# Landlock, seccomp or openat2, and a clock that jumps. The program writes the same bytes as usual, or prints one sentence and leaves no file.
+import errno
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from harness import HAS_SANDBOX, PROGRAM, Case
+from test_limits import SANITIZED
+
+
+def setUpModule():
+    global LIBRARY, FOLDER
+    if SANITIZED:
+        raise unittest.SkipTest("a sanitizer's library must be the first one")
+    if not shutil.which("cc"):
+        raise unittest.SkipTest("no compiler")
+    FOLDER = tempfile.TemporaryDirectory(prefix="lambent-machine-")
+    os.chmod(FOLDER.name, 0o755)  # also for a plain user
+    LIBRARY = pathlib.Path(FOLDER.name) / "strange.so"
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", LIBRARY, pathlib.Path(__file__).with_name("strange.c"), "-ldl"], check=True)
+
+
+def tearDownModule():
+    FOLDER.cleanup()
+
+
+# Commands that read models and write files, in a folder with a model and an older picture.
+COMMANDS = {
+    "new": "cube.obj -s 16 -q -o out/new.png",
+    "over": "cube.obj -s 16 -q -o out/old.png --durable",
+    "free": "cube.obj -s 16 -q -o out/old.png --sandbox off",
+    "batch": "batch in -s 16 -j 2 -o out/b/{stem}{ext}.png",
+    "isolate": "batch in -s 16 -j 2 --isolate -o out/b/{stem}{ext}.png",
+    "resume": "batch in -s 16 -o out/r/{stem}{ext}.png --resume",
+    "same": "batch in -s 16 -o out/r/{stem}{ext}.png --skip-same",
+    "convert": "convert cube.obj out/c.obj",
+    "journal": "journal out/r",
+}
+# What is strange, and for the commands that fail: the exit code and a part of the sentence. The others write the same files as usual.
+MACHINES = [
+    ("tmpfile={EOPNOTSUPP}", {}),  # NFS, FAT, some FUSE file systems
+    ("tmpfile={EISDIR}", {}),  # kernels that ignore O_TMPFILE
+    ("linkat={EPERM}", {}),  # no hard links
+    ("linkat={EXDEV}", {}),  # overlayfs
+    ("linkat={EMLINK} fsync={EOPNOTSUPP} fchmod={EOPNOTSUPP}", {}),
+    ("tmpfile={EINVAL} fsync={ENOSYS} fchmod={ENOSYS}", {}),
+    ("openat2={ENOSYS}", {}),
+    ("openat2={EPERM}", {}),  # filters of older container programs
+    ("read={EINTR}/2 pread={EINTR}/2 write={EINTR}/2", {}),
+    ("unlinkat={EBUSY}", {}),  # a removed file that is still open, on NFS
+    ("tmpfile={EOPNOTSUPP} renameat={EXDEV}", {name: (5 if name in ("new", "over", "free", "convert") else 7, "cannot write: Operation not supported" if name != "convert" else "cannot write")
+                                               for name in ("new", "over", "free", "batch", "isolate", "convert")}),
+    ("renameat={ESTALE}", {name: (5, "Stale file handle") for name in ("over", "free", "convert")}),
+    ("fsync={EIO}", {"over": (5, "Input/output error")}),
+    ("flock={ENOLCK}", {}),  # with a warning
+    ("flock={ENOSYS}", {}),  # Lustre without locks
+    ("readdir={EIO}@4", {name: (2, "in: cannot read the folder: Input/output error") for name in ("batch", "isolate", "resume", "same")}),
+    ("fstatat64={ESTALE}@3", {name: (2, "cannot read: Stale file handle") for name in ("batch", "isolate", "resume", "same")}),
+    ("read={EIO}@1", {name: (2, "cannot read") for name in ("resume", "same", "journal")}),
+    ("pread={EIO}", {name: (4 if name in ("new", "over", "free", "convert") else 7, "Input/output error") for name in ("new", "over", "free", "batch", "isolate", "convert")}),
+    ("clock=3600", {}),
+    ("clock=-1000000000", {}),
+    ("landlock={ENOSYS}", {}),
+    ("landlock={EOPNOTSUPP} seccomp={EINVAL} openat2={ENOSYS}", {}),
+    ("privileges={EINVAL}", {}),
+]
+
+
+class Machine(Case):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "in").mkdir()
+        for model in self.folder.glob("cube.*"):
+            shutil.copy(model, self.folder / "in")
+        self.good("batch", "in", "-s", 16, "-o", "out/r/{stem}{ext}.png", "-q")
+        self.good("teapot", "-s", 8, "-o", "out/old.png", "-q")
+        self.before = self.files()
+        shutil.move(self.folder / "out", self.folder / "before")
+
+    def files(self):
+        """The files except journals, whose times differ."""
+        return {path.relative_to(self.folder): path.read_bytes() for path in (self.folder / "out").rglob("*") if path.is_file() and ".jsonl" not in path.name}
+
+    def strange(self, what, command, **more):
+        shutil.rmtree(self.folder / "out", True)
+        shutil.copytree(self.folder / "before", self.folder / "out")
+        env = {"LD_PRELOAD": str(LIBRARY), "STRANGE": what.format(**vars(errno))} if what else {}
+        return self.run_program(*command.split(), env=env, **more)
+
+    def test_machines(self):
+        usual = {}
+        for name, command in COMMANDS.items():
+            self.assertEqual(self.strange("", command).returncode, 0)
+            usual[name] = self.files()
+        for what, failures in MACHINES:
+            for name, command in COMMANDS.items():
+                done = self.strange(what, command)
+                text = done.stderr.decode()
+                code, says = failures.get(name, (0, ""))
+                self.assertEqual(done.returncode, code, (what, name, text))
+                self.assertIn(says, text, (what, name))
+                files = self.files()
+                if not code:
+                    self.assertEqual(files, usual[name], (what, name))
+                    self.assertEqual("has no locks" in text, "flock" in what and command.startswith("batch"), (what, name, text))
+                for path, data in files.items():  # nothing half-written, and no other file
+                    self.assertIn(data, (usual[name].get(path), self.before.get(path)), (what, name, path))
+
+    def test_clock(self):
+        """If the clock was set while a model was drawn, it does not show whether the model has changed since, so --skip-same draws it again."""
+        for what, has_key in (("", True), ("clock=3600", False)):
+            self.strange(what, COMMANDS["batch"].replace("-j 2", "-j 1"))
+            records = [json.loads(line) for line in (self.folder / "out/b/lambent.jsonl").read_text().splitlines()]
+            self.assertEqual([bool(r.get("key")) for r in records if "output" in r], [has_key] * 3, what)
+        done = self.strange("clock=100000", "teapot -s 64 -o out/a.png --time-limit 30 --json")
+        report = json.loads(done.stdout)
+        self.assertLess(report["times_ms"]["total"], 30000)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    @unittest.skipUnless(HAS_SANDBOX, "no sandbox here")
+    def test_kernels(self):
+        """What --version reports, and what `require` refuses."""
+        for what, active, says in (("", "Landlock", None), ("landlock={ENOSYS}", "seccomp; the kernel does not support Landlock", "does not support Landlock"),
+                                   ("seccomp={EINVAL}", "; the kernel does not support seccomp", "does not support seccomp"),
+                                   ("landlock={ENOSYS} seccomp={EINVAL}", "sandbox off", "supports neither"),
+                                   ("landlock-create={EPERM}", None, "refuses Landlock"), ("landlock-enter={E2BIG}", None, "refuses Landlock"),
+                                   ("privileges={EINVAL}", None, "drop privileges")):
+            for user in {None, self.plain_user()}:
+                version = self.strange(what, "--version", user=user).stdout.decode()
+                self.assertIn(active or "", version)
+                done = self.strange(what, "cube.obj -s 16 -o - --sandbox require", user=user)
+                self.assertEqual(done.returncode, 3 if says else 0, (what, done.stderr))
+                self.assertIn(says or "", done.stderr.decode())
+                self.assertEqual(self.strange(what, "cube.obj -s 16 -o -", user=user).returncode, 0)

@@ -213,8 +213,9 @@ void batch_deliver(struct batch *b, struct batch_unit *u)
         u->out = u->err = NULL;
     }
     batch_show_progress(&b->tally);
+    bool stuck = !job && b->is_batch && b->tally.by_machine_in_row >= MACHINE_FAILURES;
     pthread_mutex_unlock(&b->lock);
-    if (ok && !job && b->is_batch && b->tally.by_machine_in_row >= MACHINE_FAILURES)
+    if (ok && stuck)
         ok = complain(&error, LAM_CANNOT_WRITE,
                       "%d pictures in succession failed because of this machine, not because of their models; mend the "
                       "cause and repeat the command with --resume",

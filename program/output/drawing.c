@@ -46,7 +46,7 @@ bool drawing_describe(struct drawing *d, const char *title, const char *descript
     free(d->title);
     free(d->description);
     d->title = strdup(title);
-    d->description = strdup(description);
+    d->description = description ? strdup(description) : NULL; // from open_memstream
     return (d->title && d->description) || complain(error, LAM_MACHINE, "out of memory");
 }
 

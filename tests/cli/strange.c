@@ -121,6 +121,15 @@ ssize_t pwrite64(int file, const void *from, size_t size, off64_t at) { return f
 
 struct dirent64 *readdir64(DIR *folder) { return fails("readdir") ? NULL : REAL(readdir64)(folder); }
 
+// --- memory
+
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *block, size_t size);
+void *malloc(size_t size) { return fails("malloc") ? NULL : __libc_malloc(size); }
+void *calloc(size_t count, size_t size) { return fails("malloc") ? NULL : __libc_calloc(count, size); }
+void *realloc(void *block, size_t size) { return fails("malloc") ? NULL : __libc_realloc(block, size); }
+
 // --- kernels
 
 int prctl(int option, ...)

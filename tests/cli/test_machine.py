@@ -9,8 +9,10 @@ import subprocess
 import tempfile
 import unittest
 
-from harness import HAS_SANDBOX, PROGRAM, Case
+from harness import HAS_SANDBOX, ROOT, Case
 from test_limits import SANITIZED
+
+LONG = bool(os.environ.get("LAMBENT_LONG"))
 
 
 def setUpModule():
@@ -121,6 +123,20 @@ class Machine(Case):
         report = json.loads(done.stdout)
         self.assertLess(report["times_ms"]["total"], 30000)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_memory(self):
+        """One failed allocation, also inside libzip, expat, zlib, libjpeg, libspng, OpenEXR and FreeType: the same bytes, or the machine's failure."""
+        for name in ("png/palette8.png", "jpeg/color420.jpg"):
+            shutil.copy(ROOT / "tests/pictures" / name, self.folder)
+        shutil.copy(ROOT / "tests/fuzz/corpus/exr/triangle.exr", self.folder)
+        (self.folder / "t.mtl").write_text("newmtl a\nKd 1 1 1\nKs 1 1 1\nmap_Kd palette8.png\nmap_Ks color420.jpg\nbump triangle.exr\n")
+        (self.folder / "t.obj").write_text("mtllib t.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+        for words, numbers in ((f"{ROOT}/tests/fuzz/corpus/3mf/deflated.3mf -s 8", range(40, 160, 1 + 2 * (not LONG))), ("t.obj -s 8", range(1, 400, 1 + 6 * (not LONG))),
+                               ("compare cube.obj -s 8", range(1, 700, 1 + 19 * (not LONG)))):
+            usual = self.good(*words.split(), "-o", "-").stdout
+            for number in numbers:
+                done = self.strange(f"malloc={{ENOMEM}}@{number}", words + " -j 1 -o - --sandbox off")
+                self.assertIn((done.returncode, done.stdout), ((0, usual), (4, b""), (4, usual)), (words, number, done.stderr))
 
     @unittest.skipUnless(HAS_SANDBOX, "no sandbox here")
     def test_kernels(self):

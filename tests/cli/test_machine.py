@@ -1,18 +1,23 @@
 # test_machine.py: strange machines. strange.c is built here and preloaded into the program: file systems that lack calls or lose handles, kernels without
 # Landlock, seccomp or openat2, and a clock that jumps. The program writes the same bytes as usual, or prints one sentence and leaves no file.
+import contextlib
 import errno
 import json
 import os
 import pathlib
+import random
 import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
-from harness import HAS_SANDBOX, ROOT, Case
+from harness import HAS_SANDBOX, PROGRAM, ROOT, Case, read_png
 from test_limits import SANITIZED
 
 LONG = bool(os.environ.get("LAMBENT_LONG"))
+KILLS = 60 if LONG else 6
 
 
 def setUpModule():
@@ -153,3 +158,77 @@ class Machine(Case):
                 self.assertEqual(done.returncode, 3 if says else 0, (what, done.stderr))
                 self.assertIn(says or "", done.stderr.decode())
                 self.assertEqual(self.strange(what, "cube.obj -s 16 -o -", user=user).returncode, 0)
+
+
+class Kills(Case):
+    """Processes that are killed at any moment, the program's own processes among them."""
+
+    def kill(self, process):
+        """Kills the program or one of its processes. Returns whether it was the program."""
+        time.sleep(random.random() * 0.4)
+        victim = process.pid
+        if process.poll() is None and random.random() < 0.6:
+            victim = random.choice([*map(int, pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()), process.pid])
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(victim, signal.SIGKILL)
+        return victim == process.pid
+
+    def test_merge(self):
+        """A merged journal, or a page of a journal, is the old one or the new one."""
+        self.good("batch", "cube.obj", "-s", 8, "-o", "out/{stem}.png", "--journal", "out/lambent.jsonl")
+        journal = self.folder / "out/lambent.jsonl"
+        first, line, last = journal.read_bytes().splitlines(True)[:3]
+        journal.write_bytes(first + b"".join(line.replace(b"cube", b"cube%d" % i) for i in range(20000)) + last)
+        for words in (["-o", "new"], ["--report", "new"]):
+            self.good("journal", "out", *words)
+            new = (self.folder / "new").read_bytes()
+            for number in range(KILLS):
+                (self.folder / "new").write_bytes(b"old")
+                process = subprocess.Popen([PROGRAM, "journal", "out", *words], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                self.kill(process)
+                process.wait()
+                self.assertIn((self.folder / "new").read_bytes(), (b"old", new))
+            self.assertFalse(list(self.folder.glob(".lambent-*")))
+
+    def test_worker(self):
+        """After a kill, each picture is whole, and each job of a surviving worker has one answer."""
+        for number in range(KILLS):
+            words = ([], ["--isolate", "-j", "3"], ["--sandbox", "off"])[number % 3]
+            out = self.folder / f"out{number}"
+            out.mkdir()
+            process = subprocess.Popen([PROGRAM, "batch", "--jobs", "-", "--allow-path", ".", "-s", "200", *words], cwd=self.folder, stdin=subprocess.PIPE,
+                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            for job in range(30):
+                process.stdin.write(json.dumps({"id": job, "model": "cube.obj", "output": f"{out.name}/{job}.png"}).encode() + b"\n")
+            process.stdin.flush()
+            whole = self.kill(process)
+            with contextlib.suppress(BrokenPipeError):
+                process.stdin.close()
+            lines = process.stdout.read().splitlines(True)
+            process.wait()
+            process.stdout.close()
+            answers = [json.loads(line) for line in lines if line.endswith(b"\n")]
+            self.assertEqual(len({a["id"] for a in answers}), len(answers))
+            self.assertTrue(whole or len(answers) == 30, (words, len(answers)))
+            for answer in answers:
+                self.assertTrue(answer["outcome"] != "written" or (out / f"{answer['id']}.png").exists(), answer)
+            for path in out.glob("*.png"):
+                read_png(path.read_bytes())
+
+
+@unittest.skipUnless(shutil.which("bwrap"), "bubblewrap is not installed")
+class Bare(Case):
+    def test_no_home_and_no_tmp(self):
+        """Without /tmp and /home, with a read-only current folder: everything works that writes to a folder that exists."""
+        if subprocess.run(["bwrap", "--ro-bind", "/", "/", "--unshare-all", "true"], capture_output=True).returncode:
+            self.skipTest("bubblewrap cannot make a sandbox here")
+        (self.folder / "out").mkdir()
+        links = [word for name in ("/lib", "/lib64", "/bin") for word in (("--symlink", os.readlink(name), name) if os.path.islink(name) else ("--ro-bind-try", name, name))]
+        bare = ["bwrap", "--clearenv", "--setenv", "HOME", "/none", "--ro-bind", "/usr", "/usr", *links, "--proc", "/proc", "--dev", "/dev", "--unshare-all", "--die-with-parent", "--ro-bind",
+                pathlib.Path(PROGRAM).resolve().parent, "/opt/lambent", "--ro-bind", self.folder, "/m", "--bind", self.folder / "out", "/o", "--chdir", "/m", "/opt/lambent/lambent"]
+        for words, code in (("cube.obj -s 8 -o /o/a.png", 0), ("cube.obj -s 8 -o -", 0), ("cube.obj -s 8", 5), ("batch cube.obj cube.stl -s 8 --isolate -o /o/{stem}{ext}.png", 0),
+                            ("convert cube.obj /o/c.obj", 0), ("diff cube.obj cube.obj -s 8 -o /o/d.html", 0), ("hash cube.obj -s 8 -o /o/h.hash", 0), ("config", 0), ("info cube.obj", 0)):
+            done = subprocess.run([*bare, *words.split()], capture_output=True)
+            self.assertEqual(done.returncode, code, (words, done.stderr))
+            self.assertIn("Read-only file system" if code else "", done.stderr.decode())
+        self.assertEqual(sorted(os.listdir(self.folder / "out")), ["a.png", "c.mtl", "c.obj", "cubeobj.png", "cubestl.png", "d.html", "h.hash", "lambent.jsonl"])

@@ -33,7 +33,8 @@ static int fails(const char *name)
         text += strspn(text, " ");
         if (strncmp(text, name, length) == 0 && text[length] == '=') {
             char *end;
-            int reason = (int)strtol(text + length + 1, &end, 10), count = __atomic_add_fetch(&calls[i], 1, __ATOMIC_SEQ_CST);
+            int reason = (int)strtol(text + length + 1, &end, 10),
+                count = __atomic_add_fetch(&calls[i], 1, __ATOMIC_SEQ_CST);
             int number = *end == '/' || *end == '@' ? atoi(end + 1) : 1;
             if (*end == '@' ? count == number : count % number == 0) {
                 errno = reason;
@@ -72,25 +73,28 @@ time_t time(time_t *at)
 static int open_fails(int flags)
 {
     int makes = flags & O_CREAT;
-    return (flags & O_TMPFILE) == O_TMPFILE ? fails("tmpfile") : makes ? fails("create") : (flags & O_ACCMODE) != O_RDONLY ? fails("open-write")
-           : flags & O_PATH ? fails("open-path") : fails("open");
+    return (flags & O_TMPFILE) == O_TMPFILE  ? fails("tmpfile")
+           : makes                           ? fails("create")
+           : (flags & O_ACCMODE) != O_RDONLY ? fails("open-write")
+           : flags & O_PATH                  ? fails("open-path")
+                                             : fails("open");
 }
 
-#define OPENS(name, before, given)                                                                                                         \
-    int name before                                                                                                                        \
-    {                                                                                                                                      \
-        va_list rest;                                                                                                                      \
-        va_start(rest, flags);                                                                                                             \
-        mode_t mode = va_arg(rest, mode_t);                                                                                                \
-        va_end(rest);                                                                                                                      \
-        return open_fails(flags) ? -1 : REAL(name) given;                                                                                  \
+#define OPENS(name, before, given)                                                                                     \
+    int name before                                                                                                    \
+    {                                                                                                                  \
+        va_list rest;                                                                                                  \
+        va_start(rest, flags);                                                                                         \
+        mode_t mode = va_arg(rest, mode_t);                                                                            \
+        va_end(rest);                                                                                                  \
+        return open_fails(flags) ? -1 : REAL(name) given;                                                              \
     }
 OPENS(open, (const char *path, int flags, ...), (path, flags, mode))
 OPENS(open64, (const char *path, int flags, ...), (path, flags, mode))
 OPENS(openat, (int folder, const char *path, int flags, ...), (folder, path, flags, mode))
 OPENS(openat64, (int folder, const char *path, int flags, ...), (folder, path, flags, mode))
 
-#define FAILS(name, parameters, given)                                                                                                     \
+#define FAILS(name, parameters, given)                                                                                 \
     int name parameters { return fails(#name) ? -1 : REAL(name) given; }
 FAILS(linkat, (int a, const char *from, int b, const char *to, int flags), (a, from, b, to, flags))
 FAILS(renameat, (int a, const char *from, int b, const char *to), (a, from, b, to))
@@ -115,9 +119,15 @@ int close(int file)
 }
 
 ssize_t read(int file, void *to, size_t size) { return fails("read") ? -1 : REAL(read)(file, to, size); }
-ssize_t pread64(int file, void *to, size_t size, off64_t at) { return fails("pread") ? -1 : REAL(pread64)(file, to, size, at); }
+ssize_t pread64(int file, void *to, size_t size, off64_t at)
+{
+    return fails("pread") ? -1 : REAL(pread64)(file, to, size, at);
+}
 ssize_t write(int file, const void *from, size_t size) { return fails("write") ? -1 : REAL(write)(file, from, size); }
-ssize_t pwrite64(int file, const void *from, size_t size, off64_t at) { return fails("pwrite") ? -1 : REAL(pwrite64)(file, from, size, at); }
+ssize_t pwrite64(int file, const void *from, size_t size, off64_t at)
+{
+    return fails("pwrite") ? -1 : REAL(pwrite64)(file, from, size, at);
+}
 
 struct dirent64 *readdir64(DIR *folder) { return fails("readdir") ? NULL : REAL(readdir64)(folder); }
 
@@ -138,7 +148,9 @@ int prctl(int option, ...)
     va_start(rest, option);
     long a = va_arg(rest, long), b = va_arg(rest, long), c = va_arg(rest, long), d = va_arg(rest, long);
     va_end(rest);
-    const char *name = option == PR_GET_SECCOMP || option == PR_SET_SECCOMP ? "seccomp" : option == PR_SET_NO_NEW_PRIVS ? "privileges" : "prctl";
+    const char *name = option == PR_GET_SECCOMP || option == PR_SET_SECCOMP ? "seccomp"
+                       : option == PR_SET_NO_NEW_PRIVS                      ? "privileges"
+                                                                            : "prctl";
     return fails(name) ? -1 : (int)syscall(SYS_prctl, option, a, b, c, d);
 }
 
@@ -158,7 +170,9 @@ long syscall(long number, ...)
         if (fails("openat2") || open_fails((int)how->flags))
             return -1;
     }
-    if (number >= 444 && number <= 446 && (fails("landlock") || (number == 444 && !(a[2] & 1) && fails("landlock-create")) || (number == 446 && fails("landlock-enter"))))
+    if (number >= 444 && number <= 446 &&
+        (fails("landlock") || (number == 444 && !(a[2] & 1) && fails("landlock-create")) ||
+         (number == 446 && fails("landlock-enter"))))
         return -1;
     if (number == SYS_seccomp && fails("seccomp"))
         return -1;

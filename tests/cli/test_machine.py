@@ -160,6 +160,21 @@ class Machine(Case):
                 self.assertEqual(self.strange(what, "cube.obj -s 16 -o -", user=user).returncode, 0)
 
 
+class Pipes(Case):
+    def test_non_blocking(self):
+        """A pipe that another process has made non-blocking, read slowly."""
+        picture = self.good("teapot", "-s", 900, "-o", "-").stdout
+        self.assertGreater(len(picture), 1 << 16)
+        read, write = os.pipe()
+        os.set_blocking(write, False)
+        process = subprocess.Popen([PROGRAM, "teapot", "-s", "900", "-o", "-", "-q"], stdout=write)
+        os.close(write)
+        time.sleep(0.5)
+        with open(read, "rb") as file:
+            self.assertEqual(file.read(), picture)
+        self.assertEqual(process.wait(), 0)
+
+
 class Kills(Case):
     """Processes that are killed at any moment, the program's own processes among them."""
 

@@ -29,7 +29,7 @@ VARIANTS = [
                                                           "-Db_sanitize=address,undefined", "-Db_lundef=false"], "suites": ["now", "more", "long"]},
     {"name": "clang-release", "cc": "clang", "options": ["--buildtype=release"], "suites": ["more", "long"], "only": ["images", "lighting-widths", "shapes"]},
     {"name": "clang-threads", "cc": "clang", "options": ["--buildtype=debugoptimized", "-Db_sanitize=thread", "-Db_lundef=false"],
-     "suites": ["more", "long"], "only": ["device", "large-files", "obj", "obj-large", "ply", "stl"]},
+     "suites": ["more", "long"], "only": ["cli-batch", "cli-view", "cli-worker", "device", "large-files", "obj", "obj-large", "ply", "stl"]},
     {"name": "gcc-debug", "cc": "gcc", "options": ["--buildtype=debug"], "suites": ["long"], "only": ["images", "lighting-widths", "shapes"]},
 ]
 SUITES = {"now": [""], "more": ["more"], "long": ["more", "long"]} # the suites of tests/meson.build for each word

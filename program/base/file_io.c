@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -18,7 +19,9 @@ bool write_all(int file, const void *bytes, size_t size)
 {
     for (const char *at = bytes; size;) {
         ssize_t wrote = write(file, at, size < AT_ONCE ? size : AT_ONCE);
-        if (wrote < 0 && errno != EINTR)
+        if (wrote < 0 && errno == EAGAIN) // a pipe that its other users have made non-blocking
+            poll(&(struct pollfd){.fd = file, .events = POLLOUT}, 1, -1);
+        else if (wrote < 0 && errno != EINTR)
             return false;
         at += wrote > 0 ? wrote : 0;
         size -= wrote > 0 ? (size_t)wrote : 0;

@@ -26,7 +26,7 @@ static const char *replacement(enum foreign_form form, char c)
 }
 
 // Returns whether a character changes the order of the text around it (see lam_utf8_hidden).
-static bool is_order(uint32_t hidden) { return hidden > 0x9f && hidden != 0xfffd && (hidden & ~1u) != 0x2028; }
+static bool is_order(uint32_t hidden) { return hidden > 0x9f && hidden < 0xfffd && (hidden & ~1u) != 0x2028; }
 
 static bool changes_order(const char *text)
 {

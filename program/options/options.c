@@ -421,8 +421,8 @@ static bool apply(const struct option *typed, const char *value, uint64_t groups
         option_mark(options, option, value, false);
         return true;
     }
-    return complain(error, LAM_BAD_ARGUMENT, "option '--%s': %.400s", typed->several ? typed->name : option->name,
-                    reason.text);
+    return complain(error, reason.code == LAM_MACHINE ? LAM_MACHINE : LAM_BAD_ARGUMENT, "option '--%s': %.400s",
+                    typed->several ? typed->name : option->name, reason.text);
 }
 
 // Returns whether the next argument is the value of an option with an optional value.

@@ -7,6 +7,7 @@
 
 #include "base64.h"
 #include "console.h"
+#include "foreign.h"
 #include "output.h"
 
 bool drawing_open(struct drawing *d, int width, int height, bool svg, bool words, const char *font, lam_error *error)
@@ -45,7 +46,7 @@ bool drawing_describe(struct drawing *d, const char *title, const char *descript
     free(d->title);
     free(d->description);
     d->title = strdup(title);
-    d->description = strdup(description);
+    d->description = description ? strdup(description) : NULL; // from open_memstream
     return (d->title && d->description) || complain(error, LAM_MACHINE, "out of memory");
 }
 
@@ -214,34 +215,10 @@ bool draw_dot(struct drawing *d, struct point middle, double radius, uint32_t co
     return true;
 }
 
-// Returns the number of bytes of the UTF-8 character at the beginning of a text. Returns 0 if the character is invalid,
-// or if XML cannot contain it.
-static int letter_bytes(const char *text)
-{
-    const unsigned char *at = (const unsigned char *)text;
-    int bytes = at[0] < 0x80 ? 1 : at[0] < 0xC2 ? 0 : at[0] < 0xE0 ? 2 : at[0] < 0xF0 ? 3 : at[0] < 0xF5 ? 4 : 0;
-    for (int i = 1; i < bytes; i++)
-        if ((at[i] & 0xC0) != 0x80)
-            return 0;
-    bool low = (at[0] == 0xE0 && at[1] < 0xA0) || (at[0] == 0xF0 && at[1] < 0x90);
-    bool high = (at[0] == 0xED && at[1] > 0x9F) || (at[0] == 0xF4 && at[1] > 0x8F);
-    bool none = at[0] == 0xEF && at[1] == 0xBF && at[2] >= 0xBE; // U+FFFE, U+FFFF
-    return low || high || none || (at[0] < 32 && at[0] != '\t' && at[0] != '\n') ? 0 : bytes;
-}
-
-// Writes the text of an element and its end tag. Replaces characters that XML does not allow with U+FFFD.
+// Writes the text of an element and its end tag.
 static void svg_letters(FILE *file, const char *text, const char *element)
 {
-    while (*text) {
-        int bytes = letter_bytes(text);
-        if (*text == '&' || *text == '<' || *text == '>')
-            fprintf(file, *text == '&' ? "&amp;" : *text == '<' ? "&lt;" : "&gt;");
-        else if (bytes)
-            fwrite(text, 1, (size_t)bytes, file);
-        else
-            fprintf(file, "\xEF\xBF\xBD");
-        text += bytes ? bytes : 1;
-    }
+    html_text(file, FOREIGN(text));
     fprintf(file, "</%s>\n", element);
 }
 
@@ -272,8 +249,8 @@ static uint32_t letter_number(const char *text, int bytes)
 bool drawing_check_text(const char *option, const char *text, bool has_font, lam_error *error)
 {
     for (int bytes; *text; text += bytes) {
-        bytes = letter_bytes(text);
-        if (!bytes)
+        bytes = lam_utf8_length(text, strnlen(text, 4));
+        if (!bytes || (unsigned char)*text < 32)
             return complain(error, LAM_BAD_ARGUMENT, "option '--%s': found a byte that is no letter, expected UTF-8",
                             option);
         uint32_t letter = letter_number(text, bytes);

@@ -181,7 +181,7 @@ bool is_model_name(const char *name)
 
 static bool write_stdout(const lam_bytes *bytes, lam_error *error)
 {
-    return (fwrite(bytes->data, 1, bytes->size, stdout) == bytes->size && fflush(stdout) == 0) ||
+    return (fflush(stdout) == 0 && write_all(STDOUT_FILENO, bytes->data, bytes->size)) ||
            complain(error, LAM_CANNOT_WRITE, "standard output: cannot write: %s", strerror(errno));
 }
 

@@ -10,11 +10,11 @@
 #include "writer.h"
 
 static lam_cancel cancel;
-static volatile sig_atomic_t caught;
+static int caught; // accessed atomically: any thread may receive the signal
 
 static void catch (int number)
 {
-    caught = number;
+    __atomic_store_n(&caught, number, __ATOMIC_RELAXED);
     lam_cancel_raise(&cancel);
 }
 
@@ -32,7 +32,7 @@ void interrupt_start(void)
 }
 
 const lam_cancel *interrupt_flag(void) { return &cancel; }
-bool interrupted(void) { return caught != 0; }
+bool interrupted(void) { return __atomic_load_n(&caught, __ATOMIC_RELAXED) != 0; }
 
 void interrupt_finish(void)
 {

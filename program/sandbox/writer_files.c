@@ -99,7 +99,8 @@ static bool fill_hidden(struct staged *staged, const lam_bytes *bytes)
             return false;
     }
     bool ok = file >= 0 && write_all(file, bytes->data, bytes->size) &&
-              (!exists || fchmod(file, there.st_mode & 0666) == 0 || errno == EPERM);
+              (!exists || fchmod(file, there.st_mode & 0666) == 0 || errno == EPERM || errno == ENOSYS ||
+               errno == EOPNOTSUPP);
     int reason = errno;
     if (file >= 0 && close(file) != 0 && ok) {
         ok = false;

@@ -60,6 +60,7 @@ bool library_find(void *library, const char *name, void *function)
 #else
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,7 +68,11 @@ bool library_find(void *library, const char *name, void *function)
 
 void *library_open(const char *name, bool resident, const char **reason)
 {
-    void *library = dlopen(name, RTLD_NOW | RTLD_LOCAL | (resident ? RTLD_NODELETE : 0));
+    const int how = RTLD_NOW | RTLD_LOCAL | (resident ? RTLD_NODELETE : 0);
+    errno = 0;
+    void *library = dlopen(name, how);
+    if (!library && errno == ENOMEM) // a library must not seem to be missing because one allocation failed
+        library = dlopen(name, how);
     if (!library && reason) {
         const char *sentence = dlerror();
         *reason = sentence ? sentence : "the loader gives no reason";

@@ -325,7 +325,7 @@ class Machines(Batch):
         self.assertIn(b"10 pictures in succession failed because of this machine", stopped.stderr)
         failed = [r for r in self.journal() if r["class"] != "ok"]
         self.assertEqual({r["cause"] for r in failed}, {"machine"})
-        self.assertLess(len(failed), 15)
+        self.assertLess(len(failed), 20)  # pictures that are written in between start the count again
         self.assertEqual(self.run_program("journal", "out").returncode, 5)
         self.batch("in", "-o", "out/", "--failures-ok", "--resume")
         self.assertEqual(len(self.pictures()), count)

@@ -160,6 +160,16 @@ class Requests(ViewCase):
         print("# seconds of the requests:", *(f"{t:.3f}" for t in times))
         self.assertLess(max(times), 2)  # 0.3 s on an idle machine
 
+    def test_no_answer_waits_for_a_timeout(self):
+        """A drawing that is finished at any moment of the server's loop is answered at once."""
+        server = self.serve("cube.obj")
+        times = []
+        for _ in range(60):
+            begin = time.monotonic()
+            self.assertEqual(server.task("draw", "/cube.obj", "--size=8")[0], 200)
+            times.append(time.monotonic() - begin)
+        self.assertLessEqual(len([t for t in times if t > 0.45]), 2, sorted(times)[-9:])  # on a busy machine; the loop's timeout is 0.5 s
+
     def test_many_words(self):
         """A request with too many words has an answer."""
         server = self.serve("cube.obj")

@@ -3,7 +3,8 @@
 // The target gets every file of the folder CORPUS unchanged, truncated after each of its bytes, and in CHANGES
 // mutations, the same in every run; a target with its own mutator (mutate.h) makes half of them. An input that crashes
 // the program is saved in the current folder as "fuzz-failure". A target may add a file of its own (fuzz_seed), and
-// then needs no folder. Called with a number, the program makes that many mutations of each file.
+// then needs no folder. Called with a number, the program makes that many mutations of each file; a second number
+// selects others.
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -180,7 +181,7 @@ int main(int word_count, char **words)
     signal(SIGABRT, die);
     signal(SIGSEGV, die);
     signal(SIGFPE, die);
-    uint64_t random = 1;
+    uint64_t random = word_count > 2 ? strtoull(words[2], NULL, 10) : 1;
     size_t runs = 0;
     for (int i = 0; i < seed_count; i++) {
         const struct seed *seed = &seeds[i];

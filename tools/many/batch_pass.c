@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/path.h>
+
 #include "batch_job.h"
 #include "console.h"
 #include "host_name.h"
@@ -82,7 +84,7 @@ void batch_remove_parts(const struct batch_plan *plan, size_t model, int process
         char *output = batch_plan_output(plan, model, i), *slash = output ? strrchr(output, '/') : NULL;
         if (slash)
             slash[slash == output] = 0;
-        DIR *folder = output ? opendir(slash ? output : ".") : NULL;
+        DIR *folder = output ? lam_path_list(slash ? output : ".") : NULL;
         for (struct dirent *entry; folder && (entry = readdir(folder));)
             if (is_part(entry->d_name, begin))
                 unlinkat(dirfd(folder), entry->d_name, 0);
@@ -211,8 +213,9 @@ void batch_deliver(struct batch *b, struct batch_unit *u)
         u->out = u->err = NULL;
     }
     batch_show_progress(&b->tally);
+    bool stuck = !job && b->is_batch && b->tally.by_machine_in_row >= MACHINE_FAILURES;
     pthread_mutex_unlock(&b->lock);
-    if (ok && !job && b->is_batch && b->tally.by_machine_in_row >= MACHINE_FAILURES)
+    if (ok && stuck)
         ok = complain(&error, LAM_CANNOT_WRITE,
                       "%d pictures in succession failed because of this machine, not because of their models; mend the "
                       "cause and repeat the command with --resume",

@@ -70,6 +70,7 @@ struct view {
     struct view_sockets answering;       // those whose answer has not been read completely: files, pictures and events
     struct view_connection *connections; // the requests with incomplete answers
     double alive_ms;                     // the clock_ms() of the last message to the listeners
+    bool resumed;                        // the next MHD_run continues a connection
     bool ends;
 };
 

@@ -28,6 +28,7 @@ static void say(struct view_listener *l, const char *text, size_t size)
     l->size += size;
     if (l->suspended) {
         l->suspended = false;
+        l->view->resumed = true;
         l->view->http.MHD_resume_connection(l->connection);
     }
 }

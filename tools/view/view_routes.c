@@ -176,6 +176,7 @@ void view_routes_done(void *user, struct view_result *result)
     c->finished = true;
     if (c->kind == VIEW_MODEL && result->status == 200 && result->bytes)
         watch_model(c->view, result->bytes + result->notes_at, result->notes);
+    c->view->resumed = true;
     c->view->http.MHD_resume_connection(c->connection);
 }
 

@@ -245,12 +245,11 @@ static void loop(struct view *view)
 {
     double idle_since = clock_ms(), limit = idle_limit_ms(view->options);
     while (!interrupted()) {
+        view->resumed = false;
         view->http.MHD_run(view->daemon);
         view_watch_read(&view->watch, &view->files, hear_change, view);
         view_tasks_step(&view->tasks);
         view_events_keep(view);
-        view->http.MHD_run(view->daemon); // sends the answers of requests that have just finished
-        view_tasks_step(&view->tasks);
         view_waiting_drop(view);
         double now = clock_ms();
         if (connections(view)) {
@@ -260,7 +259,8 @@ static void loop(struct view *view)
                 say_plain("ended: no page was open for %.10g minutes (--idle)\n", limit / 60e3);
             return;
         }
-        wait_for_something(view);
+        if (!view->resumed) // older versions of the library do not count resumed connections in their timeout
+            wait_for_something(view);
     }
 }
 

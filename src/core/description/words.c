@@ -4,6 +4,7 @@
 #include "fail.h"
 #include "number.h"
 
+#include <errno.h>
 #include <string.h>
 
 // Parses a number, or a number in radii ("2r"), which remains a string. Returns NULL for other texts.
@@ -68,6 +69,7 @@ json_t *words_parse(const char *text, const char *first_key, char end, bool (*is
         return NULL;
     }
     memcpy(copy, text, length + 1);
+    errno = 0;
     json_t *object = json_object();
     bool ok = object || fail_memory(error, length);
     size_t first = strcspn(copy, (char[]){end, 0});
@@ -82,6 +84,8 @@ json_t *words_parse(const char *text, const char *first_key, char end, bool (*is
     }
     for (char *pair; ok && (pair = strsep(&rest, ","));)
         ok = put_pair(object, pair, is_flag, error);
+    if (ok && errno == ENOMEM) // a number has become a text
+        ok = fail_memory(error, length);
     if (ok)
         return object;
     json_decref(object);

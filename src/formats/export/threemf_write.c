@@ -45,6 +45,8 @@ static void add_xml(struct text *text, const char *name)
         const char *escape = *name == '&' ? "&amp;" : *name == '<' ? "&lt;" : *name == '"' ? "&quot;" : NULL;
         if (escape)
             text_add(text, escape);
+        else if (strncmp(name, "\uFFFE", 3) == 0 || strncmp(name, "\uFFFF", 3) == 0)
+            name += 2; // no characters of XML
         else if ((unsigned char)*name >= 32)
             text_add_part(text, name, 1);
     }

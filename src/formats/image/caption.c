@@ -107,7 +107,7 @@ static bool open_file(lam_font *font, const char *path, lam_error *error)
            fail(error, LAM_CANNOT_READ, "%s: the font has fixed sizes, expected an outline font", path);
 }
 
-lam_font *lam_font_open(const char *path, lam_error *error)
+static lam_font *open_font(const char *path, lam_error *error)
 {
     lam_font *font = calloc(1, sizeof *font);
     if (!font)
@@ -121,6 +121,12 @@ lam_font *lam_font_open(const char *path, lam_error *error)
         return font;
     lam_font_free(font);
     return NULL;
+}
+
+lam_font *lam_font_open(const char *path, lam_error *error)
+{
+    lam_font *font = open_font(path, error);
+    return font ? font : open_font(path, error); // if one allocation fails, FreeType may report a damaged font
 }
 
 void lam_font_free(lam_font *font)

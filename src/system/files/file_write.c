@@ -114,16 +114,19 @@ static bool write_all(int file, const struct writing *w, const sigset_t *before)
     return true;
 }
 
-// Flushes the file to disk. Some file systems and devices do not support flushing (EINVAL).
-static bool sync_file(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOSYS; }
+// Returns whether the file system, or the device, does not know the last call.
+static bool is_unsupported(void) { return errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP || errno == EPERM; }
+
+// Flushes the file to disk.
+static bool sync_file(int file) { return fsync(file) == 0 || is_unsupported(); }
 
 static bool fill(int file, const struct writing *w, const sigset_t *before)
 {
     if (!write_all(file, w, before))
         return false;
     // Keeps the read and write permissions of the existing file, but removes the execute permission: the new file is
-    // never a program. EPERM means that the file system does not support permissions.
-    if (w->existing && fchmod(file, w->existing->st_mode & 0666) != 0 && errno != EPERM)
+    // never a program.
+    if (w->existing && fchmod(file, w->existing->st_mode & 0666) != 0 && !is_unsupported())
         return false;
     if (w->durable && !sync_file(file))
         return false;
@@ -288,6 +291,7 @@ bool file_write_by(unsigned way, const char *path, const void *data, size_t size
         ok = !(way & FILE_NAMED) && write_unnamed(&w, &possible);
         if (!possible)
             ok = write_named(&w);
+        errno = errno == EXDEV ? EOPNOTSUPP : errno; // from renameat: no link leads out, as path_reason would say
         ok = ok && (!w.durable || sync_folder(w.folder));
     }
     lam_path_close(w.folder);

@@ -132,15 +132,17 @@ char *journal_read(const char *path, size_t *size)
     struct stat about;
     int file = lam_path_open(path, O_RDONLY | O_CLOEXEC);
     char *text = file >= 0 && fstat(file, &about) == 0 ? malloc((size_t)about.st_size + 1) : NULL;
-    size_t used = 0;
-    if (text)
-        read_up_to(file, text, (size_t)about.st_size, &used);
+    *size = 0;
+    bool whole = text && read_up_to(file, text, (size_t)about.st_size, size);
     int reason = errno;
     if (file >= 0)
         close(file);
-    if (text)
-        text[used] = 0;
-    *size = used;
+    if (whole) {
+        text[*size] = 0;
+    } else {
+        free(text);
+        text = NULL;
+    }
     errno = file < 0 && reason == ENOENT ? 0 : reason;
     return text;
 }
@@ -255,6 +257,10 @@ static bool wait_for_lock(int file, double until_ms)
     for (; clock_ms() < until_ms; nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL)) {
         if (flock(file, LOCK_EX | LOCK_NB) == 0)
             return true;
+        if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP) { // some network file systems
+            say_warning("the file system of the journal has no locks; only one run at a time may write this journal");
+            return true;
+        }
         if ((errno != EWOULDBLOCK && errno != EINTR) || interrupted())
             return false;
     }
@@ -291,6 +297,8 @@ static bool open_running(struct journal *j, lam_error *error)
         return false;
     size_t size;
     j->was_running = journal_read(j->running_path, &size);
+    if (!j->was_running)
+        return complain(error, LAM_CANNOT_READ, "%s: cannot read: %s", j->running_path, strerror(errno));
     j->was_slots = j->was_running ? size / SLOT : 0;
     return true;
 }

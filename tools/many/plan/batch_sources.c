@@ -21,7 +21,8 @@ static bool list_names(const char *folder, char ***names, size_t *count, lam_err
 {
     DIR *list = lam_path_list(folder);
     bool ok = list || complain(error, LAM_CANNOT_READ, "%s: cannot read the folder: %s", folder, strerror(errno));
-    for (struct dirent *entry; ok && (entry = readdir(list));) {
+    errno = 0;
+    for (struct dirent *entry; ok && (entry = readdir(list)); errno = 0) {
         if (entry->d_name[0] == '.')
             continue;
         char **more = realloc(*names, (*count + 1) * sizeof *more);
@@ -29,6 +30,8 @@ static bool list_names(const char *folder, char ***names, size_t *count, lam_err
         ok = (more && (more[*count] = strdup(entry->d_name))) || complain(error, LAM_MACHINE, "out of memory");
         *count += ok;
     }
+    if (ok && errno)
+        ok = complain(error, LAM_CANNOT_READ, "%s: cannot read the folder: %s", folder, strerror(errno));
     if (list)
         closedir(list);
     if (*count)
@@ -47,8 +50,8 @@ static bool add_entry(struct batch_plan *plan, const char *path, const char *roo
     int parent = lam_path_parent(path, &name);
     bool found = fstatat(parent, name, &own, AT_SYMLINK_NOFOLLOW) == 0;
     lam_path_close(parent);
-    if (!found)
-        return true;
+    if (!found) // ENOENT: somebody has removed it
+        return errno == ENOENT || complain(error, LAM_CANNOT_READ, "%s: cannot read: %s", path, strerror(errno));
     if (S_ISDIR(own.st_mode))
         return add_folder(plan, path, root, error);
     return !is_model_name(path) || (S_ISLNK(own.st_mode) && path_is_folder(path)) ||

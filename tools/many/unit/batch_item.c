@@ -104,7 +104,17 @@ static bool changed_since(const char *path, const struct timespec *start)
            (about.st_ctim.tv_sec == start->tv_sec && about.st_ctim.tv_nsec >= start->tv_nsec);
 }
 
-static bool hash_files(const struct job *job, const struct timespec *start, struct files *files)
+// Returns whether somebody has set the clock since `start`, which was at `start_ms` on the clock that nobody sets.
+static bool is_set(const struct timespec *start, double start_ms)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME_COARSE, &now);
+    double seconds = (double)(now.tv_sec - start->tv_sec) + (double)(now.tv_nsec - start->tv_nsec) * 1e-9;
+    double error_s = seconds - (clock_ms() - start_ms) * 1e-3;
+    return error_s > 0.5 || error_s < -0.5;
+}
+
+static bool hash_files(const struct job *job, const struct timespec *start, double start_ms, struct files *files)
 {
     while (lam_scene_file(job->scene, files->count))
         files->count++;
@@ -122,6 +132,7 @@ static bool hash_files(const struct job *job, const struct timespec *start, stru
             snprintf(files->hashes[i], XXH64_TEXT, "absent");
         files->changed |= changed_since(path, start);
     }
+    files->changed |= is_set(start, start_ms);
     return true;
 }
 
@@ -259,6 +270,7 @@ struct model_run {
     const struct batch_artist *artist;
     struct batch_result *result;
     struct timespec start; // by the clock that file systems use
+    double start_ms;
     struct files files;
     int warnings; // the number of the scene's warnings after the previous picture
     bool hashed;
@@ -303,7 +315,7 @@ static void finish_picture(struct model_run *r, struct job *job, int view, bool 
         return;
     if (job->written && r->item->options_text && !r->hashed) {
         r->hashed = true;
-        r->files.changed |= !hash_files(job, &r->start, &r->files);
+        r->files.changed |= !hash_files(job, &r->start, r->start_ms, &r->files);
     }
     r->result->records[view] = record_of(r->item, view, job, error, &r->files);
     if (r->found)
@@ -346,6 +358,7 @@ static void draw(struct model_run *r)
                       .environments = r->artist->environments};
     job.times.start = clock_ms();
     clock_gettime(CLOCK_REALTIME_COARSE, &r->start);
+    r->start_ms = clock_ms();
     struct progress progress;
     progress_start(&progress, item->model,
                    console_is_terminal() && r->artist->has_bar && !own.report.quiet && report_stream(&own) != stderr);

@@ -35,7 +35,8 @@ uint32_t lam_utf8_hidden(const void *bytes, size_t size)
     bool control = code < 0x20 || (code >= 0x7f && code < 0xa0), separator = code == 0x2028 || code == 0x2029;
     bool direction = code == 0x61c || code == 0x200e || code == 0x200f || (code >= 0x202a && code <= 0x202e) ||
                      (code >= 0x2066 && code <= 0x2069);
-    return control || separator || direction ? code : 0;
+    bool no_character = code == 0xfffe || code == 0xffff; // XML cannot contain them
+    return control || separator || direction || no_character ? code : 0;
 }
 
 size_t lam_utf8_show(const char *text, char *out, size_t capacity)

@@ -6,6 +6,7 @@
 #include "shown_name.h"
 #include "threemf_xml.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -166,7 +167,11 @@ static bool threemf_load(struct import_source *source, struct lam_scene *scene, 
                            .scratch = &scratch,
                            .error = error ? error : &unwanted,
                            .part_names = {.memory = &scratch}};
+    errno = 0;
     bool ok = read_all(&file);
+    // If memory runs out, libzip may report a damaged archive, and opening a library fails.
+    if (!ok && errno == ENOMEM && file.error->code != LAM_LIMIT)
+        threemf_no_memory(&file, 0);
     scene->shared_arrays = true;
     struct threemf_part **parts = file.parts.items;
     for (size_t i = 0; i < file.parts.count; i++) {

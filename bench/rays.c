@@ -1,12 +1,20 @@
-// rays.c: measures the time of shadow rays in the library's hierarchy, and in Embree's if Embree is installed.
+// rays.c: measures shadow rays in the library's hierarchy, and in Embree's if Embree is installed.
 //
-//   bench-rays [TRIANGLES]      a torus knot of about so many triangles over a floor (100000)
+//   bench-rays [SCENE [TRIANGLES]]     knot, stl (its triangles one by one), soup or beams; 100000
 //
-// It prints the processor time of one thread, the minimum of several rounds. Rays start at the points that an
-// orthographic camera sees, row by row. They go to a point light ("coherent") or in random directions ("scattered"),
-// eight at a time. Embree uses packets of eight rays, in robust mode and with floats. Lambent decides with doubles.
-// Unlike the other programs in this folder, this program uses internal headers of the library.
-#define LANES 8
+// It prints the processor time of one thread, the minimum of several rounds, which take turns. Rays start at the points
+// that an orthographic camera sees, row by row. They go to a point light ("coherent") or in random directions
+// ("scattered"), LANES at a time. For Embree it prints the fastest of single rays, packets of 8 and packets of 16, in
+// robust mode and with floats. Lambent decides with doubles. The surface area cost (one function for both) is that of
+// Embree's builder for 8 children, rtcBuildBVH. Unlike the other programs in this folder, this program uses internal
+// headers of the library. bench-rays uses AVX2, bench-rays-512 AVX-512.
+#ifdef __AVX512F__
+#define LANES    16
+#define ISA_NAME "avx512"
+#else
+#define LANES    8
+#define ISA_NAME "avx2"
+#endif
 #include "ray_lanes.h"
 #include "rays.h"
 
@@ -22,7 +30,8 @@
 #include <embree3/rtcore.h>
 #endif
 
-enum { SIDE = 512, RAYS = SIDE * SIDE, ROUNDS = 7 };
+enum { SIDE = 384, RAYS = SIDE * SIDE, ROUNDS = 9 };
+static const char *const names[] = {"coherent", "scattered"};
 
 static struct ray_lanes packets[2][RAYS / LANES];
 
@@ -71,7 +80,8 @@ static void make_rays(const struct hierarchy *h, const double light[3])
                 }
             }
             for (uint32_t i = child; i < child + count; i++) {
-                const struct ray_triangle *t = &h->triangles[i];
+                struct ray_triangle triangle, *t = &triangle;
+                hierarchy_triangle(h, leaf_number(h->leaves + LEAF_FLOATS * (size_t)child, count, i - child), t);
                 double e[2][3], p[3], q[3], s[3];
                 for (int k = 0; k < 3; k++) {
                     e[0][k] = t->p[1][k] - t->p[0][k];
@@ -110,115 +120,277 @@ static void make_rays(const struct hierarchy *h, const double light[3])
 
 static __attribute__((noinline)) unsigned trace(const struct hierarchy *h, const struct ray_lanes *ray)
 {
-    return any_hit(h, ray, 0xff, NULL, NULL);
+    return any_hit(h, ray, (1u << LANES) - 1, NULL, NULL);
 }
 
-static void measure_own(const struct hierarchy *h)
+// --- the surface area cost: the expected number of nodes that a random line tests, and of tests of `block` triangles at
+// once in leaves
+
+struct tree_node {
+    float low[NODE_CHILDREN][3], high[NODE_CHILDREN][3];
+    struct tree_node *child[NODE_CHILDREN]; // NULL for a leaf
+    uint32_t count[NODE_CHILDREN], children;
+};
+
+static double area_of(const float low[3], const float high[3])
 {
-    static const char *const names[] = {"coherent", "scattered"};
-    for (int kind = 0; kind < 2; kind++) {
-        double best = 1e9;
-        long hits = 0;
-        for (int round = 0; round < ROUNDS; round++) {
-            double start = seconds();
-            hits = 0;
-            for (int i = 0; i < RAYS / LANES; i++)
-                hits += __builtin_popcount(trace(h, &packets[kind][i]));
-            best = fmin(best, seconds() - start);
-        }
-        printf("lambent %-9s %6.1f Mray/s (%.1f %% shadowed)\n", names[kind], RAYS / best * 1e-6,
-               100.0 * (double)hits / RAYS);
-    }
+    double x = (double)(high[0] - low[0]), y = (double)(high[1] - low[1]), z = (double)(high[2] - low[2]);
+    return x * y + y * z + z * x;
 }
+
+static double cost_of(const struct tree_node *node, double area, uint32_t block)
+{
+    double cost = area;
+    for (uint32_t i = 0; i < node->children; i++) {
+        double own = area_of(node->low[i], node->high[i]);
+        cost += node->child[i] ? cost_of(node->child[i], own, block) : own * ((node->count[i] + block - 1) / block);
+    }
+    return cost;
+}
+
+static double relative_cost(const struct tree_node *root, uint32_t block)
+{
+    float low[3] = {3e38f, 3e38f, 3e38f}, high[3] = {-3e38f, -3e38f, -3e38f};
+    for (uint32_t i = 0; i < root->children; i++)
+        for (int k = 0; k < 3; k++) {
+            low[k] = fminf(low[k], root->low[i][k]);
+            high[k] = fmaxf(high[k], root->high[i][k]);
+        }
+    double area = area_of(low, high);
+    return cost_of(root, area, block) / area;
+}
+
+static struct tree_node *own_tree(const struct hierarchy *h, uint32_t index)
+{
+    struct tree_node *to = calloc(1, sizeof *to);
+    const struct ray_node *node = &h->nodes[index];
+    for (int i = 0; i < NODE_CHILDREN && node->planes[0][0][i] <= node->planes[1][0][i]; i++) {
+        for (int k = 0; k < 3; k++) {
+            to->low[i][k] = node->planes[0][k][i];
+            to->high[i][k] = node->planes[1][k][i];
+        }
+        to->count[i] = node->count[i];
+        to->child[i] = node->count[i] ? NULL : own_tree(h, node->child[i]);
+        to->children++;
+    }
+    return to;
+}
+
+// --- Embree
 
 #ifdef HAS_EMBREE
-static void measure_embree(const struct hierarchy *h)
+static void *make_node(RTCThreadLocalAllocator a, unsigned children, void *user)
 {
-    static const char *const names[] = {"coherent", "scattered"};
-    RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
-    for (int quality = RTC_BUILD_QUALITY_LOW; quality <= RTC_BUILD_QUALITY_MEDIUM; quality++) {
-        double built = 1e9;
-        RTCScene scene = NULL;
-        for (int round = 0; round < ROUNDS; round++) {
-            if (scene)
-                rtcReleaseScene(scene);
-            scene = rtcNewScene(device);
-            rtcSetSceneBuildQuality(scene, (enum RTCBuildQuality)quality);
-            rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-            RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-            rtcSetGeometryBuildQuality(mesh, (enum RTCBuildQuality)quality);
-            float *p = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                               3 * (size_t)h->triangle_count);
-            unsigned *index =
-                rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, h->triangle_count);
-            for (uint32_t i = 0; i < 3 * h->triangle_count; i++) {
-                index[i] = i;
-                for (int k = 0; k < 3; k++)
-                    p[3 * i + (uint32_t)k] = (float)h->triangles[i / 3].p[i % 3][k];
-            }
-            rtcCommitGeometry(mesh);
-            rtcAttachGeometry(scene, mesh);
-            rtcReleaseGeometry(mesh);
-            double start = seconds();
-            rtcCommitScene(scene);
-            built = fmin(built, seconds() - start);
-        }
-        printf("Embree, quality %s: built in %.1f ms\n", quality ? "medium" : "low", built * 1e3);
-        for (int kind = 0; kind < 2; kind++) {
-            double best = 1e9;
-            long hits = 0;
-            for (int round = 0; round < ROUNDS; round++) {
-                struct RTCIntersectContext context;
-                rtcInitIntersectContext(&context);
-                context.flags = kind ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-                static const _Alignas(32) int valid[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
-                double start = seconds();
-                hits = 0;
-                for (int i = 0; i < RAYS / 8; i++) {
-                    const struct ray_lanes *r = &packets[kind][i];
-                    _Alignas(32) struct RTCRay8 ray;
-                    for (int n = 0; n < 8; n++) {
-                        ray.org_x[n] = (float)r->origin[0][n];
-                        ray.org_y[n] = (float)r->origin[1][n];
-                        ray.org_z[n] = (float)r->origin[2][n];
-                        ray.dir_x[n] = (float)r->direction[0][n];
-                        ray.dir_y[n] = (float)r->direction[1][n];
-                        ray.dir_z[n] = (float)r->direction[2][n];
-                        ray.tnear[n] = 1e-4f;
-                        ray.tfar[n] = (float)r->end[n];
-                        ray.time[n] = 0;
-                        ray.mask[n] = ~0u;
-                        ray.flags[n] = 0;
-                    }
-                    rtcOccluded8(valid, scene, &context, &ray);
-                    for (int n = 0; n < 8; n++)
-                        hits += ray.tfar[n] < 0;
-                }
-                best = fmin(best, seconds() - start);
-            }
-            printf("Embree  %-9s %6.1f Mray/s (%.1f %% shadowed)\n", names[kind], RAYS / best * 1e-6,
-                   100.0 * (double)hits / RAYS);
-        }
-        rtcReleaseScene(scene);
+    (void)user;
+    struct tree_node *node = rtcThreadLocalAlloc(a, sizeof *node, 16);
+    memset(node, 0, sizeof *node);
+    node->children = children;
+    return node;
+}
+static void set_children(void *node, void **children, unsigned count, void *user)
+{
+    (void)user;
+    for (unsigned i = 0; i < count; i++) {
+        struct tree_node *child = children[i];
+        ((struct tree_node *)node)->child[i] = child->children ? child : NULL;
+        ((struct tree_node *)node)->count[i] = child->count[0];
     }
-    rtcReleaseDevice(device);
+}
+static void set_bounds(void *node, const struct RTCBounds **bounds, unsigned count, void *user)
+{
+    (void)user;
+    for (unsigned i = 0; i < count; i++) {
+        memcpy(((struct tree_node *)node)->low[i], &bounds[i]->lower_x, 12);
+        memcpy(((struct tree_node *)node)->high[i], &bounds[i]->upper_x, 12);
+    }
+}
+static void *make_leaf(RTCThreadLocalAllocator a, const struct RTCBuildPrimitive *p, size_t count, void *user)
+{
+    struct tree_node *node = make_node(a, 0, user);
+    (void)p;
+    node->count[0] = (uint32_t)count;
+    return node;
+}
+
+static void embree_cost(RTCDevice device, const struct hierarchy *h, double cost[2])
+{
+    struct RTCBuildPrimitive *p = aligned_alloc(64, ((size_t)h->triangle_count * sizeof *p + 63) / 64 * 64);
+    for (uint32_t i = 0; i < h->triangle_count; i++) {
+        struct ray_triangle t;
+        hierarchy_triangle(h, i, &t);
+        float low[3], high[3];
+        for (int k = 0; k < 3; k++) {
+            low[k] = (float)fmin(fmin(t.p[0][k], t.p[1][k]), t.p[2][k]);
+            high[k] = (float)fmax(fmax(t.p[0][k], t.p[1][k]), t.p[2][k]);
+        }
+        p[i] = (struct RTCBuildPrimitive){low[0], low[1], low[2], 0, high[0], high[1], high[2], i};
+    }
+    struct RTCBuildArguments build = rtcDefaultBuildArguments();
+    build.maxBranchingFactor = NODE_CHILDREN;
+    build.maxDepth = 64;
+    build.bvh = rtcNewBVH(device);
+    build.primitives = p;
+    build.primitiveCount = build.primitiveArrayCapacity = h->triangle_count;
+    build.createNode = make_node;
+    build.setNodeChildren = set_children;
+    build.setNodeBounds = set_bounds;
+    build.createLeaf = make_leaf;
+    const struct tree_node *root = rtcBuildBVH(&build);
+    cost[0] = relative_cost(root, 8);
+    cost[1] = relative_cost(root, 1);
+    rtcReleaseBVH(build.bvh);
+    free(p);
+}
+
+static RTCScene embree_scene(RTCDevice device, const struct hierarchy *h, enum RTCBuildQuality quality, double *built)
+{
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneBuildQuality(scene, quality);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuildQuality(mesh, quality);
+    size_t corners = 3 * (size_t)h->triangle_count;
+    float *p = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, corners);
+    unsigned *index = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, corners / 3);
+    for (uint32_t i = 0; i < corners; i++) {
+        struct ray_triangle triangle;
+        hierarchy_triangle(h, i / 3, &triangle);
+        index[i] = i;
+        for (int k = 0; k < 3; k++)
+            p[3 * i + (uint32_t)k] = (float)triangle.p[i % 3][k];
+    }
+    rtcCommitGeometry(mesh);
+    rtcAttachGeometry(scene, mesh);
+    rtcReleaseGeometry(mesh);
+    double start = seconds();
+    rtcCommitScene(scene);
+    *built = fmin(*built, seconds() - start);
+    return scene;
+}
+
+#define RAY_FIELDS(ray, at, packet, n)                                                                                 \
+    (ray).org_x at = (float)(packet)->origin[0][n], (ray).org_y at = (float)(packet)->origin[1][n],                    \
+                (ray).org_z at = (float)(packet)->origin[2][n], (ray).dir_x at = (float)(packet)->direction[0][n],     \
+                (ray).dir_y at = (float)(packet)->direction[1][n], (ray).dir_z at = (float)(packet)->direction[2][n],  \
+                (ray).tnear at = 1e-4f, (ray).tfar at = (float)(packet)->end[n], (ray).time at = 0,                    \
+                (ray).mask at = ~0u, (ray).flags at = 0
+
+// Traces all rays in packets of `width` rays, and returns the number of rays that are blocked.
+static long embree_round(RTCScene scene, int kind, int width)
+{
+    static const _Alignas(64) int valid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    struct RTCIntersectContext context;
+    long hits = 0;
+    rtcInitIntersectContext(&context);
+    context.flags = kind ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (int i = 0; i < RAYS; i += width) {
+        _Alignas(64) union {
+            struct RTCRay one;
+            struct RTCRay8 eight;
+            struct RTCRay16 sixteen;
+        } ray;
+        for (int n = 0; n < width; n++) {
+            const struct ray_lanes *r = &packets[kind][(i + n) / LANES];
+            int from = (i + n) % LANES;
+            if (width == 1)
+                RAY_FIELDS(ray.one, , r, from);
+            else if (width == 8)
+                RAY_FIELDS(ray.eight, [n], r, from);
+            else
+                RAY_FIELDS(ray.sixteen, [n], r, from);
+        }
+        if (width == 1)
+            rtcOccluded1(scene, &context, &ray.one);
+        else if (width == 8)
+            rtcOccluded8(valid, scene, &context, &ray.eight);
+        else
+            rtcOccluded16(valid, scene, &context, &ray.sixteen);
+        for (int n = 0; n < width; n++)
+            hits += (width == 1 ? ray.one.tfar : width == 8 ? ray.eight.tfar[n] : ray.sixteen.tfar[n]) < 0;
+    }
+    return hits;
 }
 #endif
 
-int main(int argc, char **argv)
+// --- scenes
+
+static void add_mesh(lam_scene *scene, float *positions, uint32_t triangles)
 {
     lam_error error = {0};
-    double wanted = argc > 1 ? atof(argv[1]) : 100000;
-    lam_scene *scene = lam_scene_make(&error);
-    int stacks = (int)sqrt(wanted / 16), slices = 8 * stacks;
-    lam_shape_params params = {.slices = slices, .stacks = stacks};
+    lam_mesh mesh = {.positions = positions, .vertex_count = 3 * triangles, .triangle_count = triangles};
     lam_object object = lam_object_default();
-    object.mesh = lam_scene_add_shape(scene, "torus-knot", &params, &error);
-    lam_scene_add_object(scene, &object, &error);
+    object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
+    if (object.mesh < 0 || lam_scene_add_object(scene, &object, &error) < 0)
+        fprintf(stderr, "%s\n", error.text);
+}
+
+// Random triangles ("soup"), or long thin ones along the axes and obliquely ("beams").
+static float *random_triangles(uint32_t triangles, bool beams)
+{
+    uint64_t seed = 7;
+    float *p = malloc((size_t)triangles * 9 * sizeof *p);
+    for (uint32_t t = 0; t < triangles; t++) {
+        double size = pow((double)triangles, -1.0 / 3), centre[3], along[3] = {0};
+        for (int k = 0; k < 3; k++)
+            centre[k] = uniform(&seed) * 2 - 1;
+        for (int k = 0; k < 3; k++)
+            along[k] = t % 4 < 3 ? k == (int)(t % 4) : uniform(&seed) * 2 - 1;
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                p[9 * (size_t)t + 3 * (size_t)c + (size_t)k] =
+                    (float)(centre[k] + (beams ? 0.02 : 1) * size * (uniform(&seed) * 2 - 1) +
+                            (beams && c ? 0.3 * along[k] : 0));
+    }
+    return p;
+}
+
+static bool add_scene(lam_scene *scene, const char *kind, double wanted)
+{
+    lam_error error = {0};
+    bool knot = !strcmp(kind, "knot"), stl = !strcmp(kind, "stl");
+    if (!knot && !stl && strcmp(kind, "soup") != 0 && strcmp(kind, "beams") != 0)
+        return false;
+    lam_object object = lam_object_default();
+    if (knot || stl) {
+        int stacks = (int)sqrt(wanted / 16);
+        lam_shape_params params = {.slices = 8 * stacks, .stacks = stacks};
+        object.mesh = lam_scene_add_shape(scene, "torus-knot", &params, &error);
+        const lam_mesh *mesh = scene_mesh(scene, object.mesh);
+        if (knot) {
+            lam_scene_add_object(scene, &object, &error);
+        } else {
+            float *p = malloc((size_t)mesh->triangle_count * 9 * sizeof *p);
+            for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++)
+                memcpy(p + 3 * i, mesh->positions + 3 * (size_t)mesh->indices[i], 12);
+            add_mesh(scene, p, mesh->triangle_count);
+        }
+    } else {
+        add_mesh(scene, random_triangles((uint32_t)wanted, kind[0] == 'b'), (uint32_t)wanted);
+    }
     object.mesh = lam_scene_add_shape(scene, "plane", NULL, &error);
     object.transform.m[0][0] = object.transform.m[2][2] = 2;
     object.transform.m[1][3] = -1;
     lam_scene_add_object(scene, &object, &error);
+    return true;
+}
+
+static double own_round(const struct hierarchy *h, int kind, long *hits)
+{
+    double start = seconds();
+    *hits = 0;
+    for (int i = 0; i < RAYS / LANES; i++)
+        *hits += __builtin_popcount(trace(h, &packets[kind][i]));
+    return seconds() - start;
+}
+
+int main(int argc, char **argv)
+{
+    lam_error error = {0};
+    lam_scene *scene = lam_scene_make(&error);
+    if (!add_scene(scene, argc > 1 ? argv[1] : "knot", argc > 2 ? atof(argv[2]) : 100000)) {
+        fprintf(stderr, "bench-rays: unknown scene '%s'; expected knot, stl, soup or beams\n", argv[1]);
+        return 2;
+    }
     lam_light light = lam_light_default(LAM_LIGHT_POINT);
     lam_scene_add_light(scene, &light, &error);
     lam_camera camera = lam_camera_fit(scene, SIDE, SIDE, NULL);
@@ -230,20 +402,69 @@ int main(int argc, char **argv)
         return 1;
     }
     const struct hierarchy *h = NULL;
-    double best = 1e9;
-    for (int round = 0; round < ROUNDS; round++) {
+    double own_built = 1e9, embree_built[2] = {1e9, 1e9};
+#ifdef HAS_EMBREE
+    RTCDevice device = rtcNewDevice("threads=1,set_affinity=0,isa=" ISA_NAME);
+    RTCScene embree = NULL;
+#endif
+    for (int round = 0; round < (frame.triangle_count < 3000000 ? 5 : 2); round++) {
         bool built;
         hierarchy_free(&memory);
         double start = seconds();
         h = hierarchy_of_frame(&memory, &frame, NULL, NULL, &built, &error);
-        best = fmin(best, seconds() - start);
-    }
-    printf("lambent: %u triangles, built in %.1f ms\n", h->triangle_count, best * 1e3);
-    make_rays(h, (const double[3]){0.9, 1.2, 0.7});
-    measure_own(h);
+        own_built = fmin(own_built, seconds() - start);
 #ifdef HAS_EMBREE
-    measure_embree(h);
+        rtcReleaseScene(embree_scene(device, h, RTC_BUILD_QUALITY_LOW, &embree_built[0]));
+        if (embree)
+            rtcReleaseScene(embree);
+        embree = embree_scene(device, h, RTC_BUILD_QUALITY_MEDIUM, &embree_built[1]);
+#endif
+    }
+    make_rays(h, (const double[3]){0.9, 1.2, 0.7});
+    const struct tree_node *tree = own_tree(h, 0);
+    double own_cost[2] = {relative_cost(tree, 8), relative_cost(tree, 1)};
+    printf("%s, %u triangles: %.1f bytes each, built in %.1f ms, cost %.2f by tests of eight triangles, %.2f by "
+           "triangles\n",
+           ISA_NAME, h->triangle_count, (double)hierarchy_bytes(&memory) / h->triangle_count, own_built * 1e3,
+           own_cost[0], own_cost[1]);
+#ifdef HAS_EMBREE
+    double cost[2];
+    embree_cost(device, h, cost);
+    printf("Embree: medium %.1f ms (ratio %.2f), low %.1f ms (%.2f), cost %.2f (%.2f), %.2f (%.2f)\n",
+           embree_built[1] * 1e3, own_built / embree_built[1], embree_built[0] * 1e3, own_built / embree_built[0],
+           cost[0], own_cost[0] / cost[0], cost[1], own_cost[1] / cost[1]);
+#endif
+    for (int kind = 0; kind < 2; kind++) {
+        double own = 1e9;
+        long hits = 0;
+#ifdef HAS_EMBREE
+        static const int widths[3] = {1, 8, 16};
+        double theirs = 1e9;
+        long their_hits = 0;
+        int best = 0;
+        for (int round = 0; round < ROUNDS; round++)
+            for (int k = 0; k < 3; k++) {
+                own = fmin(own, own_round(h, kind, &hits));
+                double start = seconds();
+                their_hits = embree_round(embree, kind, widths[k]);
+                double taken = seconds() - start;
+                best = taken < theirs ? widths[k] : best;
+                theirs = fmin(theirs, taken);
+            }
+        printf("%-9s %6.2f Mray/s (%.1f %% shadowed), Embree (%d) %6.2f (%.1f %%), ratio %.2f\n", names[kind],
+               RAYS / own * 1e-6, 100.0 * (double)hits / RAYS, best, RAYS / theirs * 1e-6,
+               100.0 * (double)their_hits / RAYS, theirs / own);
 #else
+        for (int round = 0; round < ROUNDS; round++)
+            own = fmin(own, own_round(h, kind, &hits));
+        printf("%-9s %6.2f Mray/s (%.1f %% shadowed)\n", names[kind], RAYS / own * 1e-6, 100.0 * (double)hits / RAYS);
+#endif
+    }
+#ifdef HAS_EMBREE
+    rtcReleaseScene(embree);
+    rtcReleaseDevice(device);
+#else
+    (void)embree_built;
     printf("built without Embree (libembree-dev)\n");
 #endif
     hierarchy_free(&memory);

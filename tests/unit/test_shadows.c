@@ -483,7 +483,7 @@ TEST(test_refused)
     AUTO_IMAGE image = {0};
     lam_image_make(&image, SIZE, SIZE, LAM_RGBA8, &error);
     lam_draw_params params = {.samples = 1};
-    lam_control control = {.memory_limit_bytes = 24 << 20};
+    lam_control control = {.memory_limit_bytes = 14 << 20};
     assert_true(lam_draw(own, scene, &camera, &params, &image, &control, &error));
     params.shadows = true;
     assert_false(lam_draw(own, scene, &camera, &params, &image, &control, &error));

@@ -5,11 +5,11 @@
 #include "hierarchy.h"
 #include "loop_status.h"
 
-// The number of triangles per task in ray_triangles.c; cells.c uses at least eight times this number.
+// The number of triangles per task in ray_triangles.c.
 enum { RAY_CHUNK = 4096 };
 
-// The box of a triangle. low[3] contains the bits of the triangle's number, and high[3] the bits of 1. For a cell's
-// triangles (cells.c), low[3] is the first triangle and high[3] the count.
+// The box of a triangle. low[3] contains the bits of the triangle's index in a list, and high[3] the bits of 1. For a
+// cell's triangles (cells.c), low[3] is the cell and high[3] the count.
 struct primitive {
     _Alignas(16) float low[4];
     float high[4];
@@ -38,23 +38,21 @@ static inline void primitive_note(struct primitive *p, uint32_t number, uint32_t
 struct builder {
     const struct frame *frame;
     struct hierarchy *hierarchy;
-    struct ray_triangle *triangles; // the triangles in the order of the leaves
-    struct ray_node *nodes;
+    float *leaves;
     uint32_t *twins;
-    struct primitive *primitives; // the primitives of the ranges that are being divided
-    struct primitive *in_cells;   // the primitives of a large range, sorted by cell
+    bool has_twins;        // whether a triangle is not its own twin; atomic
+    uint32_t *numbers;     // the triangles in the order of the ranges
+    bool sorted;           // whether `numbers` is filled
+    float low[4], high[4]; // of all corners in the hierarchy's space
+    struct buffer *nodes;
     struct pool *pool;
     struct loop_status loop;
 };
 
-// Sets the primitives, and the hierarchy's centre and scale.
-bool ray_triangles_prepare(struct builder *builder, lam_error *error);
+// Sets the hierarchy's centre and scale, and the bounds of all corners.
+bool ray_space_choose(struct builder *builder, lam_error *error);
 
-// Returns the largest number of nodes for a range of this many triangles. A node with fewer than NODE_CHILDREN children
-// has only leaves, and more than LEAF_MIN triangles. By induction, the number of nodes is at most (2 count − 1)/7.
-static inline uint32_t ray_nodes_below(uint32_t count) { return count ? (uint32_t)((2 * (uint64_t)count - 1) / 7) : 0; }
-
-// Divides the primitives into nodes and leaves.
+// Divides the triangles into nodes and leaves.
 bool ray_nodes_build(struct builder *builder, lam_error *error);
 
 #endif

@@ -6,23 +6,14 @@
 
 #include <string.h>
 
-// All data that a hierarchy depends on. Equal pointers mean equal contents, since a scene never modifies its arrays.
-struct source {
-    const float *positions;
-    const uint32_t *indices;
-    uint32_t triangle_count, first_id;
-    bool blocks;
-    double world[3][4];
-};
-
 static bool same_sources(const struct hierarchy_memory *memory, const struct frame *frame)
 {
-    if (memory->token != frame->token || memory->source_count != frame->draw_count)
+    if (memory->token != frame->token || memory->hierarchy.source_count != frame->draw_count)
         return false;
-    const struct source *sources = memory->sources.data;
+    const struct ray_source *sources = memory->sources.data;
     for (int i = 0; i < frame->draw_count; i++) {
         const struct frame_draw *draw = &frame->draws[i];
-        const struct source *s = &sources[i];
+        const struct ray_source *s = &sources[i];
         if (s->positions != draw->mesh->positions || s->indices != draw->mesh->indices ||
             s->triangle_count != draw->mesh->triangle_count || s->first_id != draw->first_id ||
             s->blocks != frame_draw_blocks(draw))
@@ -49,17 +40,13 @@ static void add_rounding(struct hierarchy *h, const struct frame_draw *draw)
 
 static void note_sources(struct hierarchy_memory *memory, const struct frame *frame)
 {
-    struct source *sources = memory->sources.data;
+    struct ray_source *sources = memory->sources.data;
     for (int i = 0; i < frame->draw_count; i++) {
         const struct frame_draw *draw = &frame->draws[i];
-        if (frame_draw_casts(draw))
-            add_rounding(&memory->hierarchy, draw);
-        sources[i] = (struct source){draw->mesh->positions, draw->mesh->indices,     draw->mesh->triangle_count,
-                                     draw->first_id,        frame_draw_blocks(draw), {{0}}};
+        sources[i] = (struct ray_source){draw->mesh->positions, draw->mesh->indices,     draw->mesh->triangle_count,
+                                         draw->first_id,        frame_draw_blocks(draw), {{0}}};
         memcpy(sources[i].world, draw->world, sizeof sources[i].world);
     }
-    memory->source_count = frame->draw_count;
-    memory->token = scene_token_hold(frame->token);
 }
 
 static void forget(struct hierarchy_memory *memory)
@@ -72,37 +59,43 @@ const struct hierarchy *hierarchy_of_frame(struct hierarchy_memory *memory, cons
                                            struct pool *pool, struct call_control *call, bool *built, lam_error *error)
 {
     struct hierarchy *h = &memory->hierarchy;
-    size_t count = frame->triangle_count, nodes = 1 + (size_t)ray_nodes_below(frame->triangle_count);
+    size_t count = frame->triangle_count;
     *built = false;
     if (memory->token && same_sources(memory, frame))
         return h;
     forget(memory);
-    if (!buffer_reserve(&memory->sources, ((size_t)frame->draw_count + 1) * sizeof(struct source), call, error) ||
-        !buffer_reserve(&memory->nodes, nodes * sizeof(struct ray_node), call, error) ||
-        !buffer_reserve(&memory->triangles, (count + 1) * sizeof(struct ray_triangle), call, error) ||
+    buffer_release(&memory->nodes, call);
+    if (!buffer_reserve(&memory->sources, ((size_t)frame->draw_count + 1) * sizeof(struct ray_source), call, error) ||
+        !buffer_reserve(&memory->leaves, (count + 1) * LEAF_FLOATS * sizeof(float), call, error) ||
         !buffer_reserve(&memory->twins, (count + 1) * sizeof(uint32_t), call, error) ||
-        !buffer_reserve(&memory->scratch, 2 * (count + 1) * sizeof(struct primitive), call, error))
+        !buffer_reserve(&memory->scratch, (count + 1) * sizeof(uint32_t), call, error))
         return NULL;
     struct builder builder = {.frame = frame,
                               .hierarchy = h,
-                              .triangles = memory->triangles.data,
-                              .nodes = memory->nodes.data,
+                              .leaves = memory->leaves.data,
                               .twins = memory->twins.data,
+                              .numbers = memory->scratch.data,
+                              .nodes = &memory->nodes,
                               .pool = pool,
                               .loop = {.call = call}};
-    builder.primitives = memory->scratch.data;
-    builder.in_cells = builder.primitives + count;
-    *h = (struct hierarchy){.nodes = builder.nodes,
-                            .triangles = builder.triangles,
+    note_sources(memory, frame);
+    *h = (struct hierarchy){.leaves = builder.leaves,
                             .twins = builder.twins,
-                            .node_count = (uint32_t)nodes,
+                            .sources = memory->sources.data,
+                            .source_count = frame->draw_count,
                             .triangle_count = (uint32_t)count};
-    bool ok = ray_triangles_prepare(&builder, error) && ray_nodes_build(&builder, error);
-    // The scratch memory is half as large as the hierarchy, and is needed again only after an object moves.
-    buffer_release(&memory->scratch, call);
+    bool ok = ray_space_choose(&builder, error) && ray_nodes_build(&builder, error);
+    buffer_release(&memory->scratch, call); // needed again only after an object moves
     if (!ok)
         return NULL;
-    note_sources(memory, frame);
+    if (!builder.has_twins) {
+        buffer_release(&memory->twins, call);
+        h->twins = NULL;
+    }
+    for (int i = 0; i < frame->draw_count; i++)
+        if (frame_draw_casts(&frame->draws[i]))
+            add_rounding(h, &frame->draws[i]);
+    memory->token = scene_token_hold(frame->token);
     *built = true;
     return h;
 }
@@ -111,7 +104,7 @@ void hierarchy_free(struct hierarchy_memory *memory)
 {
     forget(memory);
     buffer_free(&memory->nodes);
-    buffer_free(&memory->triangles);
+    buffer_free(&memory->leaves);
     buffer_free(&memory->twins);
     buffer_free(&memory->scratch);
     buffer_free(&memory->sources);
@@ -119,6 +112,6 @@ void hierarchy_free(struct hierarchy_memory *memory)
 
 uint64_t hierarchy_bytes(const struct hierarchy_memory *memory)
 {
-    return memory->nodes.capacity + memory->triangles.capacity + memory->twins.capacity + memory->scratch.capacity +
+    return memory->nodes.capacity + memory->leaves.capacity + memory->twins.capacity + memory->scratch.capacity +
            memory->sources.capacity;
 }

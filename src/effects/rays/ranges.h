@@ -48,15 +48,14 @@ static inline float half_area(struct box b)
 // A range of primitives that becomes nodes.
 struct range {
     uint32_t first, count; // triangles
-    uint32_t node;         // the index of the first node reserved for the range (ray_nodes_below(count) nodes)
     int depth;
     bool sorted;                     // whether all centres are equal, and the primitives are in the order of sort_group
-    uint32_t first_cell, cell_count; // the cells that contain the triangles; 0 if the triangles are in
-                                     // builder.primitives
+    uint32_t first_cell, cell_count; // the cells that contain the triangles (cells.c)
     struct box box, middles;         // the box of the primitives or cells, and the box of twice their centres
     float area;                      // half of the box's surface area
-    uint32_t *child, *child_count;   // receive the range's node or leaf; NULL for the root
+    uint32_t parent, slot;           // the node that contains the range as a child, or NO_PARENT (cells.c)
 };
+#define NO_PARENT 0xffffffffu
 
 // Reduces a range to its first `left` triangles, and sets *right to the rest.
 static inline void halves_of(struct range *r, uint32_t left, const struct box boxes[2], const struct box middles[2],
@@ -76,15 +75,16 @@ static inline void halves_of(struct range *r, uint32_t left, const struct box bo
 }
 
 // Returns the part with the largest box among the parts that `open` marks as divisible, or −1 if there is none.
-static inline int widest_part(const struct range *parts, const bool *open, int count)
+static inline int widest_part(const struct range *parts, const bool *open, int count, uint32_t first)
 {
     int widest = -1;
     float most = -1;
-    for (int i = 0; i < count; i++)
-        if (open[i] && parts[i].area > most) {
-            most = parts[i].area;
-            widest = i;
-        }
+    for (int pass = 0; pass < 2 && widest < 0; pass++, first = 0)
+        for (int i = 0; i < count; i++)
+            if (open[i] && parts[i].count > first && parts[i].area > most) {
+                most = parts[i].area;
+                widest = i;
+            }
     return widest;
 }
 
@@ -203,18 +203,22 @@ static inline uint32_t partition(struct primitive *p, uint32_t count, const stru
 
 // --- the nodes of one range (splits.c)
 
-// Computes the box of a range's primitives, and the box of twice their centres.
+// Computes the box of primitives, and the box of twice their centres.
 void range_measure(const struct primitive *p, uint32_t count, struct box *box, struct box *middles);
 
-// Divides a range: reduces `range` to the left half, and sets *right to the right half. Returns false if the range
-// becomes a leaf, or if memory runs out.
-bool range_halve(struct builder *builder, struct range *range, struct range *right);
+// Sets the planes of a node whose children have the boxes of `parts`.
+void range_set_planes(struct ray_node *node, const struct range *parts, int count);
 
-// Stores the node of a range that was divided into `parts`, and sets the addresses at which the parts store their
-// nodes.
-void range_enter_node(struct builder *builder, const struct range *range, struct range *parts, int count);
+// The nodes of a range. The first of them has the triangles of the whole range, and the children that are nodes are
+// counted from there. Without nodes, the range is a leaf.
+struct range_nodes {
+    struct ray_node *list;
+    uint32_t count;
+};
 
-// Makes the nodes of a range, or a leaf if the range is not divided. The root is always a node.
-void range_divide(struct builder *builder, const struct range *range);
+// Makes the nodes and leaves of a range with one thread. A range without a parent gets at least one node. Returns false
+// if memory runs out.
+bool range_divide(struct builder *builder, const struct range *range, struct range_nodes *nodes);
+void range_nodes_free(struct builder *builder, struct range_nodes *nodes);
 
 #endif

@@ -2,8 +2,9 @@
 // file.
 //
 // A ray is origin + t direction with 0 < t < end, in the hierarchy's space. Only crosses() decides whether a ray meets
-// a triangle. crosses() uses double and a fixed order of operations; boxes merely save work. The result therefore does
-// not depend on the hierarchy, on the number of lanes, or on which rays are traced together.
+// a triangle. crosses() uses double and a fixed order of operations; boxes, and the same test with the floats of a leaf
+// (may_cross), merely save work. The result therefore does not depend on the hierarchy, on the number of lanes, or on
+// which rays are traced together.
 //
 // The test is from Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2013). Seen along the ray, with
 // the origin at (0, 0), the signs of cross products of a triangle's corners show the side on which the ray passes each
@@ -42,8 +43,9 @@ struct ray_lanes {
 // k need fewer operations, with the same results.
 struct ray_view {
     _Alignas(64) double x[3][LANES], y[3][LANES], z[3][LANES];
-    unsigned of_k[3]; // for each k, the rays with this k
-    int k, i, j;      // the common k of the requested rays (only row k is then used), or −1 if there is none
+    float to_x[LANES], to_y[LANES]; // −d_i/d_k and −d_j/d_k
+    unsigned of_k[3];               // for each k, the rays with this k
+    int k, i, j; // the common k of the requested rays (only row k is then used), or −1 if there is none
 };
 
 LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
@@ -62,6 +64,8 @@ LANE_FN void view_along(struct ray_view *v, const struct ray_lanes *ray)
         dnum inverse = one / dpick(on_x, d[0], dpick(on_y, d[1], d[2]));
         dnum to_x = -(dpick(on_x, d[1], dpick(on_y, d[2], d[0])) * inverse);
         dnum to_y = -(dpick(on_x, d[2], dpick(on_y, d[0], d[1])) * inverse);
+        dnum_store_float(v->to_x + at, to_x);
+        dnum_store_float(v->to_y + at, to_y);
         for (int k = 0; k < 3; k++) {
             int before = (k + 2) % 3, after = (k + 1) % 3; // i is after k, and j is before k, in cyclic order
             v->of_k[k] |= dmask_bits(on[k]) << at;
@@ -179,6 +183,7 @@ LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_tria
 // outwards by this distance.
 struct box_rays {
     _Alignas(64) float low[3][LANES], high[3][LANES]; // the origin, to be subtracted from a box's low and high planes
+    float origin[3][LANES], error[LANES];             // for may_cross
     float direction[3][LANES], inverse[3][LANES], end[LANES];
     unsigned down[3]; // the rays that meet the high plane of an axis first
     unsigned proper;  // rays with a direction; a ray from a light to the same point has no direction, and meets nothing
@@ -186,7 +191,6 @@ struct box_rays {
 
 LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
 {
-    _Alignas(64) float origin[3][LANES];
     num reach = num_of(1.0f);
     for (int at = 0; at < LANES; at += DLANES) {
         dnum d[3], size;
@@ -194,7 +198,7 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
             d[i] = dnum_load(ray->direction[i] + at);
             dnum own = dabsolute(d[i]);
             size = i ? dpick(own > size, own, size) : own;
-            dnum_store_float(origin[i] + at, dnum_load(ray->origin[i] + at));
+            dnum_store_float(b->origin[i] + at, dnum_load(ray->origin[i] + at));
         }
         dnum inverse = 1 / size;
         for (int i = 0; i < 3; i++)
@@ -202,15 +206,16 @@ LANE_FN void box_rays_of(struct box_rays *b, const struct ray_lanes *ray)
         dnum_store_float(b->end + at, dnum_load(ray->end + at) * size);
     }
     for (int i = 0; i < 3; i++)
-        reach = max_of(reach, 1.0f + absolute(num_load(origin[i])));
+        reach = max_of(reach, 1.0f + absolute(num_load(b->origin[i])));
+    num_store(b->error, reach * 0x1p-20f);
     reach = reach * 0x1p-21f;
     num sum = num_of(0.0f);
     for (int i = 0; i < 3; i++) {
         num d = num_load(b->direction[i]);
         b->down[i] = mask_bits(d < 0.0f);
-        sum += (d + num_load(origin[i])) * 0.0f;
-        num_store(b->low[i], num_load(origin[i]) + reach);
-        num_store(b->high[i], num_load(origin[i]) - reach);
+        sum += (d + num_load(b->origin[i])) * 0.0f;
+        num_store(b->low[i], num_load(b->origin[i]) + reach);
+        num_store(b->high[i], num_load(b->origin[i]) - reach);
         // The direction is parallel to the planes: the ray never reaches the planes, or reaches them too far away to
         // matter.
         num least = pick(d < 0.0f, num_of(-1e-30f), num_of(1e-30f));
@@ -250,43 +255,69 @@ LANE_FN unsigned bundle_lanes(const struct box_rays *b, unsigned rest)
 
 LANE_FN void bundle_of(struct ray_bundle *bundle, const struct box_rays *b, unsigned lanes)
 {
-    bool single = !(lanes & (lanes - 1));
     int one = __builtin_ctz(lanes);
     mask within = mask_of_bits(lanes);
     bundle->lanes = lanes;
     // Rays outside the bundle are replaced by the ray `one`.
-    bundle->end = eight_of(single ? b->end[one] : -min_lane(-pick(within, num_load(b->end), num_of(b->end[one]))));
+    bundle->end = eight_of(-min_lane(-pick(within, num_load(b->end), num_of(b->end[one]))));
     for (int i = 0; i < 3; i++) {
         bool down = b->down[i] >> one & 1;
         bundle->first[i] = NODE_CHILDREN * (down ? 3 + i : i);
         bundle->last[i] = NODE_CHILDREN * (down ? i : 3 + i);
         bundle->start[i] = down ? b->high[i] : b->low[i];
         bundle->stop[i] = down ? b->low[i] : b->high[i];
-        float low = b->low[i][one], high = b->high[i][one], least = b->inverse[i][one], most = least;
-        if (!single) {
-            num inverse = pick(within, num_load(b->inverse[i]), num_of(least));
-            low = -min_lane(-pick(within, num_load(b->low[i]), num_of(low)));
-            high = min_lane(pick(within, num_load(b->high[i]), num_of(high)));
-            least = min_lane(inverse);
-            most = -min_lane(-inverse);
-        }
+        num inverse = pick(within, num_load(b->inverse[i]), num_of(b->inverse[i][one]));
+        float low = -min_lane(-pick(within, num_load(b->low[i]), num_of(b->low[i][one])));
+        float high = min_lane(pick(within, num_load(b->high[i]), num_of(b->high[i][one])));
         bundle->near[i] = eight_of(down ? high : low);
         bundle->far[i] = eight_of(down ? low : high);
-        bundle->least[i] = eight_of(least);
-        bundle->most[i] = eight_of(most);
+        bundle->least[i] = eight_of(min_lane(inverse));
+        bundle->most[i] = eight_of(-min_lane(-inverse));
     }
 }
 
-// Returns the children of a node that a bundle may meet, as bits. `single` means that the bundle is one ray.
-LANE_FN unsigned meets_children(const struct ray_bundle *b, const struct ray_node *node, bool single)
+// Returns the children of a node that a bundle may meet, as bits.
+LANE_FN unsigned meets_children(const struct ray_bundle *b, const struct ray_node *node)
 {
     const float *planes = node->planes[0][0];
     eight near = eight_of(0), far = b->end;
     for (int i = 0; i < 3; i++) {
         eight a = eight_load(planes + b->first[i]) - b->near[i];
         eight c = eight_load(planes + b->last[i]) - b->far[i];
-        near = eight_max(single ? a * b->least[i] : eight_min(a * b->least[i], a * b->most[i]), near);
-        far = eight_min(single ? c * b->least[i] : eight_max(c * b->least[i], c * b->most[i]), far);
+        near = eight_max(eight_min(a * b->least[i], a * b->most[i]), near);
+        far = eight_min(eight_max(c * b->least[i], c * b->most[i]), far);
+    }
+    return eight_not_above(near, far);
+}
+
+// One ray, with the floats of box_rays.
+struct lone_ray {
+    int first[3], last[3]; // as in ray_bundle
+    float near[3], far[3], inverse[3], end;
+};
+
+LANE_FN void lone_ray_of(struct lone_ray *r, const struct box_rays *b, int lane)
+{
+    for (int i = 0; i < 3; i++) {
+        bool down = b->down[i] >> lane & 1;
+        r->first[i] = NODE_CHILDREN * (down ? 3 + i : i);
+        r->last[i] = NODE_CHILDREN * (down ? i : 3 + i);
+        r->near[i] = down ? b->high[i][lane] : b->low[i][lane];
+        r->far[i] = down ? b->low[i][lane] : b->high[i][lane];
+        r->inverse[i] = b->inverse[i][lane];
+    }
+    r->end = b->end[lane];
+}
+
+// Returns the children of a node that a ray meets, as bits.
+LANE_FN unsigned meets_alone(const struct lone_ray *r, const struct ray_node *node)
+{
+    const float *planes = node->planes[0][0];
+    eight near = eight_of(0), far = eight_of(r->end);
+    for (int i = 0; i < 3; i++) {
+        eight inverse = eight_of(r->inverse[i]);
+        near = eight_max((eight_load(planes + r->first[i]) - eight_of(r->near[i])) * inverse, near);
+        far = eight_min((eight_load(planes + r->last[i]) - eight_of(r->far[i])) * inverse, far);
     }
     return eight_not_above(near, far);
 }
@@ -305,25 +336,147 @@ LANE_FN unsigned meets_child(const struct box_rays *b, const struct ray_bundle *
     return mask_bits(near <= far);
 }
 
+// --- leaves
+
+// One ray, with the floats of box_rays and ray_view.
+struct leaf_ray {
+    int32_t own;
+    uint32_t axes[3]; // i, j and k of ray_view
+    float origin[3];  // along these axes
+    float to_x, to_y, error;
+};
+
+LANE_FN void leaf_ray_of(struct leaf_ray *r, const struct ray_lanes *ray, const struct box_rays *b,
+                         const struct ray_view *view, int lane)
+{
+    uint32_t k = view->of_k[0] >> lane & 1 ? 0 : view->of_k[1] >> lane & 1 ? 1 : 2;
+    *r = (struct leaf_ray){.own = ray->own[lane],
+                           .axes = {k == 2 ? 0 : k + 1, k == 0 ? 2 : k - 1, k},
+                           .to_x = view->to_x[lane],
+                           .to_y = view->to_y[lane],
+                           .error = b->error[lane]};
+    for (int n = 0; n < 3; n++)
+        r->origin[n] = b->origin[r->axes[n]][lane];
+}
+
+// Tests eight triangles for may_cross.
+LANE_FN unsigned may_cross_eight(const float *leaf, uint32_t count, const struct leaf_ray *r)
+{
+    const float *at[3] = {leaf + (size_t)r->axes[0] * count, leaf + (size_t)r->axes[1] * count,
+                          leaf + (size_t)r->axes[2] * count};
+    eight x[3], y[3], sum = eight_of(r->error), to_x = eight_of(r->to_x), to_y = eight_of(r->to_y);
+    eight origin[3] = {eight_of(r->origin[0]), eight_of(r->origin[1]), eight_of(r->origin[2])};
+    for (int c = 0; c < 3; c++) {
+        size_t row = (size_t)3 * (size_t)c * count;
+        eight depth = eight_load(at[2] + row) - origin[2];
+        x[c] = (eight_load(at[0] + row) - origin[0]) + to_x * depth;
+        y[c] = (eight_load(at[1] + row) - origin[1]) + to_y * depth;
+        sum += eight_absolute(x[c]) + eight_absolute(y[c]);
+    }
+    eight w0 = x[1] * y[2] - y[1] * x[2], w1 = x[2] * y[0] - y[2] * x[0], w2 = x[0] * y[1] - y[0] * x[1];
+    eight most = eight_max(eight_max(w0, w1), w2), least = eight_min(eight_min(w0, w1), w2);
+    eight error = sum * eight_of(r->error);
+    unsigned may = eight_not_above(most, error) | eight_not_above(-error, least);
+    return may & ~eight_same(eight_load(leaf + (LEAF_FLOATS - 1) * (size_t)count), r->own);
+}
+
+// Returns the triangles of a leaf that a ray may cross, as bits, without the one that the ray starts on. This is the test
+// of crosses() with floats. Let R be 1 plus the largest coordinate of the origin. Corners and the origin are rounded, so
+// the coordinates x and y that crosses() computes differ by less than 8.1 · 2⁻²⁴ R, and a product of two of them and its
+// rounding by less than 10.1 · 2⁻²⁴ R (|x| + |y|) + 65.7 · 2⁻⁴⁸ R². With c = 2⁻²⁰ R, each w therefore differs by less
+// than c (Σ (|x| + |y|) + c). If the origin is far away (c ≥ 1, or not a number), the ray may cross every triangle.
+LANE_FN unsigned may_cross(const float *leaf, uint32_t count, const struct leaf_ray *r)
+{
+    unsigned bits = r->error < 1 ? may_cross_eight(leaf, count, r) : ~0u;
+    if (count > 8 && r->error < 1)
+        bits |= may_cross_eight(leaf + 8, count, r) << 8;
+    return bits & ((1u << count) - 1);
+}
+
 // --- traversal
 
 // Decides which rays a triangle blocks. Returns the `lanes` whose rays are blocked.
 typedef unsigned ray_filter(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
                             const struct ray_view *view, unsigned lanes);
 
-// Returns the lanes of a bundle whose rays are blocked.
-LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *ray, const struct ray_view *view,
-                             const struct box_rays *boxes, const struct ray_bundle *bundle, ray_filter *filter,
-                             void *user, bool single)
+// Rays that traverse a hierarchy.
+struct traversal {
+    const struct hierarchy *hierarchy;
+    const struct ray_lanes *ray;
+    ray_filter *filter;
+    void *user;
+    struct ray_view view;
+    struct box_rays boxes;
+};
+
+// Returns the rays of `lanes` that a triangle blocks.
+static __attribute__((noinline, unused)) unsigned blocked_by(const struct traversal *t, uint32_t number, unsigned lanes)
 {
-    struct {
-        uint32_t node;
-        unsigned children;
-    } stack[HIERARCHY_DEPTH];
+    struct ray_triangle triangle;
+    hierarchy_triangle(t->hierarchy, number, &triangle);
+    lanes = crosses(&triangle, t->ray, &t->view, lanes, NULL, NULL);
+    lanes = lanes ? lanes & ~through_points(t->hierarchy, &triangle, t->ray, lanes) : 0;
+    return t->filter && lanes ? t->filter(t->user, &triangle, t->ray, &t->view, lanes) : lanes;
+}
+
+// Returns the rays of `lanes` that the triangles of a leaf block.
+LANE_FN unsigned blocked_in_leaf(const struct traversal *t, const struct leaf_ray rays[LANES], uint32_t first,
+                                 uint32_t count, unsigned lanes)
+{
+    const float *leaf = t->hierarchy->leaves + LEAF_FLOATS * (size_t)first;
+    unsigned found[LANES], any = 0, blocked = 0;
+    for (unsigned rest = lanes; rest; rest &= rest - 1) {
+        int n = __builtin_ctz(rest);
+        any |= found[n] = may_cross(leaf, count, &rays[n]);
+    }
+    for (; any; any &= any - 1) {
+        uint32_t i = (uint32_t)__builtin_ctz(any), number = leaf_number(leaf, count, i);
+        unsigned there = 0;
+        for (unsigned rest = lanes & ~blocked; rest; rest &= rest - 1) {
+            int n = __builtin_ctz(rest);
+            there |= (found[n] >> i & 1) << n;
+        }
+        blocked |= there ? blocked_by(t, number, there) : 0;
+    }
+    return blocked;
+}
+
+// Returns whether the triangles of a leaf block the ray of a lane.
+LANE_FN bool blocked_alone(const struct traversal *t, const struct leaf_ray *ray, uint32_t first, uint32_t count,
+                           int lane)
+{
+    const float *leaf = t->hierarchy->leaves + LEAF_FLOATS * (size_t)first;
+    for (unsigned any = may_cross(leaf, count, ray); any; any &= any - 1)
+        if (blocked_by(t, leaf_number(leaf, count, (uint32_t)__builtin_ctz(any)), 1u << lane))
+            return true;
+    return false;
+}
+
+LANE_FN void prefetch_child(const struct hierarchy *h, uint32_t child, uint32_t count)
+{
+    const char *at = count ? (const char *)(h->leaves + LEAF_FLOATS * (size_t)child) : (const char *)&h->nodes[child];
+    for (int line = 0; line < 4; line++)
+        __builtin_prefetch(at + (size_t)64 * (size_t)line);
+}
+
+// Children of a node that remain to be visited, as bits.
+struct remaining {
+    uint32_t node;
+    unsigned children;
+};
+
+// Returns the lanes of a bundle whose rays are blocked.
+LANE_FN unsigned walk_bundle(const struct traversal *t, const struct ray_bundle *bundle)
+{
+    const struct hierarchy *h = t->hierarchy;
+    struct remaining stack[HIERARCHY_DEPTH];
+    struct leaf_ray rays[LANES];
     int waiting = 0;
     unsigned lanes = bundle->lanes;
+    for (unsigned rest = lanes; rest; rest &= rest - 1)
+        leaf_ray_of(&rays[__builtin_ctz(rest)], t->ray, &t->boxes, &t->view, __builtin_ctz(rest));
     const struct ray_node *node = h->nodes;
-    unsigned children = meets_children(bundle, node, single);
+    unsigned children = meets_children(bundle, node);
     for (;;) {
         while (!children) {
             if (!waiting)
@@ -334,55 +487,105 @@ LANE_FN unsigned walk_bundle(const struct hierarchy *h, const struct ray_lanes *
         int i = __builtin_ctz(children);
         uint32_t child = node->child[i], count = node->count[i];
         children &= children - 1;
-        if (children) { // the next node
-            int next = __builtin_ctz(children);
-            __builtin_prefetch(node->count[next] ? (const void *)&h->triangles[node->child[next]]
-                                                 : (const void *)&h->nodes[node->child[next]]);
-        }
         if (!count) {
-            if (children) {
-                stack[waiting].node = (uint32_t)(node - h->nodes);
-                stack[waiting++].children = children;
-            }
+            if (children)
+                stack[waiting++] = (struct remaining){(uint32_t)(node - h->nodes), children};
             node = &h->nodes[child];
-            children = meets_children(bundle, node, single);
+            children = meets_children(bundle, node);
+            for (unsigned rest = children; rest; rest &= rest - 1)
+                prefetch_child(h, node->child[__builtin_ctz(rest)], node->count[__builtin_ctz(rest)]);
             continue;
         }
-        unsigned there = single ? lanes : lanes & meets_child(boxes, bundle, node, i);
-        for (uint32_t n = child; n < child + count && there; n++) {
-            unsigned found = crosses(&h->triangles[n], ray, view, there, NULL, NULL);
-            found = found ? found & ~through_points(h, &h->triangles[n], ray, found) : 0;
-            if (filter && found)
-                found = filter(user, &h->triangles[n], ray, view, found);
-            there &= ~found;
-            lanes &= ~found;
-        }
+        lanes &= ~blocked_in_leaf(t, rays, child, count, lanes & meets_child(&t->boxes, bundle, node, i));
         if (!lanes)
             return bundle->lanes;
     }
+}
+
+// Returns the rays of `lanes` that are blocked. Each ray is traced alone, but the rays take turns: while the next node of
+// one ray is loaded from memory, the others continue.
+LANE_FN unsigned walk_alone(const struct traversal *t, unsigned lanes)
+{
+    const struct hierarchy *h = t->hierarchy;
+    struct remaining stack[LANES][HIERARCHY_DEPTH + 1]; // the first entry has no children
+    struct walk {
+        uint32_t child, count; // the next node or leaf
+        int lane;
+        struct remaining *top;
+        struct lone_ray ray;
+        struct leaf_ray leaf_ray;
+    } walks[LANES];
+    unsigned blocked = 0;
+    int left = 0;
+    for (unsigned rest = lanes; rest; rest &= rest - 1, left++) {
+        int n = __builtin_ctz(rest);
+        walks[left].child = walks[left].count = 0;
+        walks[left].lane = n;
+        walks[left].top = stack[left];
+        *walks[left].top = (struct remaining){0};
+        lone_ray_of(&walks[left].ray, &t->boxes, n);
+        leaf_ray_of(&walks[left].leaf_ray, t->ray, &t->boxes, &t->view, n);
+    }
+    while (left)
+        for (int n = left - 1; n >= 0; n--) {
+            struct walk *w = &walks[n];
+            uint32_t node = w->child;
+            unsigned children = 0;
+            if (!w->count) {
+                children = meets_alone(&w->ray, &h->nodes[node]);
+            } else if (blocked_alone(t, &w->leaf_ray, node, w->count, w->lane)) {
+                blocked |= 1u << w->lane;
+                *w = walks[--left];
+                continue;
+            }
+            if (!children) {
+                children = w->top->children;
+                node = w->top->node;
+                if (!children) {
+                    *w = walks[--left];
+                    continue;
+                }
+                w->top--;
+            }
+            int i = __builtin_ctz(children);
+            w->child = h->nodes[node].child[i];
+            w->count = h->nodes[node].count[i];
+            prefetch_child(h, w->child, w->count);
+            children &= children - 1;
+            if (children)
+                *++w->top = (struct remaining){node, children};
+        }
+    return blocked;
 }
 
 // Returns the lanes of `active` whose rays are blocked. If `filter` is NULL, every triangle blocks a ray.
 LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray, unsigned active, ray_filter *filter,
                          void *user)
 {
-    struct box_rays boxes;
+    struct traversal t;
     struct ray_bundle bundle;
-    struct ray_view view;
-    unsigned hit = 0;
+    unsigned hit = 0, alone = 0;
     if (!h->triangle_count || !active)
         return 0;
-    box_rays_of(&boxes, ray);
-    view_along(&view, ray);
-    for (unsigned rest = active & boxes.proper; rest; rest &= ~bundle.lanes) {
-        bundle_of(&bundle, &boxes, bundle_lanes(&boxes, rest));
-        view_common(&view, bundle.lanes);
-        if (bundle.lanes & (bundle.lanes - 1))
-            hit |= walk_bundle(h, ray, &view, &boxes, &bundle, filter, user, false);
-        else
-            hit |= walk_bundle(h, ray, &view, &boxes, &bundle, filter, user, true);
+    t.hierarchy = h;
+    t.ray = ray;
+    t.filter = filter;
+    t.user = user;
+    box_rays_of(&t.boxes, ray);
+    view_along(&t.view, ray);
+    for (unsigned rest = active & t.boxes.proper, lanes; rest; rest &= ~lanes) {
+        // If two rays have no neighbours, all others are probably scattered, too.
+        lanes = alone & (alone - 1) ? rest & -rest : bundle_lanes(&t.boxes, rest);
+        if (!(lanes & (lanes - 1))) {
+            alone |= lanes;
+            continue;
+        }
+        bundle_of(&bundle, &t.boxes, lanes);
+        view_common(&t.view, lanes);
+        hit |= walk_bundle(&t, &bundle);
     }
-    return hit;
+    view_common(&t.view, alone);
+    return alone ? hit | walk_alone(&t, alone) : hit;
 }
 
 #if LANES == 1
@@ -396,28 +599,32 @@ LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *
 {
     uint32_t found = (uint32_t)NO_TRIANGLE, stack[NODE_CHILDREN * HIERARCHY_DEPTH][2] = {{0, 0}};
     struct box_rays boxes;
-    struct ray_bundle bundle;
+    struct lone_ray lone;
+    struct leaf_ray leaf_ray;
     struct ray_view view;
     box_rays_of(&boxes, ray);
-    bundle_of(&bundle, &boxes, 1);
+    lone_ray_of(&lone, &boxes, 0);
     view_along(&view, ray);
+    leaf_ray_of(&leaf_ray, ray, &boxes, &view, 0);
     view_common(&view, 1);
     *t = 0;
     for (int waiting = h->triangle_count && boxes.proper ? 1 : 0; waiting;) {
         uint32_t child = stack[--waiting][0], count = stack[waiting][1];
         const struct ray_node *node = &h->nodes[child];
-        for (unsigned rest = count ? 0 : meets_children(&bundle, node, true); rest; rest &= rest - 1) {
+        const float *leaf = h->leaves + LEAF_FLOATS * (size_t)child;
+        for (unsigned rest = count ? 0 : meets_alone(&lone, node); rest; rest &= rest - 1) {
             stack[waiting][0] = node->child[__builtin_ctz(rest)];
             stack[waiting++][1] = node->count[__builtin_ctz(rest)];
         }
-        for (uint32_t i = child; i < child + count; i++) {
-            const struct ray_triangle *triangle = &h->triangles[i];
+        for (unsigned rest = count ? may_cross(leaf, count, &leaf_ray) : 0; rest; rest &= rest - 1) {
+            struct ray_triangle triangle;
             double at;
-            if (!crosses(triangle, ray, &view, 1, NULL, &at) || through_points(h, triangle, ray, 1) ||
-                !counts(user, triangle, ray, &view))
+            hierarchy_triangle(h, leaf_number(leaf, count, (uint32_t)__builtin_ctz(rest)), &triangle);
+            if (!crosses(&triangle, ray, &view, 1, NULL, &at) || through_points(h, &triangle, ray, 1) ||
+                !counts(user, &triangle, ray, &view))
                 continue;
-            if (found == (uint32_t)NO_TRIANGLE || at < *t || (at == *t && triangle->number < found)) {
-                found = triangle->number;
+            if (found == (uint32_t)NO_TRIANGLE || at < *t || (at == *t && triangle.number < found)) {
+                found = triangle.number;
                 *t = at;
             }
         }

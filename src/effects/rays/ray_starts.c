@@ -30,7 +30,7 @@ static struct start_triangle start_triangle_of(const struct light_rays *rays, co
                                                uint32_t triangle)
 {
     const struct frame_draw *draw = surface->draw;
-    struct start_triangle t = {.own = (int32_t)rays->hierarchy->twins[draw->first_id + triangle],
+    struct start_triangle t = {.own = (int32_t)hierarchy_twin(rays->hierarchy, draw->first_id + triangle),
                                .curved = surface->normals && !rays->frame->settings.flat_terminator && !draw->strokes};
     ray_corners(draw, triangle, t.p);
     for (uint32_t k = 0; k < 3; k++) {

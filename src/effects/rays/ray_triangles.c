@@ -1,7 +1,7 @@
-// ray_triangles.c: transforms the triangles of a frame to the hierarchy's space, and computes their boxes.
+// ray_triangles.c: chooses the space of a hierarchy.
 //
-// Corners are computed three times: for the total extent, for the boxes, and for the leaves. Storing the corners would
-// take longer, mostly because of memory access.
+// Corners are computed three times: here for the total extent, for the cells, and for the leaves. Storing the corners or
+// their boxes would take longer, mostly because of memory access.
 #include "ray_triangles.h"
 
 #include "fail.h"
@@ -42,27 +42,6 @@ static void place_task(void *user, size_t index, int thread)
     store_point(high, bounds->high);
 }
 
-// Computes the boxes in the hierarchy's space, rounded to the nearest floats; ray_lanes.h allows for the rounding.
-static void box_task(void *user, size_t index, int thread)
-{
-    (void)thread;
-    struct preparation *preparation = user;
-    struct builder *b = preparation->builder;
-    uint32_t first = (uint32_t)index * RAY_CHUNK, end = b->frame->triangle_count;
-    end = end - first < RAY_CHUNK ? end : first + RAY_CHUNK;
-    struct placement place = {0};
-    if (!should_continue(&b->loop))
-        return;
-    for (uint32_t i = first; i < end; i++) {
-        struct primitive *out = &b->primitives[i];
-        struct point p[3];
-        ray_space_corners(b, i, &place, p);
-        store_floats(out->low, dmin_of(dmin_of(p[0].xy, p[1].xy), p[2].xy), dmin_of(dmin_of(p[0].z, p[1].z), p[2].z));
-        store_floats(out->high, dmax_of(dmax_of(p[0].xy, p[1].xy), p[2].xy), dmax_of(dmax_of(p[0].z, p[1].z), p[2].z));
-        primitive_note(out, i, 1);
-    }
-}
-
 // Chooses a space in which all coordinates are within −1…1.
 static void choose_space(struct hierarchy *h, const struct bounds *bounds)
 {
@@ -81,7 +60,7 @@ static void choose_space(struct hierarchy *h, const struct bounds *bounds)
     h->scale = half > 0 ? 1 / size : 1;
 }
 
-bool ray_triangles_prepare(struct builder *builder, lam_error *error)
+bool ray_space_choose(struct builder *builder, lam_error *error)
 {
     size_t chunks = ((size_t)builder->frame->triangle_count + RAY_CHUNK - 1) / RAY_CHUNK;
     struct call_control *call = builder->loop.call;
@@ -103,7 +82,11 @@ bool ray_triangles_prepare(struct builder *builder, lam_error *error)
             all.high[axis] = own->high[axis] > all.high[axis] ? own->high[axis] : all.high[axis];
         }
     choose_space(builder->hierarchy, &all);
-    pool_run(builder->pool, chunks, box_task, &preparation);
+    for (int axis = 0; axis < 3; axis++) {
+        const struct hierarchy *h = builder->hierarchy;
+        builder->low[axis] = (float)((all.low[axis] - h->centre[axis]) * h->scale);
+        builder->high[axis] = (float)((all.high[axis] - h->centre[axis]) * h->scale);
+    }
     free(preparation.bounds);
     if (call)
         call_refund(call, bytes);

@@ -75,18 +75,23 @@ LANE_FN bool world_corners(const struct frame *frame, uint32_t number, struct pl
     return (sum.xy[0] + sum.xy[1]) + sum.z[0] == 0 && frame_draw_casts(place->draw);
 }
 
-// Computes the corners in the hierarchy's space. If rays must ignore the triangle, all corners are 0.
-LANE_FN void ray_space_corners(const struct builder *b, uint32_t number, struct placement *place, struct point p[3])
+// Computes the corners in the hierarchy's space. Returns false if rays must ignore the triangle.
+LANE_FN bool ray_space_corners(const struct builder *b, uint32_t number, struct placement *place, struct point p[3])
 {
     const double *centre = b->hierarchy->centre, scale = b->hierarchy->scale;
     bool met = world_corners(b->frame, number, place, p) && !place->draw->clear;
-    struct point zero = {dnum_of(0), dnum_of(0)};
     for (int k = 0; k < 3; k++) {
         p[k].xy = (p[k].xy - (dnum){centre[0], centre[1]}) * scale;
         p[k].z = (p[k].z - centre[2]) * scale;
-        if (!met)
-            p[k] = zero;
     }
+    return met;
+}
+
+// Stores the box of a triangle, rounded to the nearest floats; ray_lanes.h allows for the rounding.
+LANE_FN void store_box(struct primitive *to, const struct point p[3])
+{
+    store_floats(to->low, dmin_of(dmin_of(p[0].xy, p[1].xy), p[2].xy), dmin_of(dmin_of(p[0].z, p[1].z), p[2].z));
+    store_floats(to->high, dmax_of(dmax_of(p[0].xy, p[1].xy), p[2].xy), dmax_of(dmax_of(p[0].z, p[1].z), p[2].z));
 }
 
 #endif

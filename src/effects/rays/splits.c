@@ -8,23 +8,37 @@
 #include <string.h>
 
 enum {
-    LEAF_MAX = 8,   // triangles
     LEAF_MIN = 3,   // ranges of up to this many triangles are not divided
-    MIDDLE_MAX = 12 // ranges of up to this many triangles are divided in the middle; at least LEAF_MAX
+    MIDDLE_MAX = 16 // ranges of up to this many triangles are divided in the middle; at least LEAF_MAX
 };
 
-// The cost of testing a triangle, relative to visiting a node.
-#define TRIANGLE_WORK 1.0f
+// The cost of a triangle of a leaf, relative to visiting the leaf: all triangles are tested at once.
+#define TRIANGLE_WORK 0.25f
+
+// The memory for dividing one range. Positions are counted from the first triangle of the range.
+struct division {
+    struct builder *builder;
+    const struct range *range;
+    struct primitive *primitives; // low[3] contains the position in `corners`
+    float (*corners)[9];
+    struct ray_node *nodes;
+    uint32_t node_count;
+};
+
+static bool charge(struct builder *b, size_t bytes) { return !b->loop.call || call_charge(b->loop.call, bytes); }
+
+static void refund(struct builder *b, size_t bytes)
+{
+    if (b->loop.call)
+        call_refund(b->loop.call, bytes);
+}
+
+static uint32_t number_of(const struct division *d, const struct primitive *p)
+{
+    return d->builder->numbers[d->range->first + primitive_number(p)];
+}
 
 // --- leaves
-
-static void ray_triangle_fill(const struct builder *b, uint32_t number, struct placement *place, double p[3][3])
-{
-    struct point corners[3];
-    ray_space_corners(b, number, place, corners);
-    for (int k = 0; k < 3; k++)
-        store_point(corners[k], p[k]);
-}
 
 static bool same_point(const double a[3], const double b[3]) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 
@@ -45,55 +59,54 @@ static bool same_box(const struct primitive *p, const struct primitive *q)
     return (mask_bits((a.low == b.low) & (a.high == b.high)) & 7) == 7;
 }
 
-// Makes a leaf. Triangles with the same positions have the same box, and are therefore in the same leaf or in the same
-// group. sort_group has already found the twins in groups.
-static void make_leaf(struct builder *b, const struct range *r, struct placement *place)
+// Finds the twins of a leaf. Triangles with the same positions have the same box, and are therefore in the same leaf or
+// in the same group. sort_group has already found the twins in groups.
+static void find_twins(const struct division *d, const struct primitive *p, uint32_t count)
 {
-    const struct primitive *p = b->primitives + r->first;
-    struct ray_triangle *triangles = b->triangles + r->first;
+    const struct hierarchy *h = d->builder->hierarchy;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t j = 0; j < count; j++) {
+            uint32_t *twin = &d->builder->twins[number_of(d, &p[i])], other = number_of(d, &p[j]);
+            struct ray_triangle a, b;
+            if (other >= *twin || !same_box(&p[i], &p[j]))
+                continue;
+            hierarchy_triangle(h, number_of(d, &p[i]), &a);
+            hierarchy_triangle(h, other, &b);
+            if (same_positions(&a, &b)) {
+                *twin = other;
+                __atomic_store_n(&d->builder->has_twins, true, __ATOMIC_RELAXED);
+            }
+        }
+}
+
+static void make_leaf(const struct division *d, const struct range *r, uint32_t *child, uint32_t *child_count)
+{
+    const struct primitive *p = d->primitives + r->first;
+    *child = d->range->first + r->first;
+    *child_count = r->count;
+    float *leaf = d->builder->leaves + (size_t)LEAF_FLOATS * *child;
     for (uint32_t i = 0; i < r->count; i++) {
-        struct ray_triangle *t = &triangles[i];
-        uint32_t number = primitive_number(&p[i]);
-        ray_triangle_fill(b, number, place, t->p);
-        t->number = number;
-        t->twin = r->sorted ? b->twins[number] : number;
+        const float *from = d->corners[primitive_number(&p[i])];
+        for (uint32_t row = 0; row < LEAF_FLOATS - 1; row++)
+            leaf[row * r->count + i] = from[row];
+        uint32_t number = number_of(d, &p[i]);
+        memcpy(&leaf[(LEAF_FLOATS - 1) * r->count + i], &number, sizeof number);
     }
-    for (uint32_t i = 0; i < r->count && !r->sorted; i++)
-        for (uint32_t j = 0; j < r->count; j++)
-            if (triangles[j].number < triangles[i].twin && same_box(&p[i], &p[j]) &&
-                same_positions(&triangles[i], &triangles[j]))
-                triangles[i].twin = triangles[j].number;
-    for (uint32_t i = 0; i < r->count; i++)
-        b->twins[triangles[i].number] = triangles[i].twin;
-    *r->child = r->first;
-    *r->child_count = r->count;
+    if (!r->sorted)
+        find_twins(d, p, r->count);
 }
 
 // --- nodes
 
-// Stores the node of a range that was divided into `parts`, and sets the addresses at which the parts store their
-// nodes.
-void range_enter_node(struct builder *b, const struct range *r, struct range *parts, int count)
+void range_set_planes(struct ray_node *node, const struct range *parts, int count)
 {
-    struct ray_node *node = &b->nodes[r->node];
-    uint32_t next = r->node + 1;
-    if (r->child) {
-        *r->child = r->node;
-        *r->child_count = 0;
-    }
+    *node = (struct ray_node){0};
     for (int i = 0; i < NODE_CHILDREN; i++) {
         struct box box = i < count ? parts[i].box : empty_box();
         for (int axis = 0; axis < 3; axis++) {
             node->planes[0][axis][i] = lane(box.low, axis);
             node->planes[1][axis][i] = lane(box.high, axis);
         }
-        node->child[i] = node->count[i] = 0;
-        if (i >= count)
-            continue;
-        parts[i].node = next;
-        parts[i].child = &node->child[i];
-        parts[i].child_count = &node->count[i];
-        next += ray_nodes_below(parts[i].count);
     }
 }
 
@@ -109,9 +122,9 @@ void range_measure(const struct primitive *p, uint32_t count, struct box *box, s
 }
 
 // Divides a range whose primitives are in order.
-static void divide_at(struct builder *b, struct range *r, uint32_t left, struct range *right)
+static void divide_at(const struct division *d, struct range *r, uint32_t left, struct range *right)
 {
-    const struct primitive *p = b->primitives + r->first;
+    const struct primitive *p = d->primitives + r->first;
     struct box boxes[2], middles[2];
     range_measure(p, left, &boxes[0], &middles[0]);
     range_measure(p + left, r->count - left, &boxes[1], &middles[1]);
@@ -188,24 +201,24 @@ static void sort_corners(double p[3][3])
 
 // Sorts the triangles of a range, and finds twins. All triangles have the same centre, and a leaf cannot contain all of
 // them. The range can then be divided at any position.
-static bool sort_group(struct builder *b, const struct range *r)
+static bool sort_group(const struct division *d, const struct range *r)
 {
-    struct placement place = {0};
-    struct primitive *p = b->primitives + r->first;
-    struct call_control *call = b->loop.call;
+    struct builder *b = d->builder;
+    struct primitive *p = d->primitives + r->first;
     size_t bytes = (r->count * sizeof(struct sorted_triangle) + 63) & ~(size_t)63;
-    bool counted = !call || call_charge(call, bytes);
+    bool counted = charge(b, bytes);
     struct sorted_triangle *sorted = counted ? aligned_alloc(64, bytes) : NULL;
     if (!sorted) {
-        if (call && counted)
-            call_refund(call, bytes);
+        refund(b, counted ? bytes : 0);
         no_memory(&b->loop);
         return false;
     }
     for (uint32_t i = 0; i < r->count; i++) {
-        sorted[i].number = primitive_number(&p[i]);
+        struct ray_triangle triangle;
+        hierarchy_triangle(b->hierarchy, number_of(d, &p[i]), &triangle);
+        sorted[i].number = triangle.number;
         sorted[i].primitive = p[i];
-        ray_triangle_fill(b, sorted[i].number, &place, sorted[i].p);
+        memcpy(sorted[i].p, triangle.p, sizeof triangle.p);
         sort_corners(sorted[i].p);
     }
     qsort(sorted, r->count, sizeof *sorted, compare_sorted);
@@ -214,11 +227,12 @@ static bool sort_group(struct builder *b, const struct range *r)
         for (int k = 0; k < 3 && twin; k++)
             twin = same_point(sorted[i].p[k], sorted[i - 1].p[k]);
         b->twins[sorted[i].number] = twin ? b->twins[sorted[i - 1].number] : sorted[i].number;
+        if (twin)
+            __atomic_store_n(&b->has_twins, true, __ATOMIC_RELAXED);
         p[i] = sorted[i].primitive;
     }
     free(sorted);
-    if (call)
-        call_refund(call, bytes);
+    refund(b, bytes);
     return true;
 }
 
@@ -241,30 +255,33 @@ static bool halve_few(struct primitive *p, struct range *r, int axis, struct ran
     range_measure(sorted, left, &boxes[0], &middles[0]);
     range_measure(sorted + left, r->count - left, &boxes[1], &middles[1]);
     float cost = half_area(boxes[0]) * (float)left + half_area(boxes[1]) * (float)(r->count - left);
-    if (r->count <= LEAF_MAX && TRIANGLE_WORK * r->area * (float)r->count <= r->area + TRIANGLE_WORK * cost)
+    float leaves = half_area(boxes[0]) + half_area(boxes[1]);
+    if (r->count <= LEAF_MAX && r->area + TRIANGLE_WORK * r->area * (float)r->count <= leaves + TRIANGLE_WORK * cost)
         return false;
     memcpy(p, sorted, r->count * sizeof *p);
     halves_of(r, left, boxes, middles, right);
     return true;
 }
 
-bool range_halve(struct builder *b, struct range *r, struct range *right)
+// Divides a range: reduces `r` to the left half, and sets *right to the right half. Returns false if the range becomes a
+// leaf, or if memory runs out.
+static bool halve(const struct division *d, struct range *r, struct range *right)
 {
-    struct primitive *p = b->primitives + r->first;
+    struct primitive *p = d->primitives + r->first;
     struct split split;
     if (r->count <= LEAF_MIN)
         return false;
     if (r->sorted || !choose_axis(r, &split)) {
-        if (r->count <= LEAF_MAX || (!r->sorted && !sort_group(b, r)))
+        if (r->count <= LEAF_MAX || (!r->sorted && !sort_group(d, r)))
             return false;
         r->sorted = true;
-        divide_at(b, r, r->count / 2, right);
+        divide_at(d, r, r->count / 2, right);
         return true;
     }
     if (r->depth >= BALANCED_AT) {
         if (r->count <= LEAF_MAX)
             return false;
-        divide_at(b, r, divide_evenly(p, r->count, split.axis), right);
+        divide_at(d, r, divide_evenly(p, r->count, split.axis), right);
         return true;
     }
     if (r->count <= MIDDLE_MAX)
@@ -279,34 +296,96 @@ bool range_halve(struct builder *b, struct range *r, struct range *right)
     return true;
 }
 
-// Makes the nodes of a range, or a leaf if the range is not divided. The root is always a node.
-static void divide(struct builder *b, const struct range *r, struct placement *place)
+// Makes the node of a range that is larger than a leaf, or of the root. Returns its index.
+static uint32_t divide(struct division *d, const struct range *r)
 {
-    struct range parts[NODE_CHILDREN];
+    struct range parts[NODE_CHILDREN] = {*r};
     bool open[NODE_CHILDREN] = {true};
     int count = 1, i;
-    parts[0] = *r;
-    while (count < NODE_CHILDREN && (i = widest_part(parts, open, count)) >= 0) {
-        open[i] = range_halve(b, &parts[i], &parts[count]);
+    uint32_t index = d->node_count++;
+    while (count < NODE_CHILDREN && (i = widest_part(parts, open, count, r->count > FEW ? 0 : LEAF_MAX)) >= 0) {
+        open[i] = halve(d, &parts[i], &parts[count]);
         if (open[i])
             open[count++] = true;
     }
-    if (r->count > 512 && !should_continue(&b->loop))
-        return;
-    if (count == 1 && r->child) {
-        make_leaf(b, &parts[0], place);
-        return;
-    }
-    range_enter_node(b, r, parts, count);
-    for (i = 0; i < count; i++)
-        if (open[i])
-            divide(b, &parts[i], place);
+    range_set_planes(&d->nodes[index], parts, r->count ? count : 0);
+    if ((r->count > 512 && !should_continue(&d->builder->loop)) || (count == 1 && r->count > LEAF_MAX))
+        return index; // cancelled, or no memory to divide the range
+    for (i = 0; i < count && r->count; i++) {
+        struct ray_node *node = &d->nodes[index];
+        if (parts[i].count > LEAF_MAX)
+            node->child[i] = divide(d, &parts[i]);
         else
-            make_leaf(b, &parts[i], place);
+            make_leaf(d, &parts[i], &node->child[i], &node->count[i]);
+    }
+    return index;
 }
 
-void range_divide(struct builder *b, const struct range *r)
+// Fills the primitives and corners.
+static void measure(struct division *d)
 {
     struct placement place = {0};
-    divide(b, r, &place);
+    for (uint32_t i = 0; i < d->range->count; i++) {
+        struct point p[3];
+        float corner[4];
+        ray_space_corners(d->builder, d->builder->numbers[d->range->first + i], &place, p);
+        store_box(&d->primitives[i], p);
+        primitive_note(&d->primitives[i], i, 1);
+        for (int k = 0; k < 3; k++) {
+            store_floats(corner, p[k].xy, p[k].z);
+            memcpy(d->corners[i] + (size_t)3 * (size_t)k, corner, 3 * sizeof *corner);
+        }
+    }
+}
+
+// Returns the largest number of nodes for a range of this many triangles. A node has more than LEAF_MAX triangles. If
+// it has fewer than NODE_CHILDREN children, all of them are leaves. By induction, the number of nodes is at most
+// (count − 2)/7, except for a root with few triangles.
+static size_t nodes_below(uint32_t count) { return 1 + (size_t)count / (NODE_CHILDREN - 1); }
+
+void range_nodes_free(struct builder *b, struct range_nodes *nodes)
+{
+    if (nodes->list)
+        refund(b, nodes->count * sizeof *nodes->list);
+    free(nodes->list);
+}
+
+bool range_divide(struct builder *b, const struct range *r, struct range_nodes *nodes)
+{
+    size_t count = r->count, most = nodes_below(r->count);
+    size_t bytes = most * sizeof(struct ray_node) + count * (sizeof(struct primitive) + 9 * sizeof(float));
+    bytes = (bytes + 63) / 64 * 64;
+    if (!charge(b, bytes))
+        return false;
+    char *memory = aligned_alloc(64, bytes);
+    struct range whole = *r;
+    struct division d = {.builder = b, .range = r, .nodes = (struct ray_node *)memory};
+    bool ok = memory;
+    if (memory) {
+        d.primitives = (struct primitive *)(d.nodes + most);
+        d.corners = (float(*)[9])(d.primitives + count);
+        measure(&d);
+        whole.first = 0;
+        range_measure(d.primitives, r->count, &whole.box, &whole.middles);
+        whole.area = half_area(whole.box);
+        if (r->count <= LEAF_MAX && r->parent != NO_PARENT) {
+            uint32_t child, child_count;
+            make_leaf(&d, &whole, &child, &child_count);
+        } else {
+            divide(&d, &whole);
+        }
+    }
+    size_t kept = d.node_count * sizeof *nodes->list;
+    if (ok && kept && (ok = charge(b, kept))) {
+        nodes->list = malloc(kept);
+        nodes->count = d.node_count;
+        if (nodes->list)
+            memcpy(nodes->list, d.nodes, kept);
+        else
+            refund(b, kept);
+        ok = nodes->list;
+    }
+    free(memory);
+    refund(b, bytes);
+    return ok;
 }

@@ -324,21 +324,49 @@ static void pack_normal(float *out, const struct frame_draw *draw, uint32_t corn
         out[i] = square > 0 ? (float)(to[i] / __builtin_sqrt(square)) : 0;
 }
 
-static void pack_triangle(float *out, const struct gl_frame *f, const struct ray_triangle *t)
+static void pack_triangle(float *out, const struct gl_frame *f, const struct hierarchy *h, uint32_t number)
 {
     const struct frame *frame = f->frame;
-    const struct frame_draw *draw = &frame->draws[frame->ranges[frame_range_of(frame, t->number)].draw];
-    bool curved = draw->mesh->normals && frame_draw_casts(draw);
+    const struct frame_draw *draw = &frame->draws[frame->ranges[frame_range_of(frame, number)].draw];
+    bool casts = frame_draw_casts(draw), curved = draw->mesh->normals && casts;
+    struct ray_triangle t = {0};
+    if (casts)
+        hierarchy_triangle(h, number, &t);
     for (uint32_t k = 0; k < 3; k++) {
         for (int i = 0; i < 3; i++)
-            out[4 * k + (uint32_t)i] = (float)t->p[k][i];
-        uint32_t corner = 3 * (t->number - draw->first_id) + k;
+            out[4 * k + (uint32_t)i] = t.p[k][i] * 0 == 0 ? (float)t.p[k][i] : 0;
+        uint32_t corner = 3 * (number - draw->first_id) + k;
         if (curved)
             pack_normal(out + 4 * (3 + k), draw, corner);
     }
-    out[3] = (float)t->twin;
-    out[7] = !frame_draw_casts(draw) ? KIND_APART : curved ? KIND_CURVED : KIND_FLAT;
-    out[11] = (float)surfaces_record(f, t->number);
+    out[3] = (float)hierarchy_twin(h, number);
+    out[7] = !casts ? KIND_APART : curved ? KIND_CURVED : KIND_FLAT;
+    out[11] = (float)surfaces_record(f, number);
+}
+
+// Packs all nodes and triangles. The triangles that are in no leaf follow the others; positions[number] is 1 plus a
+// triangle's position until then.
+static void pack_hierarchy(float *out, const struct gl_frame *f, const struct hierarchy *h, size_t triangles,
+                           size_t positions)
+{
+    float *position = out + 4 * positions;
+    uint32_t packed = 0;
+    for (uint32_t n = 0; n < h->node_count; n++) {
+        const struct ray_node *node = &h->nodes[n];
+        pack_node(out + (size_t)4 * NODE * n, node);
+        for (int child = 0; child < children_of(node); child++)
+            for (uint32_t i = 0; i < node->count[child]; i++) {
+                uint32_t at = node->child[child] + i;
+                const float *leaf = h->leaves + LEAF_FLOATS * (size_t)node->child[child];
+                position[leaf_number(leaf, node->count[child], i)] = (float)at + 1;
+                packed++;
+            }
+    }
+    for (uint32_t number = 0; number < h->triangle_count; number++) {
+        uint32_t at = position[number] > 0 ? (uint32_t)position[number] - 1 : packed++;
+        position[number] = (float)at;
+        pack_triangle(out + 4 * (triangles + (size_t)TRIANGLE * at), f, h, number);
+    }
 }
 
 bool shadows_send(struct gl_frame *f, lam_error *error)
@@ -383,12 +411,7 @@ bool shadows_send(struct gl_frame *f, lam_error *error)
         return false;
     float *out = device->scratch.data;
     memset(out, 0, bytes);
-    for (uint32_t i = 0; i < h->node_count; i++)
-        pack_node(out + (size_t)4 * NODE * i, &h->nodes[i]);
-    for (uint32_t i = 0; i < h->triangle_count; i++) {
-        pack_triangle(out + 4 * (triangles + (size_t)TRIANGLE * i), f, &h->triangles[i]);
-        out[4 * positions + h->triangles[i].number] = (float)i;
-    }
+    pack_hierarchy(out, f, h, triangles, positions);
     surfaces_pack(f, surfaces, out + 4 * surfaces);
     gl_edit_plain_texture(device, UNIT_SHADOW_TREE, GL_TEXTURE_2D, &device->shadow_texture);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, (GLsizei)rows, 0, GL_RGBA, GL_FLOAT, out);

@@ -9,7 +9,10 @@
 typedef float eight __attribute__((vector_size(32)));
 typedef float eight_memory __attribute__((vector_size(32), aligned(4), may_alias));
 
+typedef int32_t eight_bits __attribute__((vector_size(32)));
+
 LANE_FN eight eight_of(float x) { return x - (eight){0}; }
+LANE_FN eight eight_absolute(eight x) { return (eight)((eight_bits)x & INT32_MAX); }
 LANE_FN eight eight_load(const float *at) { return (eight) * (const eight_memory *)at; }
 
 // The minimum and maximum are defined like min_of and max_of in lanes.h. eight_not_above returns a bit mask: bit i is
@@ -67,5 +70,11 @@ LANE_FN unsigned eight_not_above(eight a, eight b)
     return bits;
 }
 #endif
+
+// Returns a bit mask: bit i is set if lane i has the bits of `number`.
+LANE_FN unsigned eight_same(eight a, int32_t number)
+{
+    return eight_not_above(eight_absolute(__builtin_convertvector((eight_bits)a ^ number, eight)), eight_of(0));
+}
 
 #endif

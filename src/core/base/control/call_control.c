@@ -243,7 +243,7 @@ bool call_check_triangles(const struct call_control *call, const char *name, uin
 
 bool call_check_unfolded(const struct call_control *call, uint64_t count, const char *items, lam_error *error)
 {
-    return call->control.triangle_limit || call_triangle_limit(call) == LAM_TRIANGLE_LIMIT ||
+    return !call || call->control.triangle_limit || call_triangle_limit(call) == LAM_TRIANGLE_LIMIT ||
            call_check_triangles(call, "the scene", count, items, error);
 }
 

@@ -413,6 +413,9 @@ struct traversal {
 static __attribute__((noinline, unused)) unsigned blocked_by(const struct traversal *t, uint32_t number, unsigned lanes)
 {
     struct ray_triangle triangle;
+    lanes &= mask_bits(inum_load(t->ray->own) != (int32_t)hierarchy_twin(t->hierarchy, number));
+    if (!lanes)
+        return 0;
     hierarchy_triangle(t->hierarchy, number, &triangle);
     lanes = crosses(&triangle, t->ray, &t->view, lanes, NULL, NULL);
     lanes = lanes ? lanes & ~through_points(t->hierarchy, &triangle, t->ray, lanes) : 0;

@@ -93,8 +93,11 @@ def judge_mistakes(program, folder, jobs, versions, only):
         known = set(sum(right, ()))
         rest = [c for c in choices if not c & {"no-light", "no-specular"}]
         dark = certain and len(right[0]) > 1 and len(rest) < len(choices) and all(known & c for c in rest)
-        verdict = "error" if "error" in r or r.get("verdict") in ("refused", "endless", "crashes") else "right" if any(matches(choices, list(x)) for x in right) else \
-            "not seen" if r.get("verdict") == "passes" else "hidden" if dark or (reported and certain and all(known & c for c in choices)) else "part" if reported and set(reported) <= known else "none" if not reported else "wrong"
+        # a name for several mistakes is a part of the truth if one of them is there
+        partly = {x for x in reported if x in known or any(x in whole and known & set(pair) for pair, whole in SAME.items())}
+        unread = "no verdict" in r.get("error", {}).get("text", "") if isinstance(r.get("error"), dict) else "no verdict" in r.get("error", "")
+        verdict = "none" if unread else "error" if "error" in r or r.get("verdict") in ("refused", "endless", "crashes") else "right" if any(matches(choices, list(x)) for x in right) else \
+            "not seen" if r.get("verdict") == "passes" else "hidden" if dark or (reported and certain and all(known & c for c in choices)) else "part" if reported and set(reported) <= partly and (not certain or set(reported) <= known) else "none" if not reported else "wrong"
         by["contract"][f"{contract}, lit per {'fragment' if stage == 'f' else 'vertex'}"][verdict] += 1
         by["version"][dialect or "none"][verdict] += 1
         by["mistakes"]["one" if len(right[0]) == 1 else "two" if len(right[0]) == 2 else "three"][verdict] += 1

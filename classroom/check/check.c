@@ -237,6 +237,21 @@ static bool draw(struct run *r, unsigned scenes, lam_error *error)
     return true;
 }
 
+static bool draw_again(struct run *r, unsigned scenes, lam_error *error)
+{
+    const lam_check_verdict verdict = r->report->verdict;
+    const int said = r->diagnostics.count;
+    for (int i = 0; i < r->scene_count; i++)
+        r->scenes[i].theirs = r->report->scenes[i].theirs.pixels;
+    lam_bytes_free(&r->bytes);
+    r->drawn = (struct draw_result){0};
+    r->report->verdict = LAM_CHECK_PASSES;
+    bool ok = draw(r, scenes, error);
+    r->report->verdict = verdict;
+    r->diagnostics.count = said;
+    return ok;
+}
+
 #define BIT(semantic) ((uint64_t)1 << (semantic))
 // The roles of names that do not concern lighting.
 static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTIC_PROJECTION) |
@@ -305,26 +320,6 @@ static void forget_scenes(struct run *r)
     r->drawn = (struct draw_result){0};
 }
 
-// Draws with the shaders and an inferred contract, and compares the pictures.
-static bool try_inferred(struct run *r, const struct contract *contract, enum fit_outcome *outcome, char *reason,
-                         size_t capacity, lam_error *error)
-{
-    unsigned scenes = 0;
-    *outcome = FIT_UNKNOWN;
-    forget_scenes(r);
-    if (!prepare(r, contract, &scenes, error) || !draw(r, scenes, error))
-        return false;
-    r->report->scenes_wanted = __builtin_popcount(scenes);
-    if (r->report->verdict != LAM_CHECK_PASSES)
-        *outcome = FIT_EXPLAINED; // the reason is that the shaders do not compile, or loop forever
-    else if (r->drawn.unknown_count || r->drawn.types_count)
-        snprintf(reason, capacity, "the input '%.60s' has no value",
-                 r->drawn.unknown_count ? r->drawn.unknown[0] : r->drawn.types[0]);
-    else if (!check_make_scenes(r, scenes, error) || !check_fit(r, true, outcome, reason, capacity, error))
-        return false;
-    return true;
-}
-
 // Finds the errors of a fragment shader that fits no contract and has no vertex shader. Sets the verdict if the shader
 // does not compile.
 static bool compile_alone(struct run *r, lam_error *error)
@@ -343,56 +338,45 @@ static bool compile_alone(struct run *r, lam_error *error)
     return true;
 }
 
-// Infers the roles of the inputs from their use, in each possible space. Accepts the first interpretation under which
-// the shaders are correct. If there is none, accepts an interpretation in which a single mistake explains the
-// difference.
+// Finds a reading of the inputs, draws with the contract that describes it, and gives the verdict.
 static bool run_inferred(struct run *r, const struct contract *nearest, lam_error *error)
 {
-    const lam_check_params *p = r->params;
     const struct contract *engine = nearest && r->texts->owned[1] ? nearest : NULL;
-    char reason[400] = "", why[300];
-    int explained = -1, differs = -1;
-    lam_error unread = {0};
-    bool ok = p->vertex != NULL, done = false;
-    if (!ok && !nearest && !compile_alone(r, error))
-        return false;
-    if (!ok && r->report->verdict != LAM_CHECK_PASSES)
-        return true;
-    if (!ok)
-        return fail_unknown(
-            r, "the names match no known contract, and without a vertex shader, the roles of the inputs are unknown",
-            error);
-    const struct declarations *sides = engine ? r->texts->sides : r->sources.own.sides;
-    for (int guess = 0; ok && !done; guess++) {
-        bool again = false;
-        char *text = contract_infer(&sides[0], &sides[1], engine, guess, false, why, sizeof why);
-        if (!text && (explained >= 0 || differs >= 0)) {
-            text = contract_infer(&sides[0], &sides[1], engine, explained >= 0 ? explained : differs, false, why,
-                                  sizeof why);
-            again = true;
-        }
-        if (!text) {
-            if (!reason[0])
-                snprintf(reason, sizeof reason, "%s", why);
-            break;
-        }
-        lam_check_contract *contract = lam_check_contract_read(text, strlen(text), "inferred contract", &unread);
-        free(text);
-        lam_check_contract_free(r->inferred);
-        r->inferred = contract;
-        enum fit_outcome outcome = FIT_UNKNOWN;
-        if (!contract) {
-            snprintf(reason, sizeof reason, "%.300s", unread.text);
-            break;
-        }
-        ok = try_inferred(r, &contract->contract, &outcome, reason, sizeof reason, error);
-        done = ok && (outcome == FIT_RIGHT || again || r->report->verdict > LAM_CHECK_DIFFERS);
-        if (outcome == FIT_EXPLAINED && explained < 0)
-            explained = guess;
-        if (outcome == FIT_DIFFERS && differs < 0)
-            differs = guess;
+    if (!r->params->vertex) {
+        if (!nearest && !compile_alone(r, error))
+            return false;
+        return r->report->verdict != LAM_CHECK_PASSES ||
+               fail_unknown(r,
+                            "the names match no known contract, and without a vertex shader, the roles of the inputs "
+                            "are unknown",
+                            error);
     }
-    return ok && (done || fail_unknown(r, reason, error));
+    struct reading *reading;
+    enum reading_outcome outcome;
+    char *text = NULL;
+    unsigned scenes = 0;
+    if (!check_read(r, NULL, engine, &reading, &outcome, &text, error))
+        return false;
+    r->inferred = lam_check_contract_read(text, strlen(text), "inferred contract", error);
+    free(text);
+    forget_scenes(r);
+    if (!r->inferred || !prepare(r, &r->inferred->contract, &scenes, error) || !draw(r, scenes, error))
+        return false;
+    r->report->scenes_wanted = __builtin_popcount(scenes);
+    return r->report->verdict != LAM_CHECK_PASSES || check_conclude(r, reading, outcome, scenes, true, error);
+}
+
+// Returns whether a syntax error is the only message that matters: most names are not in the contract, which is a guess.
+static bool has_only_slip(const struct run *r)
+{
+    const struct declarations *sides[] = {&r->interface.vertex, &r->interface.fragment};
+    int unknown = 0, known = 0;
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < sides[s]->count; i++)
+            if (sides[s]->items[i].kind == DECLARED_UNIFORM)
+                *(contract_find(r->interface.contract, sides[s]->items[i].name, false, NULL) ? &known : &unknown) += 1;
+    return !r->params->contract && unknown > known &&
+           (strstr(r->drawn.log, "syntax error") || strstr(r->drawn.fragment_log, "syntax error"));
 }
 
 // Compares the shaders with the requested contract, or with the contract whose names the shaders use.
@@ -402,7 +386,8 @@ static bool run_contract(struct run *r, const struct contract *contract, unsigne
     for (int i = 0; i < r->drawn.unknown_count && r->drawn.state == DRAWN_PICTURES; i++)
         if (!contract_is_misspelt(contract, &r->interface.vertex, &r->interface.fragment, r->drawn.unknown[i]))
             return fail_unknown(r, "an input has no value", error);
-    diagnostics_add_names(&r->diagnostics, &r->drawn, &r->interface, p);
+    if (!has_only_slip(r))
+        diagnostics_add_names(&r->diagnostics, &r->drawn, &r->interface, p);
     r->report->scenes_wanted = __builtin_popcount(scenes);
     if (r->report->verdict != LAM_CHECK_PASSES)
         return true;
@@ -410,10 +395,10 @@ static bool run_contract(struct run *r, const struct contract *contract, unsigne
         compiler_hints_for_output(&r->diagnostics, &r->interface.fragment, p->fragment_name, contract->outputs);
     if (!contract->any_strengths)
         return check_compare(r, scenes, writes, error);
-    enum fit_outcome outcome;
-    char reason[400] = "";
-    return check_make_scenes(r, scenes, error) && check_fit(r, writes, &outcome, reason, sizeof reason, error) &&
-           (outcome != FIT_UNKNOWN || fail(error, LAM_BAD_ARGUMENT, "no verdict: %s", reason));
+    struct reading *reading;
+    enum reading_outcome outcome;
+    return check_read(r, contract, contract->prefix_fragment ? contract : NULL, &reading, &outcome, NULL, error) &&
+           check_conclude(r, reading, outcome, scenes, writes, error);
 }
 
 bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error)
@@ -424,7 +409,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         return false;
     // A copy of the parameters. In the copied shaders, inputs replace the fixed-function state of GLSL 110 and 120.
     lam_check_params own = *params;
-    struct run r = {.params = &own, .report = report};
+    struct run r = {.params = &own, .report = report, .draw_again = draw_again};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)
         return fail_memory(error, sizeof *r.arena);
@@ -444,7 +429,9 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (ok && contract)
         ok = prepare(&r, contract, &scenes, error) && draw(&r, scenes, error);
     if (ok && contract && (params->contract || suits_contract(&r)))
-        ok = run_contract(&r, contract, scenes, error);
+        ok = run_contract(&r, contract, scenes, error) &&
+             (params->contract || contract->printed || report->verdict != LAM_CHECK_DIFFERS || !params->vertex ||
+              check_doubt(&r, contract, scenes, error));
     else
         ok = ok && run_inferred(&r, contract, error);
     if (!ok && is_cut(&r))

@@ -6,6 +6,7 @@
 #include "diagnostics.h"
 #include "draw_request.h"
 #include "fault_shader.h"
+#include "reading.h"
 #include "shader_interface.h"
 
 struct run {
@@ -29,8 +30,10 @@ struct run {
     struct draw_result drawn;
     struct scene_comparison *scenes;
     int scene_count;
-    unsigned expectation;        // bits of enum expectation
-    float *numbers;              // scratch memory for the samples of a picture
+    unsigned expectation; // bits of enum expectation
+    float *numbers;       // scratch memory for the samples of a picture
+    // Draws the scenes again with other texts, and keeps the verdict. The pictures of the scenes stay in the report.
+    bool (*draw_again)(struct run *run, unsigned scenes, lam_error *error);
     struct fault_shader *shader; // draws references that the CPU device cannot compute; NULL before its first use
 };
 
@@ -49,11 +52,18 @@ bool check_make_scenes(struct run *run, unsigned scenes, lam_error *error);
 double check_missing_share(const struct scene_comparison *scene, bool not_numbers);
 void check_measure(struct run *run, bool writes);
 
-// Compares shaders of a contract that allows any strengths. FIT_UNKNOWN means that there is no verdict; `reason` then
-// explains why, as a clause of a message.
-enum fit_outcome { FIT_UNKNOWN, FIT_RIGHT, FIT_EXPLAINED, FIT_DIFFERS };
-bool check_fit(struct run *run, bool writes, enum fit_outcome *outcome, char *reason, size_t capacity,
-               lam_error *error);
+// Finds a reading of the inputs (reading.h). A contract fixes the roles. `engine` is the contract whose prefix the sources
+// lack, or NULL. `text` (may be NULL) receives the text of the contract that describes the reading.
+bool check_read(struct run *run, const struct contract *contract, const struct contract *engine, struct reading **out,
+                enum reading_outcome *outcome, char **text, lam_error *error);
+
+// Gives the verdict that follows from a reading. Returns false if there is no verdict.
+bool check_conclude(struct run *run, struct reading *reading, enum reading_outcome outcome, unsigned scenes,
+                    bool writes, lam_error *error);
+
+// Gives a shader that differs the benefit of the doubt: its names only suggested the contract. Returns false if there is
+// no verdict.
+bool check_doubt(struct run *run, const struct contract *contract, unsigned scenes, lam_error *error);
 
 // Describes which scenes differ if no known mistake explains the difference.
 void check_describe(struct run *run);

@@ -174,7 +174,7 @@ bool lam_check_contract_write(const lam_check_params *params, const lam_check_re
     bool ok = own_texts_make(params->vertex, params->fragment, &own, error);
     struct complete_texts texts = {.vertex = own.vertex, .fragment = own.fragment};
     ok = ok && check_read_texts((void *)params, &texts, error);
-    char *text = ok ? contract_infer(&texts.sides[0], &texts.sides[1], NULL, 0, true, why, sizeof why) : NULL;
+    char *text = ok ? contract_infer(&texts.sides[0], &texts.sides[1], NULL, NULL, 0, "eye", why, sizeof why) : NULL;
     ok = ok && (text ? write_contract(text, why, out, error) : fail(error, LAM_BAD_ARGUMENT, "no contract: %s", why));
     free(text);
     own_texts_free(&own);

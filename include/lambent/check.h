@@ -277,7 +277,11 @@ typedef struct lam_check_params {
     // Draws instead of OpenGL. NULL: OpenGL draws, on `gl_device`. If `draw` is set, it still draws the shaders under
     // test. The caller keeps the painter and its data valid until the check and its cache are freed.
     const lam_check_painter *painter;
-    LAM_RESERVED(13);
+    // The roles of inputs, such as "observer=eye", for shaders whose names fit no contract. The list ends with NULL. NULL:
+    // the check finds the roles. The roles are those that a report names with `explain_roles`.
+    const char *const *roles;
+    bool explain_roles; // adds a hint for each input: its role, and the reason
+    LAM_RESERVED(11);
 } lam_check_params;
 
 // The result of a check.

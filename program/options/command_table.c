@@ -77,7 +77,7 @@ const struct command command_table[] = {
          "Compare the pictures of GLSL shaders with reference pictures, and find the mistakes that explain the "
          "differences.",
          ABOUT | 1ull << GROUP_CHECK | 1ull << GROUP_DIFF | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE |
-             TAKES_JSON | TAKES_QUIET | TAKES_THREADS | TAKES_MEMORY,
+             TAKES_JSON | TAKES_QUIET | TAKES_THREADS | TAKES_MEMORY | TAKES_TITLE,
          .min_operands = 0, .max_operands = -1, .defaults = check_defaults},
     [COMMAND_shader] = {"shader", "[MODEL]",
                         "Print the shaders that light a model, with the values of their inputs, for use in another "

@@ -235,7 +235,8 @@ struct check_options {
     int search_limit;                                            // lam_check_params.max_pictures
     const char *class_folder, *csv;                              // NULL if not given
     const char *moodle, *gradescope, *submitty, *write_contract; // output files; NULL if not given
-    bool list;
+    struct texts roles;                                          // as typed
+    bool explain_roles, list;
 };
 
 // Shaders (shader).

@@ -1061,6 +1061,13 @@ struct option option_table[OPTIONS_MAX] = {
      "input from the shader and writes these roles to the file. Correct the file, then check with `--contract FILE` "
      "(`docs/check/contract-file.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.write_contract)},
+    {"role", 0, GROUP_CHECK, "NAME=ROLE", NULL, "State the role of an input, such as observer=eye; repeatable.",
+     "The roles are light, direction (to the light), -direction (from the light), axis, -axis, eye, factor, and the "
+     "roles of matrices that `--explain-roles` names. Lambent finds the other roles. The option is for shaders whose "
+     "names fit no contract; a contract states all roles.",
+     .store = store_texts, .others = "meaning semantic", FIELD(check.roles)},
+    {"explain-roles", 0, GROUP_CHECK, NULL, NULL, "Print the role of each input, and the reason.", NULL,
+     .store = store_switch, FIELD(check.explain_roles)},
     {"list", 0, GROUP_CHECK, NULL, NULL, "Print the contracts, the scenes and the known mistakes.", NULL,
      .store = store_switch, FIELD(check.list)},
     {"glsl", 0, GROUP_SHADER, "VERSION", "330", "The version of GLSL: 330, 120 or 300es.",

@@ -36,7 +36,8 @@ static const size_t lists[] = {offsetof(struct options, lighting.lights),
                                offsetof(struct options, limits.allow_paths),
                                offsetof(struct options, batch.lists),
                                offsetof(struct options, animation.sweeps),
-                               offsetof(struct options, captions.texts)};
+                               offsetof(struct options, captions.texts),
+                               offsetof(struct options, check.roles)};
 
 enum { LISTS = sizeof lists / sizeof *lists };
 

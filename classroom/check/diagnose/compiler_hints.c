@@ -186,7 +186,10 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
         bool called = strstr(message, "function") != NULL;
         if (called && hint_young_function(diagnostics, d, file, line, name))
             return;
-        const char *near = nearest_declared(d, name, find_on_line(d, line, name));
+        const int at = find_on_line(d, line, name);
+        // `name = …;` at the beginning of a statement lacks a type.
+        const bool untyped = word_is(d, at + 1, "=") && (word_is(d, at - 1, ";") || word_is(d, at - 1, "{"));
+        const char *near = untyped ? NULL : nearest_declared(d, name, at);
         if (near && called)
             diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, line,
                             "there is no function '%s'; did you mean '%s'?", name, near);

@@ -339,7 +339,7 @@ bool declarations_unpack(struct declarations *d, const char **at, const char *en
     for (int i = 0; i < d->count; i++)
         d->items[i].type[sizeof d->items->type - 1] = d->items[i].name[sizeof d->items->name - 1] = 0;
     for (int i = 0; i < d->word_count; i++)
-        d->words[i].text[sizeof d->words->text - 1] = 0;
+        d->words[i].text[sizeof d->words->text - 1] = d->words[i].number[sizeof d->words->number - 1] = 0;
     return d->items && d->words && count_words(d) && count_declared(d);
 }
 

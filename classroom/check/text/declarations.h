@@ -27,8 +27,9 @@ struct declaration {
 struct word {
     char text[64]; // an identifier, a number, or one punctuation character
     int line;
-    int depth;      // nesting of braces
-    bool is_member; // follows a '.'
+    int depth;       // nesting of braces
+    bool is_member;  // follows a '.'
+    char number[24]; // of the name of a macro that is a number, which is not expanded; otherwise ""
     // Used by declarations_uses. The first entry of each distinct word stores two counts: the word's occurrences,
     // and its occurrences as a declared name.
     int times, declared;

@@ -77,18 +77,17 @@ void contract_describe_unknown(const struct contract *contract, const struct dec
 bool contract_is_misspelt(const struct contract *contract, const struct declarations *vertex,
                           const struct declarations *fragment, const char *name);
 
-// --- makes a contract from a pair of shaders: the role of each input is inferred from the input's use, its type, and
-// the words in its name.
-//
-// The result is a guess. The contract allows any strengths, and a verdict is reported only if the pictures confirm the
-// contract (check_fit.c).
+// --- makes a contract from the roles that a reading found (reading.h).
 
-// Returns the text of contract number `guess` (0, 1, …) for the shaders, allocated with malloc. The guesses differ in
-// the spaces that the source does not determine. Returns NULL if there is no such guess; for the first guess, `reason`
-// then names the input for which no value is known. Otherwise `reason` is "". `engine` is the contract whose prefix the
-// sources lack, or NULL. With `all`, inputs with unknown roles have the role `zero`, and `reason` names the first of
-// them.
+struct inferred_role {
+    const char *name, *role, *space; // of the contract; `space` may be NULL
+};
+
+// Returns the text of a contract that allows any strengths, allocated with malloc. Numbers get their roles from the
+// words in their names, and other inputs without a known role are free. `engine` is the contract whose prefix the
+// sources lack, or NULL. `reason` (may be "") names the first matrix without a role.
 char *contract_infer(const struct declarations *vertex, const struct declarations *fragment,
-                     const struct contract *engine, int guess, bool all, char *reason, size_t capacity);
+                     const struct contract *engine, const struct inferred_role *known, int count, const char *space,
+                     char *reason, size_t capacity);
 
 #endif

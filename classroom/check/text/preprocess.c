@@ -160,6 +160,7 @@ static void emit_word(struct preprocessor *p, const struct token *t, int line)
     d->words = words;
     struct word *w = &words[d->word_count];
     memcpy(w->text, t->text, sizeof w->text);
+    w->number[0] = 0;
     w->line = line;
     p->depth -= is(t, "}");
     w->depth = p->depth;
@@ -262,7 +263,10 @@ static void expand(struct preprocessor *p, const struct token *t, int count, int
         if (m && m->function)
             taken = read_arguments(p, &t[i + 1], count - i - 1, arguments, &argument_count);
         if (!m || m->disabled || (m->function && !taken) || level > MAX_EXPANSION_DEPTH || is_named_number(p, m)) {
+            const int before = p->d->word_count;
             emit(p, out, &t[i], at);
+            if (m && p->d->word_count > before && m->body_count == 1 && !m->function)
+                snprintf(p->d->words[before].number, sizeof p->d->words->number, "%.23s", m->body[0].text);
             continue;
         }
         struct tokens body = {0};

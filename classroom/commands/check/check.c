@@ -160,11 +160,28 @@ static bool prepare_page(struct check_command *c, lam_error *error)
     return c->batch.page || c->batch.without_sheets;
 }
 
+// Makes the list of roles, which ends with NULL.
+static bool list_roles(struct check_command *c, lam_error *error)
+{
+    const struct texts *roles = &c->options->check.roles;
+    if (!roles->count)
+        return true;
+    c->batch.roles = calloc((size_t)roles->count + 1, sizeof *c->batch.roles);
+    for (int i = 0; c->batch.roles && i < roles->count; i++) {
+        c->batch.roles[i] = roles->items[i];
+        if (!strchr(roles->items[i], '='))
+            return complain(error, LAM_BAD_ARGUMENT,
+                            "option '--role': found '%.60s', expected NAME=ROLE, such as observer=eye",
+                            roles->items[i]);
+    }
+    return c->batch.roles || complain(error, LAM_MACHINE, "out of memory");
+}
+
 static bool prepare(struct check_command *c, int operand_count, char **operands, lam_error *error)
 {
     const struct options *o = c->options;
     if (!split_scenes(c, error) || !find_submissions(c, operand_count, operands, error) || !check_outputs(c, error) ||
-        !read_contract(o->check.contract, &c->contract, error) || !open_tables(c, error))
+        !read_contract(o->check.contract, &c->contract, error) || !list_roles(c, error) || !open_tables(c, error))
         return false;
     c->batch.contract = c->contract;
     if (c->batch.in_class && o->picture.output && !prepare_page(c, error))
@@ -178,7 +195,8 @@ static int finish(struct check_command *c)
     const struct options *o = c->options;
     lam_error error = {0};
     int code = c->code;
-    if (c->batch.page && !check_page_write(c->batch.page, o->picture.output, o->check.class_folder, &error)) {
+    if (c->batch.page && !check_page_write(c->batch.page, o->picture.output,
+                                           o->captions.title ? o->captions.title : o->check.class_folder, &error)) {
         say_error(error.text);
         code = exit_code_of(error.code)->code;
     }
@@ -237,6 +255,7 @@ int run_check(int operand_count, char **operands, const struct options *o)
     lam_check_contract_free(c.contract);
     check_free_submissions(c.submissions, c.batch.count);
     free(c.scene_list);
+    free(c.batch.roles);
     if (interrupted())
         interrupt_finish();
     return error.code ? report_failure(&error, o) : code;

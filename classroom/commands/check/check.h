@@ -153,6 +153,7 @@ struct check_batch {
     struct check_table tables[CHECK_TABLES];
     bool without_sheets;     // set if the folder for sheets cannot be created
     struct check_page *page; // NULL if there is no page
+    const char **roles;      // of --role; ends with NULL. NULL: none
 };
 
 // Checks all submissions, several at a time, and prints the results in order. Reports the errors of a submission and

@@ -99,12 +99,14 @@ static void run_check_of(struct check_batch *b, struct check_result *result)
             .light_frame = (lam_light_frame)o->check.light_frame,
             .reflection = (lam_reflection)o->check.highlight,
             .terms = (unsigned)o->check.terms,
-            .max_pictures = (uint64_t)o->check.search_limit,
+            .max_pictures = option_given(o, "search-limit") ? (uint64_t)o->check.search_limit : 0,
             .scenes = b->scenes,
             .scene_count = b->scene_count,
             .cache = b->cache,
             .draw = check_process,
             .user = &process,
+            .roles = b->roles,
+            .explain_roles = o->check.explain_roles,
         };
         lam_check_run(&params, &result->report, error);
         if (o->check.write_contract)

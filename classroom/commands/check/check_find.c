@@ -149,6 +149,11 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
             vertices[vertex_count++] = paths[i];
         else if (check_is_fragment(paths[i]))
             fragments[fragment_count++] = paths[i];
+        else if (strlen(paths[i]) > 5 && strcasecmp(paths[i] + strlen(paths[i]) - 5, ".glsl") == 0)
+            ok = add(
+                f, name_of(top, paths[i], false), NULL, NULL,
+                "left out: the name does not say whether it is a vertex or a fragment shader, such as phong.frag or "
+                "fragmentShader.glsl");
     }
     ok = ok && add_files(f, top, folder, fragments, fragment_count, vertices, vertex_count);
     free(fragments);
@@ -170,7 +175,8 @@ static bool search(struct finding *f, const char *top, const char *folder, int d
         // A folder without shaders is listed too, so that no submission is overlooked.
         if (ok && depth == 0 && f->count == before &&
             !add(f, name_of(top, paths[i], false), NULL, NULL,
-                 "there is no shader in this folder: expected a file that ends in .frag, .fs, .fsh or .fragment"))
+                 "there is no shader in this folder: expected a file that ends in .frag, .fs, .fsh or .fragment, or "
+                 "fragmentShader.glsl"))
             ok = complain(error, LAM_MACHINE, "out of memory");
     }
     free_paths(paths, count);

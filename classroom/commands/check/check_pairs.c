@@ -18,24 +18,26 @@ size_t check_stem_length(const char *path)
     return dot > name ? (size_t)(dot - path) : strlen(path);
 }
 
-static bool has_ending(const char *path, const char *const endings[4])
+// Returns whether a file is a shader of one stage. The stage is the extension, in any case, or a word in the name of a
+// file that ends in .glsl or .txt: vertexShader.glsl, fragment-shader.txt.
+static bool is_stage(const char *path, const char *const endings[4])
 {
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const char *ending = path + check_stem_length(path);
     size_t length = *ending ? strcspn(ending + 1, ".") : 0;
+    bool named = strcasecmp(ending, ".glsl") == 0 || strcasecmp(ending, ".txt") == 0;
     for (size_t i = 0; i < 4; i++)
-        if (length == strlen(endings[i]) && strncmp(ending + 1, endings[i], length) == 0)
+        if ((length == strlen(endings[i]) && strncasecmp(ending + 1, endings[i], length) == 0) ||
+            (named && i == 0 && strcasestr(name, endings[i])))
             return true;
     return false;
 }
 
-bool check_is_vertex(const char *path)
-{
-    return has_ending(path, (const char *const[]){"vert", "vs", "vsh", "vertex"});
-}
+bool check_is_vertex(const char *path) { return is_stage(path, (const char *const[]){"vert", "vs", "vsh", "vertex"}); }
 
 bool check_is_fragment(const char *path)
 {
-    return has_ending(path, (const char *const[]){"frag", "fs", "fsh", "fragment"});
+    return is_stage(path, (const char *const[]){"frag", "fs", "fsh", "fragment"}) && !check_is_vertex(path);
 }
 
 bool check_same_stem(const char *a, const char *b)

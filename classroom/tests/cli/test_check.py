@@ -25,6 +25,7 @@ from correct import SHADERS as CORRECT  # noqa: E402
 from demands import demanding  # noqa: E402
 from lectures import LECTURES  # noqa: E402
 from mistakes import MISTAKES  # noqa: E402
+import renamed  # noqa: E402
 
 SHADERS = ROOT / "classroom" / "tests" / "check"
 EVERY = int(os.environ.get("LAMBENT_CHECK_EVERY", "1"))  # only every n-th mistake and correct style; make test-long checks all
@@ -503,25 +504,64 @@ class Refused(CheckTest):
                   "is a vec3 here and a vec4")
 
 
+class Hints(CheckTest):
+    def test_slips(self):
+        """A missing semicolon is one sentence, and an assignment without a type is not taken for another name."""
+        vert, frag = renamed.RIGHT["eye blinn"]
+        for old, new, says, lines in (("l = normalize(way);\n", "l = normalize(way)\n", "is a ';' missing", 1), ("vec3 c = Ka", "c = Ka", "give it a type", 0)):
+            (self.folder / "s.vert").write_text(vert)
+            (self.folder / "s.frag").write_text(frag.replace(old, new))
+            report = self.report_of("s.frag", "--vertex", "s.vert", code=6)
+            self.assertEqual(report["verdict"], "refused")
+            self.assertIn(says, " ".join(self.notes(report, "hint")))
+            if lines:
+                self.assertEqual(len(self.notes(report, "unknown")) + len(self.notes(report, "hint")), lines, report["notes"])
+
+
+class Renamed(CheckTest):
+    def test_every_name(self):
+        """Right and wrong shaders in the forms of public repositories, with their inputs renamed: no right shader differs, and no name is wrong."""
+        counts = collections.Counter()
+        for row in list(renamed.rows())[::2 * EVERY]:
+            verdict, detail = renamed.judge(PROGRAM, row, self.folder)
+            counts[row[0], verdict] += 1
+            self.assertNotIn(verdict, ("differs", "wrong name", "error"), (row[:3], detail))
+        self.assertGreaterEqual(counts["right", "passes"], 2 * counts["right", "no verdict"], counts)
+        self.assertGreaterEqual(counts["wrong", "true name"], counts["wrong", "no verdict"], counts)
+
+    def test_roles(self):
+        """Only a clear name contradicts a role; --role states the role, and --explain-roles prints all roles."""
+        vert, frag = renamed.RIGHT["world phong"]
+        for name, text in (("s.vert", vert.replace("aNormal", "norm")), ("s.frag", re.sub(r"lightPos|viewPos", lambda m: {"lightPos": "viewPos", "viewPos": "lightPos"}[m[0]], frag))):
+            (self.folder / name).write_text(text)
+        words = ["s.frag", "--vertex", "s.vert"]
+        self.bad(1, "check", *words, says=("the eye or the light", "--role"), leaves=("s.frag", "s.vert"))
+        report = self.report_of(*words, "--role", "viewPos=light", "--role", "lightPos=eye", "--explain-roles")
+        self.assertEqual(report["verdict"], "passes")
+        self.assertIn("lightPos (uniform): eye, because it is stated", " ".join(self.notes(report, "hint")))
+        self.bad(1, "check", *words, "--role", "eye", says="NAME=ROLE", leaves=("s.frag", "s.vert"))
+
+
 class Unruly(CheckTest):
     def test_unknown_names(self):
         report = self.report_of(*self.shader("pittsburgh", [("frag", "uniform float shininess;", "uniform float shinines;"),
                                                             ("frag", "0.0), shininess)", "0.0), shinines)")]),
-                                "--scenes", "highlight", code=6)
-        self.assertIn("did you mean 'shininess'", " ".join(self.notes(report, "unknown")))
+                                "--scenes", "highlight")
+        self.assertIn("did you mean 'shininess'", " ".join(self.notes(report, "unknown")))  # without a contract, a name is only evidence
+        self.assertEqual(self.report_of("s.frag", "--vertex", "s.vert", "--scenes", "highlight", "--contract", "pittsburgh", code=6)["verdict"], "differs")
 
     @long
     @searches
     def test_none_known(self):
         report = self.report_of(*self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")]),
-                                "--scenes", "all,diffuse,gate", code=6)
+                                "--scenes", "all,diffuse,gate", "--contract", "oregon", code=6)
         self.assertEqual((report["verdict"], report["mistakes"]), ("differs", []))
-        self.assertIn("No known mistake", self.run_program("check", "s.frag", "-s", 32, "--scenes", "all").stdout.decode())
+        self.assertIn("No known mistake", self.run_program("check", "s.frag", "-s", 32, "--scenes", "all", "--contract", "oregon").stdout.decode())
 
     @searches
     def test_search_limit(self):
         """The search ends at its limit and reports this; if the limit is sufficient, it changes nothing."""
-        words = self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")])
+        words = [*self.shader("oregon", [("frag", "vec4(color, 1.0)", "vec4(color.bgr * gl_FragCoord.y / 60.0, 1.0)")]), "--contract", "oregon"]
         reported = [self.report_of(*words, "--scenes", "all", "--search-limit", n, size=48, code=6) for n in (100, 20000, 10000)]
         self.assertEqual([(r["verdict"], r["mistakes"]) for r in reported], [("differs", [])] * 3)
         self.assertEqual([r["search_stopped"] for r in reported], [1, 0, 0])
@@ -529,7 +569,7 @@ class Unruly(CheckTest):
         self.assertTrue(1 <= reported[0]["tried"] <= 100 < reported[1]["tried"], [r["tried"] for r in reported])
         text = self.run_program("check", *words, "--scenes", "all", "-s", 48, "--search-limit", 100).stdout.decode()
         self.assertIn(f"None of {reported[0]['tried']} mistakes and sets of mistakes explains the difference; the search ended at its limit (--search-limit)", text)
-        words = self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")])
+        words = [*self.shader("oregon", [("frag", "dot(n, l) > 0.0 ?", "true ?")]), "--contract", "oregon"]
         for limit, ids in ((1, []), (10000, ["no-gate"])):
             self.assertEqual([m["id"] for m in self.report_of(*words, "--search-limit", limit, code=6)["mistakes"]], ids)
         report = self.report_of(*self.shader("oregon"))
@@ -784,10 +824,8 @@ class Contracts(CheckTest):
         self.assertNotEqual(wrong, vert)
         report = self.report_of(*self.write(wrong, frag), code=6)
         self.assertEqual([(m["id"], m["certain"]) for m in report["mistakes"]], [("normal-object-space", 1)])
-        shadowed = frag.replace("uniform vec3 camera", "uniform sampler2D shadowMap; uniform vec3 camera").replace("= vec4(", "= texture(shadowMap, vec2(0)) + vec4(")
         black = "void main() { gl_FragColor = vec4(0, 0, 0, 1); }"
         for texts, options, says in (((vert, frag), ("--contract", "learnopengl"), ("an input has no value", "'M' (mat4", "'sunPos' (vec3")),
-                                     ((vert, shadowed), (), ("'shadowMap' (sampler2D)", "--contract FILE")),
                                      (("void main() { gl_Position = gl_Vertex; }", black), (), ("no verdict",))):
             self.bad(1, "check", *self.write(*texts), *options, leaves=("s.frag", "s.vert"), says=says)
         for contract in ("oregon", "learnopengl", "pittsburgh"):  # a black picture passes nowhere
@@ -795,7 +833,7 @@ class Contracts(CheckTest):
             self.assertNotEqual(done.returncode, 0, contract)
         # A slip of the pen counts as a mistake of the shader.
         text = (SHADERS / "learnopengl.frag").read_text().replace("viewPos", "viewPosn")
-        report = self.report_of(*self.write((SHADERS / "learnopengl.vert").read_text(), text), code=6)
+        report = self.report_of(*self.write((SHADERS / "learnopengl.vert").read_text(), text), "--contract", "learnopengl", code=6)
         self.assertIn("'viewPosn' is not in the contract learnopengl; did you mean 'viewPos'", " ".join(self.notes(report, "unknown")))
 
     def test_inferred(self):
@@ -813,7 +851,7 @@ class Contracts(CheckTest):
                "o = vec4(paint * (0.2 + 0.6 * d) + vec3(0.3 * s), 1.0); }\n")
         report = self.report_of(*self.write(*eye))
         self.assertEqual(report["verdict"], "passes")
-        self.assertIn("20", " ".join(self.notes(report, "hint")))
+        self.assertIn("exponent of the highlight is 20", " ".join(self.notes(report, "hint")))
         for old, new, expected in (("vec3 N = normalize(n)", "vec3 N = n", ["normal-never-unit"]), ("max(dot(N, lightDir), 0.0), s", "dot(N, lightDir), s", ["no-clamp"])):
             report = self.report_of(*self.write(eye[0], eye[1].replace(old, new)), code=6)
             self.assertEqual([m["id"] for m in report["mistakes"]], expected)

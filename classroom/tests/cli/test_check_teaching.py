@@ -49,12 +49,12 @@ class Written(CheckTest):
     def test_without_a_verdict(self):
         """The file then states the known inputs and the unknown input."""
         frag = (SHADERS / "learnopengl.frag").read_text().replace("uniform vec3 lightPos;", "uniform vec3 lightPos;\nuniform sampler2D shadowMap;")
-        words = self.write((SHADERS / "learnopengl.vert").read_text(), frag.replace("FragColor = vec4(", "FragColor = texture(shadowMap, vec2(0.0)) * vec4("))
-        self.bad(1, "check", *words, "--write-contract", "c.json", says="'shadowMap'", leaves=("s.frag", "s.vert", "c.json"))
+        words = self.write((SHADERS / "learnopengl.vert").read_text(), frag.replace("FragColor = vec4(", "FragColor = dFdx(texture(shadowMap, vec2(0.0))) * vec4("))
+        self.bad(1, "check", *words, "--write-contract", "c.json", says="dFdx", leaves=("s.frag", "s.vert", "c.json"))
         contract = json.loads((self.folder / "c.json").read_text())
-        self.assertEqual(contract["uniforms"]["shadowMap"]["role"], "zero")
-        self.assertIn("'shadowMap'", contract["comment"][-1])
-        self.assertEqual(contract["uniforms"]["lightPos"]["role"], "light_position")
+        self.assertEqual(contract["uniforms"]["shadowMap"]["role"], "factor")
+        self.assertIn("'model'", contract["comment"][-1])
+        self.assertEqual(contract["uniforms"]["lightPos"]["role"], "factor")
 
     def test_cannot_be_written(self):
         words = self.shader("pittsburgh")
@@ -139,7 +139,7 @@ class Sentences(CheckTest):
     """If no known mistake explains a difference, the report describes the scenes."""
 
     def hint(self, name, *edits):
-        report = self.report_of(*self.shader(name, edits), code=6)
+        report = self.report_of(*self.shader(name, edits), "--contract", name, code=6)
         self.assertEqual(report["mistakes"], [])
         return " ".join(self.notes(report, "hint"))
 
@@ -157,7 +157,7 @@ class Sentences(CheckTest):
         """The text shows the first mistake if the pictures are too different from all known mistakes."""
         hint = self.hint("pittsburgh", ("vert", "N = normalize(normal_matrix * vNormal.xyz);", "mat4 both = projection * model_view;\n    N = (both * vNormal).zxy;"))
         self.assertIn("the normal is multiplied by the projection", hint)
-        report = self.report_of("s.frag", "--vertex", "s.vert", code=6)
+        report = self.report_of("s.frag", "--vertex", "s.vert", "--contract", "pittsburgh", code=6)
         self.assertEqual([n["line"] for n in report["notes"] if "multiplied by the projection" in n["text"]], [19])
 
 

@@ -325,8 +325,8 @@ typedef struct lam_draw_params {
     // Shadow rays start on the flat triangles, so that the terminator of a coarse smooth mesh shows its triangles. By
     // default, shadow rays start on the curved surface defined by the vertex normals.
     bool flat_terminator;
-    // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 112. Above 48, points in full
-    // light or full shadow get 48 rays.
+    // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 128. Above 48, pixels share
+    // rays (docs/lighting/shadows.md).
     int shadow_samples;
     lam_occlusion occlusion; // LAM_BAD_ARGUMENT: SCREEN or RAYS without Phong shading
     // The largest distance at which surfaces occlude, relative to half the diagonal of the scene's box, in (0, 10]. 0:

@@ -418,7 +418,7 @@ static void save(const lam_image *image, const char *name, const char *by)
 
 static double soft_samples(const lam_draw_params *params)
 {
-    return params->shadow_samples ? params->shadow_samples : 112;
+    return params->shadow_samples ? params->shadow_samples : 128;
 }
 
 static struct outcome compare(lam_device *device, const struct demo *demo, const lam_draw_params *params,

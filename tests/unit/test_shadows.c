@@ -227,7 +227,8 @@ TEST(test_soft)
             double at = ((int)((x + 4) / 8 * SIZE) + 0.5) / SIZE * 8 - 4, h = -at / radius;
             double share = h >= 1 ? 1 : h <= -1 ? 0 : 0.5 + (h * sqrt(1 - h * h) + asin(h)) / 3.14159265358979;
             double passed = (double)explained(scene, params, x, 0).passed.r;
-            assert_true(fabs(passed * n - round(passed * n)) < 1e-4); // counted
+            int points = n > 48 ? 1024 : n; // the plate's triangles cover points of the light, without rays
+            assert_true(fabs(passed * points - round(passed * points)) < 1e-3);
             double off = fabs(passed - share);
             worst = n == 256 && off > worst ? off : worst;
             sum += n == 256 ? passed - share : 0;

@@ -44,6 +44,9 @@ static void lay_out_shading(struct suballocator *from, struct shading *shading, 
     shading->starts = NULL;
     if (frame_has_rays(frame))
         ARRAY(shading->starts, 1);
+    shading->shadows = NULL;
+    if (frame->settings.shadows && frame->settings.shading == LAM_SHADING_PHONG)
+        ARRAY(shading->shadows, 1);
     if (!light_culling_wanted(frame))
         return;
     size_t lights = (size_t)frame->light_count;

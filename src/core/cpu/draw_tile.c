@@ -56,7 +56,8 @@ static void draw_layers(struct cpu_frame *cpu, struct thread_state *thread, cons
         return;
     }
     sort_layers(pattern, &thread->fragments, &thread->layers, &thread->blend);
-    group_fragments(cpu->raster.frame, &thread->fragments);
+    // The order of the list depends on the threads. With shadows, it would decide which fragments share rays.
+    group_fragments(cpu->raster.frame, &thread->fragments, thread->shading.shadows ? thread->blend.order : NULL);
     uint64_t covered = now_ns();
     shade(cpu, thread, tile);
     if (!work_continues(&cpu->work))
@@ -188,7 +189,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
         thread->pixels_covered +=
             kernels->raster->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
     }
-    group_fragments(cpu->raster.frame, &thread->fragments);
+    group_fragments(cpu->raster.frame, &thread->fragments, NULL);
     uint64_t covered = now_ns();
     lam_output output = cpu->raster.frame->settings.output;
     if (output != LAM_OUTPUT_COVERAGE && output != LAM_OUTPUT_OVERDRAW)

@@ -8,6 +8,14 @@
 
 enum { RECORDER_POINTS = 3 }; // the maximum number of points of one fragment
 
+// The share of a light that reaches a fragment of the explained pixel, if neighbouring fragments decide about it.
+struct recorded_shadow {
+    struct recorded_shadow *next;
+    uint32_t triangle; // in the frame
+    const struct frame_light *light;
+    float passed[3]; // only the first number is used unless the frame tints rays
+};
+
 struct recorder {
     struct arena arena;   // owns the explanation
     lam_explanation *out; // the explanation; the caller sets the pixel's coordinates before drawing
@@ -17,6 +25,7 @@ struct recorder {
     int pixel;   // index of the pixel in its tile
     // For each translucent fragment, 1 + its index in the explanation, or 0 if the fragment belongs to another pixel.
     uint32_t *layer_slots;
+    struct recorded_shadow *shadows; // the last one first
 
     lam_explained_fragment *fragment; // the fragment whose values are being recorded, or NULL
     lam_explained_point points[RECORDER_POINTS];

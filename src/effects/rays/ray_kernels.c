@@ -1,6 +1,6 @@
 // ray_kernels.c: traces LANES rays at a time, to lights and for ambient occlusion. This file is compiled once for each
 // instruction set, with LANES and ISA defined (meson.build).
-#include "light_rays.h"
+#include "penumbra.h"
 
 static void pass(struct light_rays *rays, const struct ray_starts *starts, int at, const struct frame_light *light,
                  unsigned active, float *to)
@@ -130,4 +130,5 @@ static int64_t blocker(struct light_rays *rays, const struct ray_starts *starts,
 #define NEAREST_BLOCKER .blocker = NULL
 #endif
 
-const struct ray_kernels FOR_ISA(ray_kernels) = {.pass = pass, .occlude = occlude, NEAREST_BLOCKER};
+const struct ray_kernels FOR_ISA(ray_kernels) = {
+    .pass = pass, .pass_pixels = pass_pixels, .occlude = occlude, NEAREST_BLOCKER};

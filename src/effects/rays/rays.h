@@ -74,12 +74,34 @@ struct ray_starts {
 void ray_starts_find(const struct light_rays *rays, const struct ray_surface *surface, const struct ray_points *points,
                      int lanes, struct ray_starts *starts);
 
+// Fragments of a batch for which the light that passes is computed together, with their pixels.
+struct ray_pixels {
+    int count;
+    const float *x, *y; // the pixel's centre, in pixels
+    // The cosine of the angle between the light and the normal, times 255. 0: the light cannot reach the fragment.
+    const uint8_t *weight;
+    struct ray_scratch *scratch;
+};
+
+// Scratch memory for the light of a batch (penumbra.h).
+enum { BLOCKERS_MAX = 1024 };
+struct ray_scratch {
+    double direction[3][RAY_STARTS_MAX], u[3][RAY_STARTS_MAX], v[3][RAY_STARTS_MAX]; // to the light, axes of its disc
+    float probes[RAY_STARTS_MAX], probed[RAY_STARTS_MAX]; // first rays of a fragment: number, and sum of light
+    uint32_t blockers[BLOCKERS_MAX], may[BLOCKERS_MAX];   // triangles between the light and a cell
+    float corners[BLOCKERS_MAX][3][3];                    // of these triangles, relative to the cell's middle
+};
+
 // The functions that trace several rays at a time, compiled for each instruction set.
 struct ray_kernels {
     // Computes the share of a light that reaches the active ones of the points `at` … `at` + lanes − 1: a row of
     // `lanes` numbers, or three rows (red, green, blue) if a material of the frame tints light (frame.tints_rays).
     void (*pass)(struct light_rays *rays, const struct ray_starts *starts, int at, const struct frame_light *light,
                  unsigned active, float *passed);
+    // Computes the share of a light with a size that reaches the wanted fragments: a row of RAY_STARTS_MAX numbers, or
+    // three rows as above. Fragments of neighbouring pixels share rays (penumbra.h).
+    void (*pass_pixels)(struct light_rays *rays, const struct ray_starts *starts, const struct ray_pixels *pixels,
+                        const struct frame_light *light, float passed[3][RAY_STARTS_MAX]);
     // Computes the fraction of each point's surroundings that is not occluded. A ray through translucent surfaces
     // contributes their transmittance.
     void (*occlude)(struct light_rays *rays, const struct ray_surface *surface, const struct ray_starts *starts,

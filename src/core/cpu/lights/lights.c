@@ -5,6 +5,7 @@
 #include "lighting.h"
 
 #include "group.h"
+#include "recorder.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -235,6 +236,85 @@ static void shade_catcher(const struct group *g, struct shading_batch *batch, in
         store3(batch->color, i, black3());
     }
 }
+
+#ifdef RECORDING
+// Gets the values that drawing has found, because a fragment's neighbours are not shaded again.
+void FOR_ISA(find_shadows)(const struct group *g, struct shading_batch *batch, int count)
+{
+    struct shadow_rows *rows = g->shading->shadows;
+    rows->count = 0;
+    for (const struct recorded_shadow *s = g->shade->recorder->shadows; s && count; s = s->next) {
+        if (s->triangle != g->first_id + batch->triangle[0])
+            continue;
+        rows->light[rows->count] = s->light;
+        rows->weight[rows->count][0] = 1;
+        for (int c = 0; c < 3; c++)
+            rows->passed[rows->count][c][0] = s->passed[c];
+        rows->count++;
+    }
+}
+#else
+// Stores the light that reaches the fragments of the explained pixel.
+static void keep_shadows(const struct group *g, const struct shading_batch *batch, int count)
+{
+    struct recorder *recorder = g->shade->recorder;
+    const struct shadow_rows *rows = g->shading->shadows;
+    for (int i = 0; i < count * rows->count; i++) {
+        int at = i / rows->count, k = i % rows->count;
+        if ((int)batch->x[at] != recorder->out->x || (int)batch->y[at] != recorder->out->y || !rows->weight[k][at])
+            continue;
+        struct recorded_shadow *s = recorder_alloc(recorder, 1, sizeof *s);
+        if (!s)
+            return;
+        *s = (struct recorded_shadow){recorder->shadows, g->first_id + batch->triangle[at], rows->light[k], {0}};
+        for (int c = 0; c < (g->frame->tints_rays ? 3 : 1); c++)
+            s->passed[c] = rows->passed[k][c][at];
+        recorder->shadows = s;
+    }
+}
+
+// Finds the cosine of the angle between each fragment's normal and the light, times 255. The result is 0 if the light
+// cannot reach the fragment. Layers and hairs also reflect light that arrives from behind.
+static void weigh_light(const struct group *g, struct shading_batch *batch, int count, const struct frame_light *light,
+                        uint8_t *weights)
+{
+    static const struct light_products none = {0};
+    bool both_sides = g->material->layers || lobe_properties((int)g->reflection) & LOBE_TANGENT;
+    for (int at = 0; at < count; at += LANES) {
+        light_sample t = toward_light(load3(batch->p, at), source_of(light, &none), light->kind, light->falloff);
+        num cosine = both_sides ? num_of(1.0f) : dot3(load3(batch->n, at), t.l);
+        mask lit = both(both(t.attenuation * t.spot > 0.0f, cosine > 0.0f), lane_numbers() < count - at);
+        inum weight = ipick(lit, int_of(min_of(cosine, num_of(1.0f)) * 254.0f) + 1, inum_of(0));
+        for (int k = 0; k < LANES; k++)
+            weights[at + k] = (uint8_t)ilane(weight, k);
+    }
+}
+
+void FOR_ISA(find_shadows)(const struct group *g, struct shading_batch *batch, int count)
+{
+    struct shadow_rows *rows = g->shading->shadows;
+    struct light_rays rays = light_rays_of(g);
+    rows->count = 0;
+    if (g->shade->light_pattern->all.count <= LIGHT_PROBES)
+        return;
+    for (int i = 0, all = g->lights ? g->lights->count : g->frame->light_count; i < all; i++) {
+        const struct frame_light *light = &g->frame->lights[g->lights ? g->lights->numbers[i] : (uint32_t)i];
+        if (!light->casts_shadows || !(light->radius > 0))
+            continue;
+        if (rows->count == SHADOW_LIGHTS || !work_continues(g->shading->work))
+            break;
+        uint8_t *weights = rows->weight[rows->count];
+        weigh_light(g, batch, count, light, weights);
+        g->shade->ray_kernels->pass_pixels(&rays, g->shading->starts,
+                                           &(struct ray_pixels){count, batch->x, batch->y, weights, &rows->scratch},
+                                           light, rows->passed[rows->count]);
+        rows->light[rows->count++] = light;
+    }
+    g->shading->rays += rays.sent;
+    if (g->shade->recorder)
+        keep_shadows(g, batch, count);
+}
+#endif
 
 void FOR_ISA(light_points)(const struct group *g, struct shading_batch *batch, int count)
 {

@@ -8,10 +8,6 @@ static void sort_by_group(struct fragments *fragments, uint32_t largest)
 {
     uint32_t n = (uint32_t)fragments->count;
     uint32_t *from = fragments->order, *to = fragments->scratch;
-    for (uint32_t i = 0; i < n; i++)
-        from[i] = i;
-    for (uint32_t i = 0; i < n; i++)
-        from[i] = i;
     for (int shift = 0; shift < 32 && (largest >> shift) != 0; shift += 11) {
         uint32_t starts[2048] = {0}, sum = 0;
         for (uint32_t i = 0; i < n; i++)
@@ -39,13 +35,35 @@ static bool group_sides(struct fragments *fragments)
     for (uint32_t i = 0; i < n; i++) {
         fragments->group[i] = fragments->id[i] >> 31;
         backs += fragments->group[i];
-        fragments->order[i] = i;
     }
     return backs == 0 || backs == n;
 }
 
-void group_fragments(const struct frame *frame, struct fragments *fragments)
+// Copies fragments that are sorted by pixel, and sorts the fragments of each pixel by triangle.
+static void sort_within_pixels(struct fragments *fragments, const uint32_t *by_pixel)
 {
+    uint32_t n = (uint32_t)fragments->count, *order = fragments->order;
+    memcpy(order, by_pixel, n * sizeof *order);
+    for (uint32_t first = 0, end; first < n; first = end) {
+        for (end = first + 1; end < n && fragments->pixel[order[end]] == fragments->pixel[order[first]]; end++)
+            ;
+        for (uint32_t gap = (end - first) / 2; gap; gap /= 2) // Shell's sort
+            for (uint32_t i = first + gap; i < end; i++)
+                for (uint32_t k = i; k >= first + gap && fragments->id[order[k]] < fragments->id[order[k - gap]];
+                     k -= gap) {
+                    uint32_t moved = order[k];
+                    order[k] = order[k - gap];
+                    order[k - gap] = moved;
+                }
+    }
+}
+
+void group_fragments(const struct frame *frame, struct fragments *fragments, const uint32_t *by_pixel)
+{
+    if (by_pixel)
+        sort_within_pixels(fragments, by_pixel);
+    for (uint32_t i = 0; i < (uint32_t)fragments->count && !by_pixel; i++)
+        fragments->order[i] = i;
     if (frame->range_count == 1) {
         if (!group_sides(fragments))
             sort_by_group(fragments, 1);

@@ -27,7 +27,8 @@ struct fragments {
     uint32_t *scratch;
 };
 
-// Finds the group of each fragment, and sorts the fragments by group.
-void group_fragments(const struct frame *frame, struct fragments *fragments);
+// Finds the group of each fragment, and sorts the fragments by group. With `by_pixel`, all fragments sorted by pixel, the
+// fragments of a group are sorted by pixel and triangle, otherwise in the order of the list.
+void group_fragments(const struct frame *frame, struct fragments *fragments, const uint32_t *by_pixel);
 
 #endif

@@ -85,6 +85,8 @@ LANE_FN surface load_surface(struct shading_batch *batch, int at)
 
 #include "record.h"
 
+// Finds the light that reaches the fragments of a batch from lights with a size (lights.c).
+void FOR_ISA(find_shadows)(const struct group *g, struct shading_batch *batch, int count);
 // Lights the points of a batch (lights.c): replaces the vertex colours in its rows with the shaded colours.
 void FOR_ISA(light_points)(const struct group *g, struct shading_batch *batch, int count);
 

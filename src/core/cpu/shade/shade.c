@@ -410,8 +410,12 @@ static void shade_prepared(const struct group *g, int first, int end, bool prepa
             output_geometry(g, first, count);
         else if (g->frame->settings.output == LAM_OUTPUT_LOD)
             find_levels(g, count);
-        if (!output_is_geometry(g->frame->settings.output))
+        if (!output_is_geometry(g->frame->settings.output)) {
+            struct shadow_rows *shadows = g->hierarchy ? g->shading->shadows : NULL;
+            if (shadows && lam_output_is_light(g->frame->settings.output))
+                FOR_ISA(find_shadows)(g, g->shading->batch, count);
             FOR_ISA(light_points)(g, g->shading->batch, count);
+        }
         scatter_colors(g->shading->batch, g->fragments->color, g->fragments->order + first, count);
         if (g->translucent && g->fragments->through[0])
             scatter_through(g, first, count);

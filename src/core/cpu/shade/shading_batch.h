@@ -84,6 +84,17 @@ struct shading_batch {
     struct triangle_runs runs;
 };
 
+// The light that reaches the fragments of a batch, for the first lights that have a size and cast shadows. Other lights
+// are traced for each fragment on its own.
+enum { SHADOW_LIGHTS = 16 };
+struct shadow_rows {
+    int count; // 0 for vertices
+    const struct frame_light *light[SHADOW_LIGHTS];
+    uint8_t weight[SHADOW_LIGHTS][BATCH_ROW];
+    float passed[SHADOW_LIGHTS][3][RAY_STARTS_MAX]; // only the first row is used unless the frame tints rays
+    struct ray_scratch scratch;
+};
+
 // For Gouraud and flat shading: a hash table of the vertices (or triangles) that are shaded for a tile.
 struct vertex_cache {
     uint32_t *table;    // slot → vertex + 1; its size is a power of two, chosen for each group
@@ -99,7 +110,8 @@ struct vertex_cache {
 // Scratch memory and counters for the shading of one thread.
 struct shading {
     struct shading_batch *batch;
-    struct ray_starts *starts; // NULL if the frame traces no rays
+    struct ray_starts *starts;   // NULL if the frame traces no rays
+    struct shadow_rows *shadows; // NULL if vertices are shaded, or no shadows are cast
     struct ray_layers ray_layers;
     struct vertex_cache vertices;
     struct light_list lights;

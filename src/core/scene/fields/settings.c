@@ -108,7 +108,7 @@ static const lam_setting rows[] = {
     {"shadow_terminator", MEMBER(NOT_FLAG, flat_terminator), WORDS_OF(terminator_words),
      .summary = "The surface on which shadow rays start: the curved surface defined by the normals (on), or the flat "
                 "triangles (off)."},
-    {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 112, .expected = "0 to 256",
+    {"shadow_samples", MEMBER(WHOLE, shadow_samples), .min = 1, .max = 256, .standard = 128, .expected = "0 to 256",
      .summary = "The number of shadow rays from each point in a penumbra to a light with a radius."},
     {"ground", MEMBER(WORD, ground), WORDS_OF(ground_words), .expected = "lam_ground",
      .summary = "A ground plane at the model's lowest point: shadow, checker, a colour or off."},

@@ -321,6 +321,8 @@ bool check_conclude(struct run *r, struct reading *q, enum reading_outcome outco
     if (missing > 0.5)
         return fail(error, LAM_BAD_ARGUMENT, "no verdict: the model is not drawn; an input was probably misread");
     check_measure(r, writes);
+    hint(r, "the verdict follows from an evaluation of the source; the reference of the scenes is the shader's own "
+            "picture");
     report_form(r, q);
     return true;
 }

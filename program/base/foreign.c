@@ -43,6 +43,8 @@ static void print_hidden(FILE *file, enum foreign_form form, uint32_t hidden)
         fprintf(file, "\\u%04x", (unsigned)hidden);
     else if (html && is_order(hidden) && !isolate)
         fprintf(file, "&#x%x;", (unsigned)hidden);
+    else if (html && hidden == 0xfffd)
+        fputs("\ufffd", file);
     else if (hidden > 0x9f && hidden != 0xfffd)
         fprintf(file, html ? "&lt;U+%04X&gt;" : "<U+%04X>", (unsigned)hidden);
     else

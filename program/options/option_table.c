@@ -628,8 +628,9 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
     {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
-     "The fraction of unblocked rays is the brightness of the light at that point. If you request more than 48 rays, "
-     "points in full light or full shadow still use only 48 rays. Fewer rays are faster but cause visible banding.",
+     "The fraction of unblocked rays is the brightness of the light at that point. With more than 48 rays, "
+     "neighbouring pixels share rays, and few rays are traced in full light and full shadow. With up to 48 rays, each "
+     "point uses exactly this number, which causes visible banding (`docs/lighting/shadows.md`).",
      .others = "soft-shadow-samples light-samples"},
     {"wireframe", 'w', GROUP_SHADING, NULL, NULL, NULL,
      "`--wireframe width=2,color=red` sets the width in pixels (default: 1) and the colour (default: black). If the "
@@ -949,9 +950,9 @@ struct option option_table[OPTIONS_MAX] = {
     {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print only errors.", NULL, .store = store_switch, .others = "silent",
      FIELD(report.quiet), .single = TAKES_QUIET},
 
-    {"tolerance", 0, GROUP_DIFF, "STEPS", "0",
-     "The largest allowed difference per channel, in steps of 1/255. If a difference is larger, the exit code is 6.",
-     NULL, .store = store_number, .others = "threshold epsilon", FIELD(diff.tolerance), .min = 0, .max = 1e9},
+    {"tolerance", 0, GROUP_DIFF, "STEPS", "0", "The largest allowed difference per channel, in steps of 1/255.",
+     "If a difference is larger, the exit code is 6.", .store = store_number, .others = "threshold epsilon",
+     FIELD(diff.tolerance), .min = 0, .max = 1e9},
     {"gain", 0, GROUP_DIFF, "FACTOR", "16", "Amplify the difference picture by this factor.", NULL,
      .store = store_number, .others = "amplify", FIELD(diff.gain), .min = 0.001, .max = 1e6},
 
@@ -1009,7 +1010,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or an angle in degrees.",
      NULL, .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},
 
-    {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader that belongs to the fragment shader.",
+    {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader for the fragment shader.",
      "Without this option, Lambent recognises the varyings by name and type, and generates a correct vertex shader for "
      "them (`docs/check.md`).",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.vertex)},
@@ -1024,13 +1025,12 @@ struct option option_table[OPTIONS_MAX] = {
      light_frame_words, .store = store_word, FIELD(check.light_frame)},
     {"highlight", 0, GROUP_CHECK, "NAME", "the contract's", "The expected highlight: phong or blinn-phong.", NULL,
      highlight_words, .store = store_word, FIELD(check.highlight)},
-    {"terms", 0, GROUP_CHECK, "NAMES", "as declared",
-     "The terms that the exercise asks for: all, or some of ambient,diffuse,specular.",
+    {"terms", 0, GROUP_CHECK, "NAMES", "as declared", "The expected terms: ambient,diffuse,specular or all.",
      "By default, Lambent expects a term if the shaders declare an input for this term. For example, Lambent expects a "
      "highlight only if the shaders declare a specular colour. If the shaders do not declare an expected colour, "
      "Lambent uses white.",
      term_words, .store = store_words, FIELD(check.terms)},
-    {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes to use, separated by commas: all,gate,near.", NULL,
+    {"scenes", 0, GROUP_CHECK, "NAMES", "all", "The scenes, separated by commas: all,gate,near.", NULL,
      .store = store_text, FIELD(check.scenes)},
     {"stop-after", 0, GROUP_CHECK, "SECONDS", "10", "Limit the processor time of a shader.",
      "The limit applies to all scenes together. Lambent adds up the processor time of all threads, so other programs "
@@ -1046,8 +1046,9 @@ struct option option_table[OPTIONS_MAX] = {
      "shader of the same name. With `-o FOLDER/`, Lambent writes a page for the whole class, `index.html`, and a sheet "
      "for each submission.",
      .kind = VALUE_FILE, .store = store_text, FIELD(check.class_folder)},
-    {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader, with its points and mistakes.", NULL,
-     .kind = VALUE_FILE, .store = store_text, .others = "grades marks table", FIELD(check.csv)},
+    {"csv", 0, GROUP_CHECK, "FILE", NULL, "Write a CSV line for each shader.",
+     "The line contains the points and the mistakes.", .kind = VALUE_FILE, .store = store_text,
+     .others = "grades marks table", FIELD(check.csv)},
     {"moodle", 0, GROUP_CHECK, "FILE", NULL, "Write grades as a Moodle worksheet (CSV).",
      "Lambent recognises the folder names that Moodle makes from the names of the participants.", .kind = VALUE_FILE,
      .store = store_text, FIELD(check.moodle)},

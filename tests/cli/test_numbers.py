@@ -92,7 +92,8 @@ OVERDRAW = code("src/core/device/encode_values.c", r"/ \(v\[c\] \+ ([\d.]+)f")
 # A page, a sentence of it in which {} replaces each number determined by the code, and the sources of these
 # numbers.
 ROWS = [
-    ("docs/lighting/shadows.md", "that {} rays, the largest number, produce", constant("src/effects/rays/light_pattern.h", "LIGHT_POINTS_MAX")),
+    ("docs/lighting/shadows.md", "With N above {}, Lambent looks at cells", constant("src/effects/rays/light_pattern.h", "LIGHT_PROBES")),
+    ("docs/lighting/shadows.md", "at least {} rays are traced", constant("src/effects/rays/light_pattern.h", "CELL_PROBES")),
     ("docs/lighting/pixels.md", "rounds vertices to 1/{} of a pixel", constant("src/core/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "lies up to 1/{} of a pixel outside", constant("src/core/cpu/raster/tile.h", "SUBPIXEL")),
     ("docs/lighting/pixels.md", "uses {} samples in pictures of up to {}² pixels, {} samples up to {}² pixels, and {} samples in larger pictures", *SAMPLES),

@@ -13,7 +13,7 @@ bool frame_camera_check(const lam_camera *camera, lam_error *error)
     if (!v3_finite(camera->eye) || !v3_finite(camera->target) || !v3_finite(camera->up))
         return fail(error, LAM_BAD_ARGUMENT, "camera: eye, target or up is not finite");
     const double distance = v3_length(v3_sub(camera->eye, camera->target)),
-                 farthest = 1e33; // times 65535 pixels, this is a float
+                 farthest = 5e33; // times 65535 pixels, this is a float
     if (distance == 0)
         return fail(error, LAM_BAD_ARGUMENT, "camera: eye and target are the same point");
     if (!(distance <= farthest))

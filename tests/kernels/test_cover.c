@@ -303,15 +303,14 @@ TEST(test_culling)
     free(soup.corners);
 }
 
-// A tetrahedron of any size up to the largest floats, fitted into a picture of odd size: every instruction set draws
-// the same coverage, and up to 1e33 the coverage of size 1. (Beyond, products of coordinates leave the range of
-// floats.)
+// A tetrahedron of any size up to 1e33, fitted into a picture of odd size: every instruction set draws the coverage of
+// size 1. A larger one is refused, because products of coordinates leave the range of floats.
 TEST(test_sizes)
 {
     enum { WIDTH = 33, HEIGHT = 31 };
     static const float corners[4][3] = {{-1, -1, -1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
     static const uint32_t indices[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
-    static uint8_t first[WIDTH * HEIGHT * 4], scalar[WIDTH * HEIGHT * 4], pixels[WIDTH * HEIGHT * 4];
+    static uint8_t first[WIDTH * HEIGHT * 4], pixels[WIDTH * HEIGHT * 4];
     for (int orthographic = 0; orthographic < 2; orthographic++)
         for (int power = 0; power <= 38; power++) {
             lam_error error = {0};
@@ -331,15 +330,16 @@ TEST(test_sizes)
                     continue;
                 AUTO_DEVICE device = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = (lam_isa)isa}, &error);
                 lam_image image = {.width = WIDTH, .height = HEIGHT, .format = LAM_RGBA8, .pixels = pixels};
-                if (!device || !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
+                bool drawn = device && lam_draw(device, scene, &camera, &params, &image, NULL, &error);
+                if (power > 33) {
+                    assert_true(device && !drawn && error.code == LAM_UNSUPPORTED);
+                    continue;
+                }
+                if (!drawn)
                     fail_msg("%s", error.text);
-                if (power == 0)
+                if (power == 0 && isa == LAM_ISA_SCALAR)
                     memcpy(first, pixels, sizeof first);
-                if (isa == LAM_ISA_SCALAR)
-                    memcpy(scalar, pixels, sizeof scalar);
-                assert_memory_equal(pixels, scalar, sizeof scalar);
-                if (power <= 33)
-                    assert_memory_equal(pixels, first, sizeof first);
+                assert_memory_equal(pixels, first, sizeof first);
             }
         }
     int covered = 0;

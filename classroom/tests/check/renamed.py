@@ -261,7 +261,7 @@ def rename(texts, way, seed):
     names, rng = inputs(texts), random.Random(seed)
     taken = set(re.findall(r"\w+", " ".join(texts.values())))
     pool = {"language": FOREIGN, "letters": [a + b for a in "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ" for b in ("", "0", "1")],
-            "misleading": MISLEADING, "capitals": [n.upper() + "_IN" for n in names]}[way]
+            "misleading": MISLEADING, "capitals": [n.upper() + "_IN%d" % i for i, n in enumerate(names)]}[way]
     pool = [p for p in pool if p not in taken]
     if way != "capitals":
         rng.shuffle(pool)

@@ -62,8 +62,9 @@ void group_fragments(const struct frame *frame, struct fragments *fragments, con
 {
     if (by_pixel)
         sort_within_pixels(fragments, by_pixel);
-    for (uint32_t i = 0; i < (uint32_t)fragments->count && !by_pixel; i++)
-        fragments->order[i] = i;
+    else
+        for (uint32_t i = 0, n = (uint32_t)fragments->count; i < n; i++)
+            fragments->order[i] = i;
     if (frame->range_count == 1) {
         if (!group_sides(fragments))
             sort_by_group(fragments, 1);

@@ -412,7 +412,10 @@ static void shade_prepared(const struct group *g, int first, int end, bool prepa
             find_levels(g, count);
         if (!output_is_geometry(g->frame->settings.output)) {
             struct shadow_rows *shadows = g->hierarchy ? g->shading->shadows : NULL;
-            if (shadows && lam_output_is_light(g->frame->settings.output))
+            lam_output output = g->frame->settings.output;
+            if (shadows)
+                shadows->count = 0;
+            if (shadows && !output_is_vector(output) && !output_is_material(output))
                 FOR_ISA(find_shadows)(g, g->shading->batch, count);
             FOR_ISA(light_points)(g, g->shading->batch, count);
         }

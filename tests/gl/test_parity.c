@@ -12,6 +12,8 @@
 // (or NAME.gles.png) and NAME.cpu.png to the working directory.
 //
 // `make test` draws the scenes in OpenGL 3.3 and OpenGL ES 3.0 alternately; the test long-gl-parity draws each in both.
+//
+// The file is longer than 600 lines because all scenes share the bounds and the mask.
 #include "card.h"
 #include "context.h"
 #include "linear.h"

@@ -330,7 +330,7 @@ TEST(test_memory_limit)
         size_t numbers = 4 * (size_t)soup.count, kept, used;
         size_t group = same_middles ? (32 + 36 + 36 + 72) * (size_t)soup.count : 0;
         assert_true(fits(SIZE_MAX, &kept));
-        assert_true(same_middles || kept < 60 * (size_t)soup.count); // what one triangle costs
+        assert_true(same_middles || kept < 60 * (size_t)soup.count); // the cost of one triangle
         assert_false(fits(kept + numbers + group, &used));
         assert_true(fits(kept + numbers + 2 * group + 800000, &used));
         assert_int_equal(used, kept);

@@ -1,4 +1,6 @@
 // glsl_parse.c: parses the words of a shader into a tree of typed nodes.
+//
+// The file is longer than 600 lines because the grammar is one set of functions that call each other.
 #include "glsl.h"
 
 #include <stdio.h>

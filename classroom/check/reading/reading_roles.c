@@ -1,4 +1,6 @@
 // reading_roles.c: lists the inputs of a shader with their possible roles, and finds the cheapest right reading.
+//
+// The file is longer than 600 lines because the rules that exclude roles and the search share the list of inputs.
 #include "reading.h"
 
 #include <ctype.h>

@@ -3,6 +3,8 @@
 //
 // The part that must change, and its value, show the mistake. The line of the mistake and the advice therefore come from
 // the shader's own text.
+//
+// The file is longer than 600 lines because it contains one function for each kind of change.
 #include "reading.h"
 
 #include <stdio.h>

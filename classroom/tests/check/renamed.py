@@ -2,7 +2,7 @@
 """renamed.py PROGRAM [--every N] [--only TEXT]: right shaders in the forms of public repositories, and wrong ones, with their inputs renamed in four
 ways, and the verdicts as a table. The exit code is 1 if a right shader differs, if a mistake gets a wrong name, or if too few have a verdict.
 
-All texts are original; their forms are those of the pairs that docs/check/public.md lists. Each right shader is right because the normal is transformed
+All texts are original; their forms are the forms of the pairs that docs/check/public.md lists. Each right shader is right because the normal is transformed
 by the inverse transpose, all vectors are in one space and normalized, and the terms are sums of n.l and r.v or n.h."""
 import argparse
 import collections

@@ -64,10 +64,11 @@ static bool shaft_of(const struct pixel_rays *s, const uint16_t *points, int cou
         shaft->axis[k] /= length;
     if (s->directional) {
         shaft->growth = s->radius;
-        shaft->length = 4; // farther than any triangle
-        return length > 0;
+        shaft->length = 1e30; // the ground may be far from the triangles
+        return length > 0 && s->radius < 0.4;
     }
-    // The hull of two balls is within their connecting cone; its sides are at most 1.1 times as far from the axis.
+    // The sides of a cone that contains both balls are at most 1.1 times as far from the axis as the balls' sum, if the
+    // light is not wide. Wide lights use rays.
     shaft->growth = s->radius / length;
     shaft->length = length;
     return s->radius + shaft->radius < 0.4 * length;

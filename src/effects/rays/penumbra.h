@@ -78,7 +78,7 @@ LANE_FN void aim_apart(struct ray_lanes *ray, const struct ray_packet *p, const 
 static const struct light_points *points_for(const struct pixel_rays *s, int weight)
 {
     const struct light_pattern *pattern = s->rays->pattern;
-    return weight < FEW_WEIGHT && pattern->all.count > pattern->few.count ? &pattern->few : &pattern->all;
+    return weight < FEW_WEIGHT ? &pattern->few : &pattern->all;
 }
 
 static int largest_weight(const struct pixel_rays *s, const uint16_t *points, int count)
@@ -120,9 +120,8 @@ static int pass_each(const struct pixel_rays *s, const uint16_t *points, int cou
         struct ray_share share[LANES] = {{0}};
         _Alignas(64) float one[3][LANES], sum[3][LANES] = {{0}};
         packet_fill(&p, s, points + first, count - first);
-        for (int i = 0; i < p.count; i++) {
+        for (int i = 0; i < p.count; i++)
             share[i] = share_of(s, points, count, first + i, all->count);
-        }
         for (;;) {
             int number[LANES] = {0};
             struct ray_lanes ray;

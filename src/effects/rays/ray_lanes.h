@@ -17,6 +17,8 @@
 // their origins and directions are tested against the boxes of all children of the node at once (Boulos, Wald and
 // Shirley, "Geometric and arithmetic culling methods for entire ray packets", 2006). Only leaves test individual rays.
 // A ray with a different direction is a bundle of one.
+//
+// The file is longer than 600 lines because all of it is inlined into each traversal.
 #ifndef RAY_LANES_H
 #define RAY_LANES_H
 

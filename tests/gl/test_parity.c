@@ -83,7 +83,7 @@ static const struct {
     // The cavity has a radius of few pixels, and amplifies these errors more. So does the key light of curved models,
     // which occlusion dims completely.
     {"gyroid", .floats = 2e-3},
-    {"ground-checker", .floats = 5e-3},
+    {"ground-checker", .floats = 5e-3, .soft = true},
     {"samples-1", .floats = 3.5e-3},
     {"samples-2", .floats = 3.5e-3},
     {"samples-4", .floats = 3.5e-3},

@@ -31,6 +31,26 @@ class Shadows(Case):
         first = self.png(self.scene(), "--isa", "scalar", "--threads", "1")
         self.assertEqual(self.png(self.scene(), "--threads", "3"), first)
 
+    def test_shared_rays_and_single_rays_agree(self):
+        """With up to 48 samples each point has its own rays. The default shares them between neighbours: the same light, but for the noise of 48 rays."""
+        pole = {"name": "pole", "shape": "cube", "transform": [["translate", 0, 1, 0], ["scale", 0.1, 1, 0.1]]}
+        far = {"eye": [-5, 3, 0.01], "target": [-5, 0, 0], "ortho_half_height": 2}
+        floor = {**SCENE["objects"][0], "transform": [["scale", 6, 1, 4]]}
+        sun = {"name": "sun", "type": "directional", "direction": [-8, -1, 0], "radius": 1}
+        lamp = {"name": "lamp", "type": "point", "position": [4, 2, 0], "radius": 0.3}
+        for name, light, camera, objects in (
+                ("far from its pole, under a low sun", sun, far, [pole]),
+                ("a sun of 40 degrees", {**sun, "direction": [1, -1, 0], "radius": 40}, SCENE["camera"], SCENE["objects"]),
+                ("a lamp beside a pole", lamp, SCENE["camera"], [floor, pole]),
+                ("a lamp wider than its distance", {**lamp, "position": [1, 2, 0], "radius": 2}, SCENE["camera"], SCENE["objects"])):
+            scene = self.scene(lights=[light], camera=camera, objects=objects, ground="color", ground_color=[0.8, 0.8, 0.8])
+            shared, single = (self.png(scene, *words) for words in ((), ("--shadow-samples", "48")))
+            unlit = self.png(self.scene("plain.json", lights=[{**light, "shadows": False}], camera=camera, objects=objects, ground="color", ground_color=[0.8, 0.8, 0.8]))
+            self.assertGreater(sum(pixel(shared, x, y)[1] < 0.8 * pixel(unlit, x, y)[1] for x in range(64) for y in range(64)), 40, name)
+            apart = [abs(pixel(shared, x, y)[1] - pixel(single, x, y)[1]) for x in range(64) for y in range(64)]
+            self.assertLess(max(apart), 24, name)
+            self.assertLess(sum(apart) / len(apart), 1.5, name)
+
     def test_saved_scene_is_the_same(self):
         scene = self.scene(lights=[{"type": "directional", "direction": [1, -1, 0], "radius": 5}], shadow_samples=7, shadow_terminator=False)
         first = self.png(scene, "--save-scene", "saved.json")

@@ -193,6 +193,10 @@ def readme_section(result):
             lines.append(("%s file of a million triangles to a PNG of 1024×1024 pixels" % kind.upper(), ms(row["ms"][isa]["median"]) + " ms", ms(row["ms"]["f3d"]["median"]) + " ms",
                           times(row["ratio"][isa]["median"]), ms(default["ms"][isa]["median"]) + " ms"))
             numbers += [row["number"], default["number"]]
+    if "ground 1M ply" in rows:
+        row = rows["ground 1M ply"]
+        lines.append(("The PLY file with shadow and ground (`--ground`), 512×512 pixels", "", "", "", ms(row["ms"]["--ground"]["median"]) + " ms"))
+        numbers.append(row["number"])
     if result["frames"].get(isa):
         lines.append(("One frame, without files (geometric mean of %d scenes)" % result["frames"][isa]["rows"], "", "",
                       times(result["frames"][isa]["mean"]) + ", against OpenGL on llvmpipe", ""))

@@ -18,6 +18,7 @@ import gltf_rows
 import measure
 import paths
 import report
+import shadow_rows
 import steps
 import three_rows
 import turning_rows
@@ -122,6 +123,8 @@ def row_list(isas, gl_device, display, full):
     yield "start", "≤ 2 ms over /bin/true, no OpenGL or GUI library", judge_start
     for name, target, run in three_rows.rows(isas, gl_device):
         yield ratio_row(name, target, run)
+    for name, target, run in shadow_rows.rows(isas):
+        yield ratio_row(name, target, run, False)
     yield from turning_rows.rows()
 
 

@@ -183,8 +183,14 @@ LAM_API lam_rgb lam_tone_apply(lam_tone tone, lam_rgb color);
 // range.
 LAM_API const char *lam_output_name(lam_output output);
 
+// Returns what an output shows, in a few words. Returns a static string, or NULL if the index is out of range.
+LAM_API const char *lam_output_summary(lam_output output);
+
 // Returns whether an output is light: the picture, a term, or one light.
 LAM_API bool lam_output_is_light(lam_output output);
+
+// Returns whether an output shows a single light (lam_draw_params.output_light).
+LAM_API bool lam_output_is_one_light(lam_output output);
 
 // Returns the default samples per pixel for a picture of this size: 16 up to 256² pixels, so that thin wires do not
 // break into dashes, 8 up to 512², and 4 above.

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { POOL = 192, NAME_SIZE = 40 };
+enum { POOL = 224, NAME_SIZE = 40 };
 static struct choice pool[POOL];
 static int pool_used;
 
@@ -60,6 +60,17 @@ static void put_number(char *text, double number)
         *text++ = digits[--count];
     }
     *text = 0;
+}
+
+// Lists the values of --show.
+static const struct choice *outputs(void)
+{
+    const struct choice *first = &pool[pool_used];
+    for (lam_output o = LAM_OUTPUT_PICTURE + 1; o < LAM_OUTPUT_COUNT; o++)
+        add_word(o == LAM_OUTPUT_LIGHT ? "light:NAME" : lam_output_name(o), (int)o, lam_output_summary(o));
+    add_word("all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file");
+    add_word(NULL, 0, NULL);
+    return first;
 }
 
 // Formats the default of a setting: a number, or the word that means 0.
@@ -121,6 +132,9 @@ void option_settings_fill(struct option table[OPTIONS_MAX])
         abort(); // increase OPTIONS_MAX
     if (pool_used)
         return; // already filled
+    for (int i = 0; i < rows; i++)
+        if (table[i].store == store_show)
+            table[i].words = outputs();
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
         struct option *o = row_of(setting, open, count);
         if (!o && !kinds[setting->type].store)

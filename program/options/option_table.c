@@ -93,39 +93,6 @@ static const struct choice color_mode_words[] = {
     {"raw", LAM_COLOR_RAW, "Lambent converts no colours; the file stores the computed light unchanged"},
     {NULL, 0, NULL}};
 
-static const struct choice show_words[] = {
-    {"ambient", LAM_OUTPUT_AMBIENT, "the ambient term"},
-    {"diffuse", LAM_OUTPUT_DIFFUSE,
-     "the diffuse term of all lights; on physical materials, also the environment's diffuse light"},
-    {"specular", LAM_OUTPUT_SPECULAR,
-     "the highlights of all lights; on physical materials, also the environment's reflection"},
-    {"emission", LAM_OUTPUT_EMISSION, "the light that the surface emits"},
-    {"reflection", LAM_OUTPUT_REFLECTION, "the environment's reflection on classic materials"},
-    {"environment", LAM_OUTPUT_ENVIRONMENT, "the light that surfaces of all materials reflect from the environment"},
-    {"light:NAME", LAM_OUTPUT_LIGHT,
-     "the contribution of one light, given by its name or its number (the first light is 1)"},
-    {"normals", LAM_OUTPUT_NORMALS, "normals in eye space: (n + 1)/2"},
-    {"tangents", LAM_OUTPUT_TANGENTS, "tangents in eye space: (t + 1)/2"},
-    {"depth", LAM_OUTPUT_DEPTH,
-     "distance from the eye along the view direction: the nearest point is white, the farthest point black"},
-    {"n.l", LAM_OUTPUT_N_L, "cosine of the angle between the normal and the direction to the light: max(n.l, 0)"},
-    {"n.h", LAM_OUTPUT_N_H, "cosine of the angle between the normal and the half vector: max(n.h, 0)"},
-    {"facing", LAM_OUTPUT_FACING, "front faces are blue, back faces are red"},
-    {"ids", LAM_OUTPUT_IDS, "a colour for each triangle"},
-    {"coverage", LAM_OUTPUT_COVERAGE, "the fraction of a pixel's samples that the model covers"},
-    {"overdraw", LAM_OUTPUT_OVERDRAW, "c/(c + 3) for a pixel that c triangles cover"},
-    {"clipped", LAM_OUTPUT_CLIPPED, "red if a channel of the picture is above 1, blue if a channel is below 0"},
-    {"base-color", LAM_OUTPUT_BASE_COLOR,
-     "the base colour of a physical material, or the diffuse colour of a classic one, multiplied by maps and vertex "
-     "colours"},
-    {"roughness", LAM_OUTPUT_ROUGHNESS, "the roughness of physical materials"},
-    {"metallic", LAM_OUTPUT_METALLIC, "the metalness of physical materials"},
-    {"occlusion", LAM_OUTPUT_OCCLUSION, "the value of the occlusion map"},
-    {"lod", LAM_OUTPUT_LOD, "level of detail of the base colour map, divided by 10"},
-    {"ao", LAM_OUTPUT_AMBIENT_OCCLUSION, "ambient occlusion: the fraction of surrounding light that reaches the point"},
-    {"all", LAM_OUTPUT_PICTURE, "the picture, every term and every light, as layers of one .exr file"},
-    {NULL, 0, NULL}};
-
 static const struct choice glsl_words[] = {
     {"330", LAM_GLSL_330, "OpenGL 3.3"},
     {"120", LAM_GLSL_120, "OpenGL 2.1: uses `attribute` and `varying`; has no uniform blocks and no `flat` inputs"},
@@ -379,7 +346,7 @@ struct option option_table[OPTIONS_MAX] = {
      "as `normals` and `depth`, show surface quantities. `all` writes the picture, every term and every light as "
      "layers of one `.exr` file. `.pfm` and `.exr` files store surface quantities unchanged. `docs/show.md` explains "
      "how 8-bit pictures encode these quantities.",
-     show_words, .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
+     .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
      .others = "unlit pass aov channel layer debug term only", FIELD(picture.show), .also_in = IN_SHEET,
      .not_in = IN_LOOK},
 

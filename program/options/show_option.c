@@ -10,11 +10,6 @@
 #include "console.h"
 #include "options.h"
 
-static bool takes_light(lam_output show)
-{
-    return show == LAM_OUTPUT_LIGHT || show == LAM_OUTPUT_N_L || show == LAM_OUTPUT_N_H;
-}
-
 // Returns the output with this name, or LAM_OUTPUT_COUNT if there is none. Sets `light` to the text after the colon, or
 // to NULL.
 static lam_output split(const char *text, const char **light)
@@ -24,7 +19,8 @@ static lam_output split(const char *text, const char **light)
     size_t length = colon ? (size_t)(colon - text) : strlen(text);
     for (int i = LAM_OUTPUT_PICTURE; i < LAM_OUTPUT_COUNT; i++) {
         const char *name = lam_output_name((lam_output)i);
-        if (strlen(name) != length || memcmp(name, text, length) != 0 || (colon && !takes_light((lam_output)i)))
+        if (strlen(name) != length || memcmp(name, text, length) != 0 ||
+            (colon && !lam_output_is_one_light((lam_output)i)))
             continue;
         *light = colon ? colon + 1 : NULL;
         return (lam_output)i;
@@ -105,7 +101,7 @@ bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params
 {
     const char *wanted = NULL;
     params->output = text && strcmp(text, "all") != 0 ? split(text, &wanted) : LAM_OUTPUT_PICTURE;
-    if (!takes_light(params->output))
+    if (!lam_output_is_one_light(params->output))
         return true;
     int count = lam_draw_lights(scene, params->rig, params->ground, NULL, 0);
     lam_light *lights = calloc((size_t)count + 1, sizeof *lights);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""run.py [NAME …]: makes five typical changes: a reflection model, a material field with its own reflection model, a picture setting, a picture
-format, a model format. Each change is a patch in this folder, and is not part of the product.
+"""run.py [NAME …]: makes seven typical changes: a reflection model, a material field with its own reflection model, a picture setting, a picture
+format, a model format, a value of --show, a field of a batch's journal. Each change is a patch in this folder, and is not part of the product.
 
 Each patch is applied to a copy of the tree (build-test/change/tree), built and tested, tried with the program, and then removed. It may change at
 most the number of files in CHANGES. If you change the architecture, update the patch; it then shows how many files such a change needs.
@@ -102,12 +102,31 @@ def model_format():
     yield "errors list it", ".off" in lambent("nothing.xyz3", "-o", "c.png") or ".off" in lambent(__file__, "-o", "c.png")
 
 
+def show_value():
+    yield "help and documentation list it", help_has("show", "views", "directions to the eye")
+    yield "completion knows it", "views" in lambent("complete", "--", "teapot", "--show", "vi")
+    yield "a scene file and a sheet may name it", lambent("compare", "teapot", "--across", "show=views,normals", "-s", 32, "-q", "-o", "s.png") == ""
+    yield "it differs from the normals", not equal(draw("a.png", "teapot", "--show", "views"), draw("b.png", "teapot", "--show", "normals"))
+    yield "every instruction set draws it", equal(draw("c.pfm", "teapot", "--show", "views", "--isa", "scalar"), draw("d.pfm", "teapot", "--show", "views"))
+
+
+def journal_field():
+    os.makedirs(os.path.join(PICTURES, "models"), exist_ok=True)
+    lambent("shape", "cube", "-o", "models/cube.obj")
+    shutil.rmtree(os.path.join(PICTURES, "drawn"), ignore_errors=True)
+    lambent("batch", "models", "-o", "drawn/", "-s", 16)
+    lines = [json.loads(line) for line in open(os.path.join(PICTURES, "drawn", "lambent.jsonl"))]
+    yield "the journal has it", [line["up"] for line in lines if "up" in line] == ["y"]
+
+
 # The patch, the maximum number of files, and the test programs that must pass with it.
 CHANGES = {
     "reflection_model": (3, reflection_model, ["lighting-equations", "lighting-widths", "lighting-words", "glsl"]),
     "material_field": (4, material_field, ["lighting-equations", "lighting-widths", "lighting-words", "materials", "scene-file"]),
     "setting": (3, setting, ["device", "scene-file"]),
     "picture_format": (4, picture_format, ["image", "encoders", "fuzz-qoi"]),
+    "show_value": (4, show_value, ["glsl", "device"]),
+    "journal_field": (1, journal_field, []),
     "model_format": (4, model_format, ["import", "fuzz-off"]),
 }
 

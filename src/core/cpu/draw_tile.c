@@ -192,7 +192,7 @@ void draw_tile(struct cpu_frame *cpu, size_t index, int number)
     group_fragments(cpu->raster.frame, &thread->fragments, NULL);
     uint64_t covered = now_ns();
     lam_output output = cpu->raster.frame->settings.output;
-    if (output != LAM_OUTPUT_COVERAGE && output != LAM_OUTPUT_OVERDRAW)
+    if (output_kind(output) != OUTPUT_COUNT)
         shade(cpu, thread, &tile);
     if (!work_continues(&cpu->work))
         return;

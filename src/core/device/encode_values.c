@@ -35,38 +35,21 @@ static float depth_code(const struct frame *frame, float depth)
 static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
 {
     static const uint8_t front[3] = {0, 102, 255}, back[3] = {255, 51, 0};
+    const enum output_code code = output_rows[frame->settings.output].code;
     out[3] = 255;
-    switch (frame->settings.output) {
-    case LAM_OUTPUT_IDS:
+    if (code == CODE_IDS)
         color_of_ids(v, out);
-        return;
-    case LAM_OUTPUT_FACING:
+    else if (code == CODE_SIDES)
         memcpy(out, v[0] > 0 ? front : back, 3);
-        return;
-    default:
-        break;
-    }
-    for (int c = 0; c < 3; c++)
-        switch (frame->settings.output) {
-        case LAM_OUTPUT_NORMALS:
-        case LAM_OUTPUT_TANGENTS:
-            out[c] = code_byte((v[c] + 1.0f) * 0.5f);
-            break;
-        case LAM_OUTPUT_DEPTH:
-            out[c] = code_byte(depth_code(frame, v[c]));
-            break;
-        case LAM_OUTPUT_BASE_COLOR:
-            out[c] = code_byte(lane(encoded_channel(num_of(v[c]), frame->settings.color == LAM_COLOR_RAW), 0));
-            break;
-        case LAM_OUTPUT_LOD:
-            out[c] = code_byte(v[c] * 0.1f);
-            break;
-        case LAM_OUTPUT_OVERDRAW:
-            out[c] = code_byte(v[c] / (v[c] + 3.0f));
-            break;
-        default: // cosines, coverage
-            out[c] = code_byte(v[c]);
-        }
+    else
+        for (int c = 0; c < 3; c++)
+            out[c] = code_byte(code == CODE_SIGNED  ? (v[c] + 1.0f) * 0.5f
+                               : code == CODE_DEPTH ? depth_code(frame, v[c])
+                               : code == CODE_COLOR
+                                   ? lane(encoded_channel(num_of(v[c]), frame->settings.color == LAM_COLOR_RAW), 0)
+                               : code == CODE_LEVEL    ? v[c] * 0.1f
+                               : code == CODE_OVERDRAW ? v[c] / (v[c] + 3.0f)
+                                                       : v[c]);
 }
 
 void encode_values(const struct frame *frame, lam_pixel_format format, const float v[4], void *to)
@@ -83,7 +66,7 @@ void encode_empty(const struct frame *frame, lam_pixel_format format, void *to)
     num zero = num_of(0.0f);
     if (frame->settings.output == LAM_OUTPUT_CLIPPED)
         encode_clipped(format, (float[4]){b->r * b->a, b->g * b->a, b->b * b->a, b->a}, to);
-    else if (frame->settings.output == LAM_OUTPUT_COVERAGE || frame->settings.output == LAM_OUTPUT_OVERDRAW)
+    else if (output_kind(frame->settings.output) == OUTPUT_COUNT)
         encode_values(frame, format, (float[4]){0, 0, 0, 1}, to);
     else if (format == LAM_RGBA32F)
         memset(to, 0, 16);

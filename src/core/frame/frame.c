@@ -337,7 +337,7 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
     frame->height = height;
     if (!settings->samples)
         settings->samples = lam_default_samples(width, height);
-    bool of_material = output_is_material(params->output);
+    bool of_material = output_kind(params->output) == OUTPUT_MATERIAL;
     if (of_material)
         settings->shading = LAM_SHADING_PHONG;
     if (of_material || !settings->stage)
@@ -411,7 +411,7 @@ static void leave_normals(struct frame *frame)
     if (lam_output_is_light(frame->settings.output)
             ? frame->settings.shading == LAM_SHADING_FLAT && frame->settings.flat_normal == LAM_FLAT_NORMAL_FACE
             : frame->settings.output == LAM_OUTPUT_COVERAGE || frame->settings.output == LAM_OUTPUT_OVERDRAW ||
-                  output_is_material(frame->settings.output))
+                  output_kind(frame->settings.output) == OUTPUT_MATERIAL)
         frame->makes_normals = false;
 }
 
@@ -492,7 +492,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     bool by_rig = settings->rig == LAM_RIG_AUTO && !scene->lights.count && !uses_physical(frame);
     set_tone(frame, scene, physical);
     if (!frame_lights_build(frame, scene, by_rig ? LAM_RIG_STUDIO : settings->rig,
-                            output_is_one_light(frame->settings.output) ? settings->output_light : -1, &view, error))
+                            lam_output_is_one_light(frame->settings.output) ? settings->output_light : -1, &view,
+                            error))
         return false;
     frame->separate_lamp = false;
     if (!frame_lights_add_lamp(frame, scene, &view, call, error))

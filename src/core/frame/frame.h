@@ -7,6 +7,7 @@
 
 #include "buffer.h"
 #include "light_kinds.h"
+#include "outputs.h"
 #include "scene_internal.h"
 
 #include <lambent/device.h>
@@ -283,42 +284,9 @@ float frame_lobe_max(const lam_material *material);
 // Returns the highlight exponent of a material, as changed by match_highlights and gl1.
 float frame_shininess(const struct frame *frame, const lam_material *material);
 
-// Returns whether the output shows a single light; the frame then contains only that light.
-static inline bool output_is_one_light(lam_output output)
-{
-    return output == LAM_OUTPUT_LIGHT || output == LAM_OUTPUT_N_L || output == LAM_OUTPUT_N_H;
-}
-
-// Returns whether each pixel of an output shows a property of the nearest surface, regardless of the surface's opacity.
-// Masked surfaces keep their holes.
-static inline bool output_is_value(lam_output output)
-{
-    return !lam_output_is_light(output) && output != LAM_OUTPUT_CLIPPED;
-}
-
-// Returns whether an output is made from the complete picture.
-static inline bool output_is_picture(lam_output output)
-{
-    return output == LAM_OUTPUT_PICTURE || output == LAM_OUTPUT_CLIPPED;
-}
-
-// Returns whether an output is a property of the material at a point, without light, for every shading method.
-static inline bool output_is_material(lam_output output)
-{
-    return output >= LAM_OUTPUT_BASE_COLOR && output <= LAM_OUTPUT_LOD;
-}
-
 // The maps in order of precedence: LAM_OUTPUT_LOD shows the first of these maps that the material has.
 enum { LOD_MAPS = 9 };
 extern const lam_map frame_lod_maps[LOD_MAPS];
-
-// Returns whether an output is a vector or a cosine. Such outputs are evaluated at the same points as lighting, and
-// interpolated according to the shading method.
-static inline bool output_is_vector(lam_output output)
-{
-    return output == LAM_OUTPUT_NORMALS || output == LAM_OUTPUT_TANGENTS || output == LAM_OUTPUT_N_L ||
-           output == LAM_OUTPUT_N_H;
-}
 
 // Builds the frame, and reuses its storage from the previous call. Errors: LAM_BAD_ARGUMENT (camera or parameters out
 // of range), LAM_LIMIT (memory, too many triangles).

@@ -167,7 +167,7 @@ bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const la
                            lam_error *error)
 {
     bool wanted = wants_shadows(&frame->settings) && frame->environment && !frame->settings.reference;
-    wanted &= lam_output_is_light(frame->settings.output) && !output_is_one_light(frame->settings.output);
+    wanted &= lam_output_is_light(frame->settings.output) && !lam_output_is_one_light(frame->settings.output);
     bool lit = false;
     for (int i = 0; i < frame->range_count && wanted; i++) {
         lam_reflection model = frame->ranges[i].reflection;

@@ -61,7 +61,7 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->style = output_is_value(c->output) ? NULL : f->device->style;
     c->mistake = c->style ? f->device->mistake : 0;
     if (application) {
-        if (!output_is_vector(c->output))
+        if (output_kind(c->output) != OUTPUT_VECTOR)
             c->output = LAM_OUTPUT_PICTURE;
         return;
     }

@@ -245,7 +245,7 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
     bool several = pattern->count > 1;
     // Whether a pixel has the value of its covered sample nearest to the centre, instead of a mean.
     lam_output output = f->frame->settings.output;
-    bool value = output_is_value(output) && output != LAM_OUTPUT_COVERAGE && output != LAM_OUTPUT_OVERDRAW;
+    bool value = output_is_value(output) && output_kind(output) != OUTPUT_COUNT;
     if (several)
         clear_target(f, &t->picture, DEPTH_ID_NEAREST);
     for (int i = 0; i < pattern->count; i++) {

@@ -161,7 +161,7 @@ static void store_clipped(const struct gl_frame *f, const float *from, lam_pixel
 static void store_value(const struct gl_frame *f, const float *from, lam_pixel_format format, void *to)
 {
     lam_output output = f->frame->settings.output;
-    if (output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW) {
+    if (output_kind(output) == OUTPUT_COUNT) {
         float share = output == LAM_OUTPUT_COVERAGE ? from[3] : from[0];
         encode_values(f->frame, format, (float[4]){share, share, share, 1}, to);
         return;

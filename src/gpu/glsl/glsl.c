@@ -134,33 +134,27 @@ static void put_point(struct constant_table *t, const struct glsl_stage *f)
 static void put_output(struct constant_table *t, const struct glsl_stage *f)
 {
     const struct glsl_choices *c = f->choices;
-    const lam_output shown = c->output;
-    bool all = (shown < LAM_OUTPUT_AMBIENT || shown > LAM_OUTPUT_LIGHT) && shown != LAM_OUTPUT_ENVIRONMENT,
-         lit = c->reflection != LAM_REFLECTION_NONE, light = shown == LAM_OUTPUT_LIGHT && lit,
-         around = shown == LAM_OUTPUT_ENVIRONMENT && lit;
-    constant_flag(t, "shows_all", all);
-    constant_flag(t, "shows_around", around);
-    constant_flag(t, "shows_ambient", all || light || shown == LAM_OUTPUT_AMBIENT);
-    constant_flag(t, "shows_diffuse", all || light || around || shown == LAM_OUTPUT_DIFFUSE);
-    constant_flag(t, "shows_specular", all || light || around || shown == LAM_OUTPUT_SPECULAR);
-    constant_flag(t, "shows_emission", all || shown == LAM_OUTPUT_EMISSION);
-    constant_flag(t, "shows_reflection", all || around || shown == LAM_OUTPUT_REFLECTION);
-    constant_flag(t, "shows_base_color", shown == LAM_OUTPUT_BASE_COLOR);
-    constant_flag(t, "shows_occlusion", shown == LAM_OUTPUT_OCCLUSION);
-    constant_flag(t, "shows_roughness", shown == LAM_OUTPUT_ROUGHNESS);
+    const struct output_row *row = &output_rows[c->output];
+    const int shown = row->lit && c->reflection == LAM_REFLECTION_NONE ? 0 : row->terms;
+    constant_flag(t, "shows_all", shown == TERMS_ALL);
+    constant_flag(t, "shows_around", shown && c->output == LAM_OUTPUT_ENVIRONMENT);
+    constant_flag(t, "shows_ambient", shown & TERM_AMBIENT);
+    constant_flag(t, "shows_diffuse", shown & TERM_DIFFUSE);
+    constant_flag(t, "shows_specular", shown & TERM_SPECULAR);
+    constant_flag(t, "shows_emission", shown & TERM_EMISSION);
+    constant_flag(t, "shows_reflection", shown & TERM_REFLECTION);
+    for (int i = 0; i < LAM_OUTPUT_COUNT; i++)
+        if (output_rows[i].flag)
+            constant_flag(t, output_rows[i].flag, (int)c->output == i);
     constant_flag(t, "is_physical", glsl_is_physical(f));
     bool light_shown = !f->output_vector && !f->output_material;
     constant_flag(t, "exposes", c->exposes && light_shown);
     constant_flag(t, "has_tone", c->tone > LAM_TONE_NONE && light_shown && !f->output_geometry);
     constant_flag(t, "clamped", c->gl1 && f->shading != LAM_SHADING_PHONG && output_is_picture(c->output));
-    constant_flag(t, "output_facing", c->output == LAM_OUTPUT_FACING);
-    constant_flag(t, "output_ids", c->output == LAM_OUTPUT_IDS);
     constant_flag(t, "writes_transmittance", c->transmits);
     constant_flag(t, "blends_transmission", f->has_transmission && c->layer == GLSL_NO_LAYERS);
     constant_flag(t, "depth_ids", c->layer != GLSL_NO_LAYERS);
     constant_flag(t, "peels", c->layer == GLSL_PEELS);
-    constant_flag(t, "output_n_l", c->output == LAM_OUTPUT_N_L);
-    constant_flag(t, "output_tangents", c->output == LAM_OUTPUT_TANGENTS);
     constant_text(t, "TONE", glsl_tone_function(c->tone));
     constant_flag(t, "from_vertices", f->shading != LAM_SHADING_PHONG);
     constant_text(t, "VIEWER", c->distant_viewer ? "VIEWER_INFINITE" : "VIEWER_LOCAL");

@@ -124,11 +124,7 @@ void glsl_choose(struct glsl_choices *choices, const struct frame *frame, const 
 
 // Returns whether an output shows a value of the geometry. The fragment shader computes such outputs without lighting,
 // for every shading method.
-static inline bool glsl_output_is_geometry(lam_output output)
-{
-    return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||
-           output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW || output == LAM_OUTPUT_AMBIENT_OCCLUSION;
-}
+static inline bool glsl_output_is_geometry(lam_output output) { return output_kind(output) >= OUTPUT_GEOMETRY; }
 
 // Sets choices->hardware_filter: the hardware filters the textures. The shader program then does not depend on the
 // wrapping and filters of maps.

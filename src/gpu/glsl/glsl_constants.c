@@ -118,14 +118,14 @@ void constant_conditions(struct constant_table *out, const struct glsl_stage *f)
 static void find_output(struct glsl_stage *f, const struct glsl_choices *c)
 {
     f->output_geometry = glsl_output_is_geometry(c->output);
-    f->output_vector = output_is_vector(c->output);
-    f->output_one_light = f->output_vector && output_is_one_light(c->output);
+    f->output_vector = output_kind(c->output) == OUTPUT_VECTOR;
+    f->output_one_light = f->output_vector && lam_output_is_one_light(c->output);
     f->shading = f->output_geometry ? LAM_SHADING_PHONG : c->shading;
     f->application = c->stage == LAM_STAGE_APPLICATION && !f->output_geometry;
     f->per_vertex = c->stage == LAM_STAGE_VERTEX && !f->output_geometry;
     f->per_fragment = !f->application && !f->per_vertex;
     f->lit = !f->application && !f->output_geometry;
-    f->output_material = f->lit && output_is_material(c->output);
+    f->output_material = f->lit && output_kind(c->output) == OUTPUT_MATERIAL;
     f->output_depth = c->output == LAM_OUTPUT_DEPTH;
     f->output_occlusion = c->output == LAM_OUTPUT_AMBIENT_OCCLUSION;
     f->shows_level = f->output_material && c->output == LAM_OUTPUT_LOD;

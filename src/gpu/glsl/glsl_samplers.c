@@ -133,8 +133,8 @@ bool glsl_separates_texture_terms(const struct frame *frame, const struct frame_
         if (!side || (!frame->draws[range->draw].one_sided && range->back != range->front))
             any |= material->maps[LAM_MAP_DIFFUSE] || material->maps[LAM_MAP_EMISSION];
     }
-    return any && frame->settings.shading != LAM_SHADING_PHONG && !output_is_vector(frame->settings.output) &&
-           !glsl_output_is_geometry(frame->settings.output);
+    return any && frame->settings.shading != LAM_SHADING_PHONG &&
+           output_kind(frame->settings.output) != OUTPUT_VECTOR && !glsl_output_is_geometry(frame->settings.output);
 }
 
 float glsl_alpha_cutoff(const struct frame *frame, const lam_material *material)

@@ -184,12 +184,12 @@ LANE_FN void shade_with_model(const struct group *g, struct shading_batch *batch
 // Replaces the batch's vertex colours with the shaded colours.
 static void shade_surface(const struct group *g, struct shading_batch *batch, int count)
 {
-    if (output_is_vector(g->frame->settings.output)) {
+    if (output_kind(g->frame->settings.output) == OUTPUT_VECTOR) {
         for (int i = 0; i < count; i += LANES)
             store3(batch->color, i, output_vector(g, load_surface(batch, i)));
         return;
     }
-    if (output_is_material(g->frame->settings.output)) {
+    if (output_kind(g->frame->settings.output) == OUTPUT_MATERIAL) {
         for (int i = 0; i < count; i += LANES)
             store3(batch->color, i, output_material(g, batch, i));
         return;

@@ -46,7 +46,7 @@ void output_tile(const struct resolve_target *target, const struct fragments *fr
 {
     const struct frame *frame = target->frame;
     lam_output output = frame->settings.output;
-    bool of_pixels = output == LAM_OUTPUT_COVERAGE || output == LAM_OUTPUT_OVERDRAW;
+    bool of_pixels = output_kind(output) == OUTPUT_COUNT;
     float *const *sum = sums->sum;
     if (output != LAM_OUTPUT_CLIPPED)
         for (int c = 0; c < 4; c++)

@@ -16,17 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Returns whether an output is a value of the geometry. Every fragment provides such a value, with every shading
-// method.
-static bool output_is_geometry(lam_output output)
-{
-    return output == LAM_OUTPUT_DEPTH || output == LAM_OUTPUT_FACING || output == LAM_OUTPUT_IDS ||
-           output == LAM_OUTPUT_AMBIENT_OCCLUSION;
-}
-
 static bool shades_vertices(const struct frame *frame)
 {
-    return frame->settings.shading != LAM_SHADING_PHONG && !output_is_geometry(frame->settings.output);
+    return frame->settings.shading != LAM_SHADING_PHONG && output_kind(frame->settings.output) != OUTPUT_GEOMETRY;
 }
 
 static struct group group_of(const struct shade_frame *shade, struct fragments *fragments, struct shading *shading,
@@ -37,7 +29,8 @@ static struct group group_of(const struct shade_frame *shade, struct fragments *
     bool back = (number & 1) && !draw->one_sided;
     const struct visible_normals *visible = draw->crease_rad > 0 && shade->visible.normals ? &shade->visible : NULL;
     const struct material_products *material = &shade->materials[back ? range->back : range->front];
-    bool separate = material->maps && shades_vertices(shade->frame) && !output_is_vector(shade->frame->settings.output);
+    bool separate =
+        material->maps && shades_vertices(shade->frame) && output_kind(shade->frame->settings.output) != OUTPUT_VECTOR;
     return (struct group){
         .shade = shade,
         .frame = shade->frame,
@@ -406,16 +399,16 @@ static void shade_prepared(const struct group *g, int first, int end, bool prepa
         int count = end - first < max ? end - first : max;
         if (!prepared)
             prepare_fragments(g, first, count);
-        if (output_is_geometry(g->frame->settings.output))
+        if (output_kind(g->frame->settings.output) == OUTPUT_GEOMETRY)
             output_geometry(g, first, count);
         else if (g->frame->settings.output == LAM_OUTPUT_LOD)
             find_levels(g, count);
-        if (!output_is_geometry(g->frame->settings.output)) {
+        if (output_kind(g->frame->settings.output) != OUTPUT_GEOMETRY) {
             struct shadow_rows *shadows = g->hierarchy ? g->shading->shadows : NULL;
             lam_output output = g->frame->settings.output;
             if (shadows)
                 shadows->count = 0;
-            if (shadows && !output_is_vector(output) && !output_is_material(output))
+            if (shadows && output_kind(output) != OUTPUT_VECTOR && output_kind(output) != OUTPUT_MATERIAL)
                 FOR_ISA(find_shadows)(g, g->shading->batch, count);
             FOR_ISA(light_points)(g, g->shading->batch, count);
         }
@@ -440,7 +433,8 @@ static void shade_prepared(const struct group *g, int first, int end, bool prepa
 static bool cull_lights_for(const struct shade_frame *shade, struct group *g, int first, int end)
 {
     const struct frame *frame = shade->frame;
-    if (!shade->light_bounds || g->reflection == LAM_REFLECTION_NONE || output_is_geometry(frame->settings.output))
+    if (!shade->light_bounds || g->reflection == LAM_REFLECTION_NONE ||
+        output_kind(frame->settings.output) == OUTPUT_GEOMETRY)
         return false;
     bool whole = false;
     struct point_bounds bounds = empty_bounds();

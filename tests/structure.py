@@ -51,7 +51,7 @@ class Order:
 
 def folder_of(file):
     """core/base/text/number -> core/base/text; gpu/gl/loader -> gpu/gl; formats/import/obj/obj -> formats/import; system/files/file -> system;
-    tools/many/jobs/job_words -> tools/many/jobs."""
+    tools/batch/jobs/job_words -> tools/batch/jobs."""
     if file.startswith(("tools/", "program/", "classroom/commands/", "classroom/main", "gpu/glsl/")):
         return os.path.dirname(file)
     return "/".join(file.split("/")[:1 if file.startswith("system/") else 3 if file.startswith("core/base/") else 2])

@@ -42,9 +42,9 @@ WORDS = {
     "obj": ["src/formats/import/obj"], "mtl": ["src/formats/import/obj/mtl.c", "src/formats/import/obj/mtl_maps.c"], "gltf": ["src/formats/import/gltf"], "glb": ["src/formats/import/gltf"],
     "3mf": ["src/formats/import/threemf"],
     "scene": ["src/core/description", "src/core/scene"],
-    "render": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "job": ["tools/many/jobs", "program/options", "src/core/description"], "formula": ["src/formats/shapes/formula_parse.c"],
+    "render": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "job": ["tools/batch/jobs", "program/options", "src/core/description"], "formula": ["src/formats/shapes/formula_parse.c"],
     "library": ["src/formats/import/obj", "src/formats/import/ply", "src/formats/import/gltf"], "file": ["src/formats/import"],
-    "settings": ["tools/options", "program/options", "src/core/scene/fields", "src/core/description"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal", "tools/many/unit"],
+    "settings": ["tools/options", "program/options", "src/core/scene/fields", "src/core/description"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/batch/journal", "tools/batch/model"],
     "request": ["tools/view", "program/options"], "shader": ["classroom/check/text", "classroom/check/contract"],
 }
 NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", "library", "file", "job", "formula", "settings", "shader")
@@ -53,8 +53,8 @@ NUMBERS = ("obj", "mtl", "ply", "stl", "gltf", "glb", "3mf", "scene", "render", 
 READERS = {
     "obj": ["src/formats/import/obj"], "mtl": ["src/formats/import/obj/mtl.c", "src/formats/import/obj/mtl_maps.c"], "gltf": ["src/formats/import/gltf"], "glb": ["src/formats/import/gltf"],
     "3mf": ["src/formats/import/threemf"], "scene": ["src/core/description", "src/formats/json"], "png": ["src/formats/image/png/png_read.c"],
-    "file": ["src/formats/load", "src/formats/import", "src/system/files/file.c"], "formula": ["src/formats/shapes"], "job": ["tools/many/jobs"],
-    "settings": ["tools/options/settings_file.c"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/many/journal/journal.c", "tools/many/journal/journal_sum.c"],
+    "file": ["src/formats/load", "src/formats/import", "src/system/files/file.c"], "formula": ["src/formats/shapes"], "job": ["tools/batch/jobs"],
+    "settings": ["tools/options/settings_file.c"], "hash": ["tools/commands/hash/hash_file.c"], "journal": ["tools/batch/journal/journal.c", "tools/batch/journal/journal_sum.c"],
     "request": ["tools/view/view_routes.c", "tools/view/view_answer.c", "tools/view/view_events.c", "tools/view/drawing/view_words.c", "tools/view/drawing/view_files.c"],
     "shader": ["classroom/check/text", "classroom/check/contract"],
     "library": ["src/formats/export", "src/gpu/glsl", "src/core/device"], "render": ["src/core/frame", "src/core/cpu"], "picture": ["src/core/frame", "src/core/cpu"],

@@ -1,4 +1,4 @@
-// render.c: the command `render`, the default: draws a picture of each model. tools/many contains the loop over the
+// render.c: the command `render`, the default: draws a picture of each model. tools/batch contains the loop over the
 // models.
 #include "command.h"
 

@@ -235,10 +235,10 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
     static const int lying[LAM_FACE_COUNT][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
     static const int standing[LAM_FACE_COUNT][2] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {1, 3}};
     int64_t width = image->width, height = image->height;
-    bool lies = width % 4 == 0 && 3 * width == 4 * height, stands = width % 3 == 0 && 4 * width == 3 * height;
+    bool lies = width % 4 == 0 && 3 * width == 4 * height, upright = width % 3 == 0 && 4 * width == 3 * height;
     if (width == 2 * height)
         return cube_of_sphere(image, name, call, error);
-    if (!lies && !stands) {
+    if (!lies && !upright) {
         fail(error, LAM_UNSUPPORTED,
              "%s: %d×%d pixels, expected a cross of six squares (4:3 or 3:4) or an equirectangular picture "
              "(2:1)",
@@ -250,7 +250,7 @@ static struct lam_environment *cube_of_image(const lam_image *image, const char 
     const char *names[LAM_FACE_COUNT];
     for (int face = 0; face < LAM_FACE_COUNT; face++) {
         const int *at = lies ? lying[face] : standing[face];
-        chunks[face] = (struct chunk){image, at[0] * size, at[1] * size, stands && face == LAM_FACE_NZ};
+        chunks[face] = (struct chunk){image, at[0] * size, at[1] * size, upright && face == LAM_FACE_NZ};
         names[face] = name;
     }
     return cube_of_chunks(chunks, names, size, call, error);

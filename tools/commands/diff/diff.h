@@ -3,7 +3,7 @@
 #define DIFF_H
 
 #include "batch_shard.h"
-#include "item.h"
+#include "batch_work.h"
 
 // diff_pictures.c: compares two pictures. Returns the exit code.
 int diff_pictures(char **operands, const struct options *options);
@@ -35,7 +35,7 @@ struct model_diff {
     size_t counts[CHANGE_COUNT];  // valid after all models are drawn
 };
 
-// diff_draw.c: draws a pair with one camera and determines how the model has changed (batch_use.draw).
+// diff_draw.c: draws a pair with one camera and determines how the model has changed (batch_receiver.draw).
 bool diff_draw(void *user, size_t model, struct job *job, struct progress *progress, json_t *found, lam_error *error);
 
 // Returns the kind of change in a model's record.

@@ -210,13 +210,13 @@ int diff_models(char **operands, bool folders, const struct options *options)
                               .new = operands[1],
                               .page = options->picture.output,
                               .folders = folders};
-    struct batch_use use = {diff_draw, reach, right_of, {diff.page}, finish, &diff};
+    struct batch_receiver use = {diff_draw, reach, right_of, {diff.page}, finish, &diff};
     bool ok = check(&diff, &error) && batch_plan_start(&diff.plan, &drawn, &error) &&
               ((diff.rows = shared_count_make()) || complain(&error, LAM_MACHINE, "out of memory"));
     diff.olds.options = diff.news.options = &drawn;
     ok = ok && add_side(&diff.olds, diff.old, folders, &error) && add_side(&diff.news, diff.new, folders, &error) &&
          make_pairs(&diff, &error);
-    int code = ok ? batch_use_run(&diff.plan, &use) : report_failure(&error, options);
+    int code = ok ? batch_receive(&diff.plan, &use) : report_failure(&error, options);
     shared_count_free(diff.rows);
     free(diff.pairs);
     batch_plan_free(&diff.plan);

@@ -405,12 +405,12 @@ static int run_with(struct hash_run *run, int operand_count, char **operands)
     run->by_file = !operand_count && !run->options->batch.lists.count;
     drawn.limits.files_inside |=
         run->by_file; // scene files that the hash file lists may refer only to files below their own folders
-    struct batch_use use = {draw, reach, right_of, {NULL, NULL, run->options->hash.pictures}, finish, run};
+    struct batch_receiver use = {draw, reach, right_of, {NULL, NULL, run->options->hash.pictures}, finish, run};
     bool ok = check(operand_count, run->options, &error) && batch_plan_start(&run->plan, &drawn, &error) &&
               prepare(run, operand_count, operands, &error);
     use.files[0] = run->path;
     use.files[1] = run->sheet;
-    return ok ? batch_use_run(&run->plan, &use) : report_failure(&error, run->options);
+    return ok ? batch_receive(&run->plan, &use) : report_failure(&error, run->options);
 }
 
 int run_hash(int operand_count, char **operands, const struct options *options)

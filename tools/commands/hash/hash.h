@@ -3,7 +3,7 @@
 #define HASH_H
 
 #include "batch_shard.h"
-#include "item.h"
+#include "batch_work.h"
 #include "options.h"
 
 #include <lambent/image.h>

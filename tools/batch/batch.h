@@ -3,7 +3,7 @@
 #define BATCH_H
 
 #include "batch_shard.h"
-#include "item.h"
+#include "batch_work.h"
 #include "batch_job.h"
 
 #include <jansson.h>
@@ -16,7 +16,7 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
 
 // Draws the planned models with `use->draw`. Errors are printed in
 // the order of the models. Returns the result of `use->finish`, or the exit code of an error that ended the run.
-int batch_use_run(const struct batch_plan *plan, const struct batch_use *use);
+int batch_receive(const struct batch_plan *plan, const struct batch_receiver *use);
 
 // --- runs one pass over the models: selects the next model, and processes the results of finished models.
 
@@ -33,9 +33,9 @@ void batch_end_suspects(struct batch *batch);
 // next model or job, or if the batch must not start any more models. Any thread may call this function.
 bool batch_take(struct batch *batch, struct batch_task *task, bool waits);
 
-// Processes the results of a unit: updates counters, writes journal lines and messages, and answers the job. Any thread
+// Processes the results of the work on a model: updates counters, writes journal lines and messages, and answers the job. Any thread
 // may call this function.
-void batch_deliver(struct batch *batch, struct batch_unit *unit);
+void batch_deliver(struct batch *batch, struct batch_work *work);
 
 // Removes the temporary files that a killed process left beside a model's pictures. `host` is the machine of the
 // process; NULL means this machine.
@@ -53,7 +53,7 @@ void job_answers_start(struct job_answers *answers);
 void job_answers_end(struct job_answers *answers);
 
 // Answers a drawn job with the results of its pictures.
-void job_answer_unit(struct job_answers *answers, const struct batch_unit *unit);
+void job_answer_work(struct job_answers *answers, const struct batch_work *work);
 
 // Answers a line for which nothing is drawn. A NULL `id` is written as null. `line` is the line number; 0 is not
 // reported.
@@ -67,12 +67,12 @@ int job_answers_failure(const struct job_answers *answers);
 
 // --- writes the page of --report, which shows all pictures of a batch, failures first.
 
-// Makes the thumbnails of a unit's pictures, in the folder beside the page. Any thread may call this function. Errors
+// Makes the thumbnails of a model's pictures, in the folder beside the page. Any thread may call this function. Errors
 // are ignored.
-void batch_page_thumbnails(const struct batch *batch, const struct batch_unit *unit);
+void batch_page_thumbnails(const struct batch *batch, const struct batch_work *work);
 
 // Returns whether a thumbnail is missing, or older than its picture.
-bool batch_page_lacks(const struct batch *batch, const struct batch_unit *unit);
+bool batch_page_lacks(const struct batch *batch, const struct batch_work *work);
 
 // Makes the thumbnail of one picture if `is_new` is set or if no up-to-date thumbnail exists.
 void batch_page_thumbnail(const char *page, const char *output, bool is_new);
@@ -130,7 +130,7 @@ bool batch_jobs_over(struct batch_jobs *jobs);
 bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool waits);
 
 // Answers a job with its result, and frees the job. Any thread may call this function.
-void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit);
+void batch_jobs_answer(struct batch_jobs *jobs, struct batch_work *work);
 
 // --- draws each model of a pass in a separate process.
 

@@ -18,8 +18,8 @@
 
 #include "batch_job.h"
 #include "journal.h"
-#include "batch_reach.h"
-#include "item.h"
+#include "batch_sandbox.h"
+#include "batch_work.h"
 #include "console.h"
 #include "limit_options.h"
 #include "interrupt.h"
@@ -56,24 +56,24 @@ static void trim(struct worker *w)
 static void draw_next(struct worker *w, const struct batch_task *task)
 {
     struct batch *b = w->batch;
-    struct batch_unit unit;
+    struct batch_work work;
     lam_error error = {0};
     bool alone = b->plan->count == 1;
     struct batch_job *job = task->job;
-    if (!batch_unit_start(&unit, b, task, &error)) {
+    if (!batch_work_start(&work, b, task, &error)) {
         batch_stop(b, &error);
         return;
     }
-    if (batch_unit_look(&unit, b)) {
+    if (batch_work_look(&work, b)) {
         if (b->journal)
             journal_begin(b->journal, w->slot, (int)writer_process(), task->plan->models[task->model].path);
-        batch_unit_draw(&unit, b, job ? &job->options : &w->options, w->device, job ? &job->cancel : NULL, !alone);
+        batch_work_draw(&work, b, job ? &job->options : &w->options, w->device, job ? &job->cancel : NULL, !alone);
     }
     if (job)
         trim(w);
-    batch_page_thumbnails(b, &unit);
-    batch_deliver(b, &unit);
-    batch_unit_free(&unit);
+    batch_page_thumbnails(b, &work);
+    batch_deliver(b, &work);
+    batch_work_free(&work);
 }
 
 static void *work(void *user)
@@ -221,7 +221,7 @@ static bool run_passes(struct batch *b, lam_error *error)
     if (!workers && !b->options->batch.isolate)
         return complain(error, LAM_MACHINE, "out of memory");
     draw_suspects(b);
-    bool ok = !workers || (batch_reach_enter(b, 0, b->plan->count, error) && make_workers(b, workers, error));
+    bool ok = !workers || (batch_sandbox_enter(b, 0, b->plan->count, error) && make_workers(b, workers, error));
     for (int pass = 0; ok && (b->jobs ? pass == 0 : batch_begin_pass(b, pass)); pass++) {
         if (workers)
             run_threads(b, workers);
@@ -297,7 +297,7 @@ static bool start(struct batch *b, const char *journal, lam_error *error)
     if ((journal || o->batch.report_page) && !(b->options_text = batch_options_text(o, error)))
         return false;
     b->way = o->batch.skip_same ? JOURNAL_SAME : o->batch.resume ? JOURNAL_RESUME : JOURNAL_START;
-    if (!batch_reach_make(b, journal, error))
+    if (!batch_sandbox_make_folders(b, journal, error))
         return false;
     char *all = journal ? pictures_text(b) : NULL;
     bool ok = !journal || all || complain(error, LAM_MACHINE, "out of memory");
@@ -395,7 +395,7 @@ static void keep_memory(void)
 #endif
 }
 
-static int run(const struct batch_plan *plan, const char *journal, bool is_batch, const struct batch_use *use)
+static int run(const struct batch_plan *plan, const char *journal, bool is_batch, const struct batch_receiver *use)
 {
     struct batch b = {.plan = plan, .options = plan->options, .is_batch = is_batch, .use = use};
     lam_error error = {0};
@@ -456,4 +456,7 @@ int batch_run(const struct batch_plan *plan, const char *journal, bool is_batch)
     return code;
 }
 
-int batch_use_run(const struct batch_plan *plan, const struct batch_use *use) { return run(plan, NULL, true, use); }
+int batch_receive(const struct batch_plan *plan, const struct batch_receiver *use)
+{
+    return run(plan, NULL, true, use);
+}

@@ -1,6 +1,6 @@
-// item.h: prints the messages of a batch in the order of the models, a progress line and a summary.
-#ifndef ITEM_H
-#define ITEM_H
+// batch_work.h: the work on one model of a batch, and the state of the batch: messages, counts and the pictures drawn.
+#ifndef BATCH_WORK_H
+#define BATCH_WORK_H
 
 #include "batch_shard.h"
 #include "console.h"
@@ -91,8 +91,8 @@ static inline bool shared_count_take(atomic_int *count, int most) { return atomi
 // These commands share the loop over the models, including its workers, processes, sandbox, messages and counts. The
 // results for a model are stored in the model's record.
 
-enum { BATCH_USE_FILES = 3 };
-struct batch_use {
+enum { BATCH_RECEIVER_FILES = 3 };
+struct batch_receiver {
     // Draws a model of the plan. `job` contains the options, the model, the device and the start time. The loop reports
     // the job's warnings and frees the job. The function stores its results in the object `found`, which becomes part
     // of the model's record. Any thread may call `draw`; with --isolate, the loop calls it in another process.
@@ -101,7 +101,8 @@ struct batch_use {
     void (*reach)(void *user, size_t model, struct sandbox_paths *paths);
     // Decides which files a process in the sandbox may write. NULL allows no files.
     writer_rule *right;
-    const char *files[BATCH_USE_FILES]; // these files, and the folders in which it may write; NULL if there are fewer
+    const char
+        *files[BATCH_RECEIVER_FILES]; // these files, and the folders in which it may write; NULL if there are fewer
     // Called after the last model, unless the run was interrupted. Receives the records of all models; `failed` is the
     // number of failed models. Returns the exit code. The loop owns the records.
     int (*finish)(void *user, json_t *const *records, size_t failed);
@@ -111,7 +112,7 @@ struct batch_use {
 // --- draws one model: all of its pictures, with their messages and records.
 
 // A model to draw.
-struct batch_item {
+struct batch_drawing {
     const struct options *options;
     const char *options_text; // the options as text for the keys; NULL if records have no keys
     bool has_records;         // whether records are needed
@@ -122,12 +123,12 @@ struct batch_item {
     lam_bytes *contents;          // receives the pictures; NULL if the pictures are written to the paths
     const int *attempts;          // the attempt number of each picture, starting at 1
     int view_count;
-    bool one_of_many;            // several models are drawn with the same options
-    bool several;                // the command line has several views or sizes
-    bool makes_folders;          // creates the pictures' folders even if the user gave the pictures' paths
-    const lam_cancel *cancel;    // stops the drawing; if NULL, only Ctrl-C does
-    const struct batch_use *use; // its functions receive the picture; NULL if the picture is written to a file
-    size_t index;                // the index of the model in the plan, for `use`
+    bool one_of_many;                 // several models are drawn with the same options
+    bool several;                     // the command line has several views or sizes
+    bool makes_folders;               // creates the pictures' folders even if the user gave the pictures' paths
+    const lam_cancel *cancel;         // stops the drawing; if NULL, only Ctrl-C does
+    const struct batch_receiver *use; // its functions receive the picture; NULL if the picture is written to a file
+    size_t index;                     // the index of the model in the plan, for `use`
 };
 
 // The resources for drawing a model.
@@ -155,7 +156,7 @@ struct batch_result {
 };
 
 // Draws the model. Reports errors as messages and in the records. The caller frees the result.
-void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result);
+void batch_draw(const struct batch_drawing *drawing, const struct batch_artist *artist, struct batch_result *result);
 void batch_result_free(struct batch_result *result);
 
 // Returns whether the machine caused an error, not the model: no space, memory, descriptors or processes. A later run
@@ -163,7 +164,7 @@ void batch_result_free(struct batch_result *result);
 bool batch_is_by_machine(const lam_error *error);
 
 // Makes the record of a failed picture. Call this if the drawing process ended without a report.
-json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, bool by_machine,
+json_t *batch_record_failed(const struct batch_drawing *drawing, int view, const char *name, int exit, bool by_machine,
                             const char *text);
 
 // --- the state of a batch: the result of each picture, and the running workers.
@@ -200,9 +201,9 @@ struct batch {
     const struct batch_plan *plan; // with --jobs, this plan contains no models
     const struct options *options;
     bool is_batch;
-    char *options_text;          // NULL if there are no keys
-    struct batch_jobs *jobs;     // --jobs (batch.h); NULL if the plan contains all models
-    const struct batch_use *use; // receives the pictures; NULL if the pictures are written to files
+    char *options_text;               // NULL if there are no keys
+    struct batch_jobs *jobs;          // --jobs (batch.h); NULL if the plan contains all models
+    const struct batch_receiver *use; // receives the pictures; NULL if the pictures are written to files
     enum journal_way way;
     struct journal *journal;
     int workers, threads;                   // threads of each worker
@@ -237,7 +238,7 @@ void batch_stop(struct batch *batch, const lam_error *error);
 // --- processes one model of a batch: selects the pictures to draw, draws them and records the results.
 
 // The work on one model, and the results of the work. The arrays have picture_count elements.
-struct batch_unit {
+struct batch_work {
     struct batch_task task;
     int picture_count;              // task.plan->view_count
     struct batch_picture *pictures; // the states of the pictures after the work
@@ -251,18 +252,18 @@ struct batch_unit {
     bool interrupted;
 };
 
-// Makes a unit for a task, with the states of the task's pictures. Fails with LAM_LIMIT.
-bool batch_unit_start(struct batch_unit *unit, const struct batch *batch, const struct batch_task *task,
+// Starts the work on a task, with the states of the task's pictures. Fails with LAM_LIMIT.
+bool batch_work_start(struct batch_work *work, const struct batch *batch, const struct batch_task *task,
                       lam_error *error);
-void batch_unit_free(struct batch_unit *unit);
+void batch_work_free(struct batch_work *work);
 
 // Finds the open pictures that --resume or --skip-same skips, and changes their state. Returns true if pictures remain
 // to be drawn. Any thread may call it.
-bool batch_unit_look(struct batch_unit *unit, const struct batch *batch);
+bool batch_work_look(struct batch_work *work, const struct batch *batch);
 
 // Draws the open pictures. `cancel` stops the drawing. If `cancel` is NULL, Ctrl-C stops the drawing. If `capture` is
-// set, stores the messages in `unit`. Otherwise prints them immediately, and shows a progress bar on a terminal.
-void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const struct options *options,
+// set, stores the messages in `work`. Otherwise prints them immediately, and shows a progress bar on a terminal.
+void batch_work_draw(struct batch_work *work, const struct batch *batch, const struct options *options,
                      lam_device *device, const lam_cancel *cancel, bool capture);
 
 // Marks all open pictures as failed with an error class. Call this if the drawing process ended without a report, for
@@ -270,7 +271,7 @@ void batch_unit_draw(struct batch_unit *unit, const struct batch *batch, const s
 // `by_machine`: batch_is_by_machine. If a model's process ends without a report in ATTEMPTS_OF_MACHINE attempts, the
 // model is the cause.
 enum { ATTEMPTS_OF_MACHINE = 3 };
-void batch_unit_fail(struct batch_unit *unit, const struct batch *batch, const char *class, int exit, bool by_machine,
+void batch_work_fail(struct batch_work *work, const struct batch *batch, const char *class, int exit, bool by_machine,
                      const char *text);
 
 #endif

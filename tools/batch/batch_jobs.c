@@ -428,15 +428,15 @@ bool batch_jobs_take(struct batch_jobs *jobs, struct batch_task *task, bool wait
     return job != NULL;
 }
 
-void batch_jobs_answer(struct batch_jobs *jobs, struct batch_unit *unit)
+void batch_jobs_answer(struct batch_jobs *jobs, struct batch_work *work)
 {
-    struct batch_job *job = unit->task.job;
+    struct batch_job *job = work->task.job;
     // Removes the job before sending the answer, because the reader of the answer may reuse the id immediately.
     pthread_mutex_lock(&jobs->lock);
     list_remove(&jobs->drawing, job);
     pthread_cond_broadcast(&jobs->changed);
     pthread_mutex_unlock(&jobs->lock);
-    job_answer_unit(&jobs->out, unit);
-    unit->task = (struct batch_task){0};
+    job_answer_work(&jobs->out, work);
+    work->task = (struct batch_task){0};
     batch_job_free(job);
 }

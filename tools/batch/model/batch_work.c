@@ -1,8 +1,8 @@
-// batch_unit.c: processes one model of a batch.
+// batch_work.c: processes one model of a batch.
 #include "batch_job.h"
 #include "journal.h"
 #include "console.h"
-#include "item.h"
+#include "batch_work.h"
 #include "report.h"
 #include "xxh64.h"
 
@@ -12,11 +12,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
-bool batch_unit_start(struct batch_unit *u, const struct batch *b, const struct batch_task *task, lam_error *error)
+bool batch_work_start(struct batch_work *u, const struct batch *b, const struct batch_task *task, lam_error *error)
 {
     size_t count = (size_t)task->plan->view_count;
     bool in_answer = task->job && task->job->in_answer;
-    *u = (struct batch_unit){.task = *task,
+    *u = (struct batch_work){.task = *task,
                              .picture_count = task->plan->view_count,
                              .pictures = calloc(count, sizeof *u->pictures),
                              .outputs = calloc(count, sizeof *u->outputs),
@@ -33,11 +33,11 @@ bool batch_unit_start(struct batch_unit *u, const struct batch *b, const struct 
     }
     if (ok)
         return true;
-    batch_unit_free(u);
+    batch_work_free(u);
     return complain(error, LAM_MACHINE, "out of memory");
 }
 
-void batch_unit_free(struct batch_unit *u)
+void batch_work_free(struct batch_work *u)
 {
     for (int i = 0; i < u->picture_count; i++) {
         if (u->outputs)
@@ -55,7 +55,7 @@ void batch_unit_free(struct batch_unit *u)
     free(u->is_new);
     free(u->out);
     free(u->err);
-    *u = (struct batch_unit){0};
+    *u = (struct batch_work){0};
 }
 
 // --- decisions by the journal
@@ -88,7 +88,7 @@ static char *path_now(const char *recorded, const char *recorded_model, const ch
 }
 
 // Returns whether the key in the record still matches the model's files and the options.
-static bool has_same_key(const json_t *record, const struct batch_unit *u, int view)
+static bool has_same_key(const json_t *record, const struct batch_work *u, int view)
 {
     const json_t *files = json_object_get(record, "files"), *file;
     size_t count = json_array_size(files), i;
@@ -131,7 +131,7 @@ static bool has_same_key(const json_t *record, const struct batch_unit *u, int v
     return same;
 }
 
-static enum picture_outcome look(const struct batch_unit *u, const struct batch *b, int view, const json_t *record,
+static enum picture_outcome look(const struct batch_work *u, const struct batch *b, int view, const json_t *record,
                                  uint16_t *attempts)
 {
     struct stat found;
@@ -152,7 +152,7 @@ static enum picture_outcome look(const struct batch_unit *u, const struct batch 
     return by_machine || *attempts <= b->options->batch.retry_failed ? PICTURE_OPEN : PICTURE_FAILED_BEFORE;
 }
 
-bool batch_unit_look(struct batch_unit *u, const struct batch *b)
+bool batch_work_look(struct batch_work *u, const struct batch *b)
 {
     bool open = false;
     for (int i = 0; i < u->task.plan->view_count; i++) {
@@ -174,9 +174,9 @@ bool batch_unit_look(struct batch_unit *u, const struct batch *b)
 
 // --- drawing
 
-// Makes an item from the open pictures of a unit. Stores the indices of these pictures in `which`.
-static struct batch_item item_of(const struct batch_unit *u, const struct batch *b, const struct options *o,
-                                 struct job_view *views, char **outputs, int *attempts, int *which)
+// Makes a drawing from the open pictures of a model. Stores the indices of these pictures in `which`.
+static struct batch_drawing drawing_of(const struct batch_work *u, const struct batch *b, const struct options *o,
+                                       struct job_view *views, char **outputs, int *attempts, int *which)
 {
     int count = 0;
     const struct batch_task *task = &u->task;
@@ -188,33 +188,33 @@ static struct batch_item item_of(const struct batch_unit *u, const struct batch 
         attempts[count] = u->pictures[i].attempts + 1;
         which[count++] = i;
     }
-    return (struct batch_item){.options = o,
-                               .options_text = task->options_text,
-                               .has_records = b->options_text || task->job || b->use,
-                               .model = task->plan->models[task->model].path,
-                               .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
-                               .views = views,
-                               .outputs = outputs,
-                               .contents = u->contents, // if this is not NULL, all pictures of the unit are open
-                               .makes_folders = task->job != NULL,
-                               .attempts = attempts,
-                               .view_count = count,
-                               .use = b->use,
-                               .index = task->model,
-                               .one_of_many = task->plan->count > 1,
-                               .several = o->batch.view_count || o->batch.size_count};
+    return (struct batch_drawing){.options = o,
+                                  .options_text = task->options_text,
+                                  .has_records = b->options_text || task->job || b->use,
+                                  .model = task->plan->models[task->model].path,
+                                  .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
+                                  .views = views,
+                                  .outputs = outputs,
+                                  .contents = u->contents, // if this is not NULL, all pictures of the model are open
+                                  .makes_folders = task->job != NULL,
+                                  .attempts = attempts,
+                                  .view_count = count,
+                                  .use = b->use,
+                                  .index = task->model,
+                                  .one_of_many = task->plan->count > 1,
+                                  .several = o->batch.view_count || o->batch.size_count};
 }
 
 enum { VIEWS = VIEWS_MAX * VIEWS_MAX };
 
-void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct options *o, lam_device *device,
+void batch_work_draw(struct batch_work *u, const struct batch *b, const struct options *o, lam_device *device,
                      const lam_cancel *cancel, bool capture)
 {
     struct job_view views[VIEWS];
     char *outputs[VIEWS];
     int attempts[VIEWS], which[VIEWS];
-    struct batch_item item = item_of(u, b, o, views, outputs, attempts, which);
-    item.cancel = cancel;
+    struct batch_drawing drawing = drawing_of(u, b, o, views, outputs, attempts, which);
+    drawing.cancel = cancel;
     struct batch_artist artist = {.device = device,
                                   .environments = b->environments,
                                   .out = stdout,
@@ -227,7 +227,7 @@ void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct o
         artist.out = out;
     console_capture(err);
     struct batch_result result;
-    batch_draw(&item, &artist, &result);
+    batch_draw(&drawing, &artist, &result);
     console_capture(NULL);
     if (out)
         fclose(out);
@@ -251,22 +251,22 @@ void batch_unit_draw(struct batch_unit *u, const struct batch *b, const struct o
     batch_result_free(&result);
 }
 
-void batch_unit_fail(struct batch_unit *u, const struct batch *b, const char *class, int exit, bool by_machine,
+void batch_work_fail(struct batch_work *u, const struct batch *b, const char *class, int exit, bool by_machine,
                      const char *text)
 {
     struct job_view views[VIEWS];
     char *outputs[VIEWS];
     int attempts[VIEWS], which[VIEWS];
-    struct batch_item item = item_of(u, b, u->task.plan->options, views, outputs, attempts, which);
+    struct batch_drawing drawing = drawing_of(u, b, u->task.plan->options, views, outputs, attempts, which);
     u->code = exit;
-    for (int i = 0; i < item.view_count; i++) {
+    for (int i = 0; i < drawing.view_count; i++) {
         struct batch_picture *picture = &u->pictures[which[i]];
         picture->outcome = PICTURE_FAILED;
         picture->attempts++;
         picture->by_machine = by_machine && picture->attempts < ATTEMPTS_OF_MACHINE;
         u->classes[which[i]] = class;
         u->records[which[i]] =
-            item.has_records ? batch_record_failed(&item, i, class, exit, picture->by_machine, text) : NULL;
+            drawing.has_records ? batch_record_failed(&drawing, i, class, exit, picture->by_machine, text) : NULL;
         u->is_new[which[i]] = true;
     }
 }

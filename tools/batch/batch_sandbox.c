@@ -1,5 +1,5 @@
-// batch_reach.c: sets up the sandbox of a batch.
-#include "batch_reach.h"
+// batch_sandbox.c: sets up the sandbox of a batch.
+#include "batch_sandbox.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -42,7 +42,7 @@ static bool make_folder(char *folder, lam_error *error)
     return ok;
 }
 
-bool batch_reach_make(const struct batch *b, const char *journal, lam_error *error)
+bool batch_sandbox_make_folders(const struct batch *b, const char *journal, lam_error *error)
 {
     const char *page = b->options->batch.report_page;
     return (!takes_folder(b) || make_folder(batch_plan_folder(b->plan), error)) &&
@@ -140,7 +140,7 @@ static void add_written(const struct writes *w, struct sandbox_paths *paths)
     for (size_t i = 0; i < sizeof named / sizeof *named; i++)
         if (named[i])
             sandbox_add(paths, named[i], SANDBOX_MAKE);
-    for (int i = 0; b->use && i < BATCH_USE_FILES; i++)
+    for (int i = 0; b->use && i < BATCH_RECEIVER_FILES; i++)
         if (b->use->files[i])
             sandbox_add(paths, b->use->files[i], SANDBOX_MAKE);
     for (int i = 0; b->jobs && w->whole && i < o->limits.allow_paths.count; i++)
@@ -149,7 +149,7 @@ static void add_written(const struct writes *w, struct sandbox_paths *paths)
         add_folder(paths, batch_plan_folder(w->plan), SANDBOX_MAKE);
 }
 
-bool batch_reach_write(const struct batch *b, const struct batch_task *task, lam_error *error)
+bool batch_sandbox_start_writer(const struct batch *b, const struct batch_task *task, lam_error *error)
 {
     struct writes writes = {b, task->plan, task->model, 1, task->model, false};
     bool writes_none = b->use ? !b->use->right : task->job && task->job->in_answer;
@@ -165,7 +165,7 @@ bool batch_reach_write(const struct batch *b, const struct batch_task *task, lam
 
 // --- the sandbox
 
-bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_error *error)
+bool batch_sandbox_enter(const struct batch *b, size_t first, size_t count, lam_error *error)
 {
     struct writes writes = {b, b->plan, first, count, first, true};
     struct sandbox_paths paths = {.may_write = right_of, .user = &writes, .writers = b->workers};
@@ -190,7 +190,7 @@ bool batch_reach_enter(const struct batch *b, size_t first, size_t count, lam_er
     return sandbox_start(b->options, &paths, error);
 }
 
-bool batch_reach_enter_job(const struct batch_job *job, lam_error *error)
+bool batch_sandbox_enter_job(const struct batch_job *job, lam_error *error)
 {
     struct sandbox_paths paths = {0};
     if (!job->in_answer && !make_folder(batch_plan_folder(&job->plan), error))

@@ -80,7 +80,7 @@ static bool has_picture(const struct batch_picture *picture)
            picture->outcome == PICTURE_BEFORE;
 }
 
-void batch_page_thumbnails(const struct batch *b, const struct batch_unit *u)
+void batch_page_thumbnails(const struct batch *b, const struct batch_work *u)
 {
     for (int i = 0; b->options->batch.report_page && i < u->task.plan->view_count; i++)
         if (has_picture(&u->pictures[i]))
@@ -88,7 +88,7 @@ void batch_page_thumbnails(const struct batch *b, const struct batch_unit *u)
                                  u->pictures[i].outcome == PICTURE_WRITTEN);
 }
 
-bool batch_page_lacks(const struct batch *b, const struct batch_unit *u)
+bool batch_page_lacks(const struct batch *b, const struct batch_work *u)
 {
     bool lacks = false;
     for (int i = 0; b->options->batch.report_page && !lacks && i < u->task.plan->view_count; i++) {

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "batch_job.h"
-#include "batch_reach.h"
+#include "batch_sandbox.h"
 #include "child.h"
 #include "console.h"
 #include "limit_options.h"
@@ -49,7 +49,7 @@ struct sent_picture {
     size_t data_size; // 0 if there is no file
 };
 
-// The process that draws a unit.
+// The process that draws a model.
 struct batch_process {
     struct child child;
     pid_t writer; // 0, or the writer for this process; the writer ends after the process
@@ -57,21 +57,21 @@ struct batch_process {
 
 struct work {
     struct batch *batch;
-    struct batch_unit *unit;
+    struct batch_work *work;
     bool draws; // if false, the process only makes missing thumbnails of earlier pictures
 };
 
 static bool enter(const struct batch *b, const struct batch_task *task, lam_error *error)
 {
     if (!task->job)
-        return batch_reach_enter(b, task->model, 1, error);
+        return batch_sandbox_enter(b, task->model, 1, error);
     int none = open("/dev/null", O_RDWR | O_CLOEXEC); // the process must not read other jobs or write answers
     bool ok = none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(none, STDOUT_FILENO) >= 0;
-    return ok ? batch_reach_enter_job(task->job, error)
+    return ok ? batch_sandbox_enter_job(task->job, error)
               : complain(error, LAM_CANNOT_READ, "/dev/null: cannot open: %s", strerror(errno));
 }
 
-static void draw_here(struct batch *b, struct batch_unit *u)
+static void draw_here(struct batch *b, struct batch_work *u)
 {
     struct options options = *u->task.plan->options;
     options.work.threads = b->threads;
@@ -79,9 +79,9 @@ static void draw_here(struct batch *b, struct batch_unit *u)
     lam_error error = {0};
     lam_device *device = enter(b, &u->task, &error) ? device_option_make(&options, &error) : NULL;
     if (device)
-        batch_unit_draw(u, b, &options, device, NULL, true);
+        batch_work_draw(u, b, &options, device, NULL, true);
     else if (asprintf(&u->err, "lambent: %s\n", error.text) >= 0)
-        batch_unit_fail(u, b, exit_code_of(error.code)->name, exit_code_of(error.code)->code,
+        batch_work_fail(u, b, exit_code_of(error.code)->name, exit_code_of(error.code)->code,
                         batch_is_by_machine(&error), error.text);
     lam_device_free(device);
 }
@@ -89,7 +89,7 @@ static void draw_here(struct batch *b, struct batch_unit *u)
 static void work(void *user, int from, int to)
 {
     const struct work *w = user;
-    struct batch_unit *u = w->unit;
+    struct batch_work *u = w->work;
     struct child_bytes all = {0}, *answer = &all;
     lam_error error;
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
@@ -145,7 +145,7 @@ static bool read_text(struct rest *rest, char **to, size_t size)
 }
 
 // Parses an answer. Returns false if the answer is incomplete.
-static bool read_answer(struct batch_unit *u, const struct child_bytes *answer)
+static bool read_answer(struct batch_work *u, const struct child_bytes *answer)
 {
     struct rest rest = {answer->data, answer->size};
     struct sent sent;
@@ -180,7 +180,7 @@ static bool read_answer(struct batch_unit *u, const struct child_bytes *answer)
 
 // --- the parent process
 
-static void fail_process(struct batch *b, struct batch_unit *u, const struct batch_process *process, int status)
+static void fail_process(struct batch *b, struct batch_work *u, const struct batch_process *process, int status)
 {
     const char *model = u->task.plan->models[u->task.model].path;
     lam_error error;
@@ -199,10 +199,10 @@ static void fail_process(struct batch *b, struct batch_unit *u, const struct bat
     if (asprintf(&u->err, "lambent: %s\n", error.text) < 0)
         u->err = NULL;
     const char *class = crashed ? "crashed" : exit_code_of(LAM_LIMIT)->name;
-    batch_unit_fail(u, b, class, crashed ? EXIT_CRASHED : exit_code_of(LAM_LIMIT)->code, crashed, error.text);
+    batch_work_fail(u, b, class, crashed ? EXIT_CRASHED : exit_code_of(LAM_LIMIT)->code, crashed, error.text);
 }
 
-static bool has_open(const struct batch_unit *u)
+static bool has_open(const struct batch_work *u)
 {
     bool open = false;
     for (int i = 0; i < u->picture_count; i++)
@@ -210,7 +210,7 @@ static bool has_open(const struct batch_unit *u)
     return open;
 }
 
-static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int status)
+static void finish_slot(struct batch *b, struct batch_work *u, struct batch_process *process, int status)
 {
     size_t size = (size_t)u->picture_count * sizeof *u->pictures;
     struct batch_picture *before = malloc(size);
@@ -229,27 +229,27 @@ static void finish_slot(struct batch *b, struct batch_unit *u, struct batch_proc
     }
     free(before);
     batch_deliver(b, u);
-    batch_unit_free(u);
+    batch_work_free(u);
     child_free(&process->child);
 }
 
 // Starts a process for the next model. Returns false if there is no next model.
-static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_process *process, int slot)
+static bool fill_slot(struct batch *b, struct batch_work *u, struct batch_process *process, int slot)
 {
     struct batch_task task;
     lam_error error = {0};
     while (batch_take(b, &task, false)) {
         error.code = LAM_OK;
-        if (!batch_unit_start(u, b, &task, &error)) {
+        if (!batch_work_start(u, b, &task, &error)) {
             batch_stop(b, &error);
             return false;
         }
         const char *path = task.plan->models[task.model].path;
         double limit_s = limits_time(task.plan->options);
-        bool open = batch_unit_look(u, b);
+        bool open = batch_work_look(u, b);
         struct work w = {b, u, open};
         fflush(stdout);
-        bool started = (open || batch_page_lacks(b, u)) && batch_reach_write(b, &task, &error) &&
+        bool started = (open || batch_page_lacks(b, u)) && batch_sandbox_start_writer(b, &task, &error) &&
                        child_start(&process->child, work, &w);
         pid_t writer = writer_leave();
         if (started) {
@@ -267,11 +267,11 @@ static bool fill_slot(struct batch *b, struct batch_unit *u, struct batch_proces
                 complain(&error, LAM_MACHINE, "%.400s: cannot start a process: %s", path, strerror(errno));
             if (asprintf(&u->err, "lambent: %s\n", error.text) < 0)
                 u->err = NULL;
-            batch_unit_fail(u, b, exit_code_of(LAM_LIMIT)->name, exit_code_of(LAM_LIMIT)->code,
+            batch_work_fail(u, b, exit_code_of(LAM_LIMIT)->name, exit_code_of(LAM_LIMIT)->code,
                             batch_is_by_machine(&error), error.text);
         }
         batch_deliver(b, u);
-        batch_unit_free(u);
+        batch_work_free(u);
     }
     return false;
 }
@@ -290,7 +290,7 @@ static void end_processes(struct batch_process *processes, int count, double *si
 }
 
 // Ends the processes of cancelled jobs.
-static void end_cancelled(const struct batch_unit *units, struct batch_process *processes, int count)
+static void end_cancelled(const struct batch_work *units, struct batch_process *processes, int count)
 {
     for (int i = 0; i < count; i++)
         if (processes[i].child.pid > 0 && units[i].task.job && units[i].task.job->cancelled)
@@ -326,7 +326,7 @@ static int wait_processes(struct batch_process *list, int count, int also, int w
 
 void batch_isolate(struct batch *b)
 {
-    struct batch_unit *units = calloc((size_t)b->workers, sizeof *units);
+    struct batch_work *units = calloc((size_t)b->workers, sizeof *units);
     struct batch_process *processes = calloc((size_t)b->workers, sizeof *processes);
     lam_error error;
     if (!units || !processes) {

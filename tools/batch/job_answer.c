@@ -126,7 +126,7 @@ static bool add_data(json_t *picture, const lam_bytes *bytes)
 }
 
 // Returns the result of the whole job.
-static const char *outcome_of(const struct batch_unit *u)
+static const char *outcome_of(const struct batch_work *u)
 {
     bool same = true;
     for (int i = 0; i < u->picture_count; i++) {
@@ -140,7 +140,7 @@ static const char *outcome_of(const struct batch_unit *u)
 }
 
 // Returns the record of the first failed picture. The answer repeats the record's error class and message.
-static const json_t *failed_record(const struct batch_unit *u)
+static const json_t *failed_record(const struct batch_work *u)
 {
     for (int i = 0; i < u->picture_count; i++)
         if (u->records[i] && json_integer_value(json_object_get(u->records[i], "exit")))
@@ -148,7 +148,7 @@ static const json_t *failed_record(const struct batch_unit *u)
     return NULL;
 }
 
-static void set_whole(json_t *answer, const struct batch_unit *u, const char *outcome)
+static void set_whole(json_t *answer, const struct batch_work *u, const char *outcome)
 {
     const json_t *failed = failed_record(u);
     lam_error error = {0};
@@ -166,7 +166,7 @@ static void set_whole(json_t *answer, const struct batch_unit *u, const char *ou
     set_class(answer, exit_code_of(error.code), error.code ? error.text : NULL);
 }
 
-void job_answer_unit(struct job_answers *answers, const struct batch_unit *u)
+void job_answer_work(struct job_answers *answers, const struct batch_work *u)
 {
     const char *outcome = outcome_of(u);
     json_t *answer = start(u->task.job->id, outcome), *list = u->picture_count > 1 ? json_array() : NULL;

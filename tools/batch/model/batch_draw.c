@@ -1,5 +1,5 @@
-// batch_item.c: draws one model, and records the results of its pictures.
-#include "item.h"
+// batch_draw.c: draws one model, and records the results of its pictures.
+#include "batch_work.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -141,28 +141,28 @@ static void set_ms(json_t *record, const char *key, double ms)
     json_object_set_new(record, key, json_real((double)(int64_t)(ms * 1e3 + 0.5) / 1e3));
 }
 
-static json_t *start_record(const struct batch_item *item, int view, const char *class, int exit, bool by_machine,
+static json_t *start_record(const struct batch_drawing *drawing, int view, const char *class, int exit, bool by_machine,
                             const char *error)
 {
-    const struct job_view *v = &item->views[view];
+    const struct job_view *v = &drawing->views[view];
     json_t *record = json_object();
-    journal_set_text(record, "model", item->model);
-    journal_set_text(record, "output", item->contents ? NULL : item->outputs[view]);
-    journal_set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : item->options->view.side)));
+    journal_set_text(record, "model", drawing->model);
+    journal_set_text(record, "output", drawing->contents ? NULL : drawing->outputs[view]);
+    journal_set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : drawing->options->view.side)));
     journal_set_text(record, "class", class);
     json_object_set_new(record, "exit", json_integer(exit));
     char shown[MESSAGE_SIZE];
     journal_set_text(record, "error", error ? name_options(error, shown) : NULL);
     if (exit)
         journal_set_text(record, "cause", by_machine ? "machine" : "model");
-    json_object_set_new(record, "attempt", json_integer(item->attempts[view]));
+    json_object_set_new(record, "attempt", json_integer(drawing->attempts[view]));
     return record;
 }
 
-json_t *batch_record_failed(const struct batch_item *item, int view, const char *name, int exit, bool by_machine,
+json_t *batch_record_failed(const struct batch_drawing *drawing, int view, const char *name, int exit, bool by_machine,
                             const char *text)
 {
-    return start_record(item, view, name, exit, by_machine, text);
+    return start_record(drawing, view, name, exit, by_machine, text);
 }
 
 static json_t *warnings_of(const struct job *job)
@@ -191,12 +191,12 @@ static json_t *times_of(const struct job_times *times)
     return record;
 }
 
-static void add_hash(json_t *record, const struct batch_item *item, int view, const struct job *job)
+static void add_hash(json_t *record, const struct batch_drawing *drawing, int view, const struct job *job)
 {
     char text[XXH64_TEXT];
     uint64_t hash;
-    if (item->contents)
-        hash = xxh64_of(item->contents[view].data, item->contents[view].size);
+    if (drawing->contents)
+        hash = xxh64_of(drawing->contents[view].data, drawing->contents[view].size);
     else if (!xxh64_file(job->output, &hash))
         return;
     xxh64_print(hash, text);
@@ -204,7 +204,7 @@ static void add_hash(json_t *record, const struct batch_item *item, int view, co
 }
 
 // Adds the key and the files that were read to a record.
-static void add_key(json_t *record, const struct batch_item *item, int view, const struct job *job,
+static void add_key(json_t *record, const struct batch_drawing *drawing, int view, const struct job *job,
                     const struct files *files)
 {
     char text[XXH64_TEXT];
@@ -217,12 +217,12 @@ static void add_key(json_t *record, const struct batch_item *item, int view, con
         json_array_append_new(list, file);
     }
     json_object_set_new(record, "files", list);
-    if (files->changed || item->model_bytes || strcmp(item->model, "-") == 0)
+    if (files->changed || drawing->model_bytes || strcmp(drawing->model, "-") == 0)
         return; // a picture without a key is always drawn again
-    const struct job_view *v = &item->views[view];
-    struct batch_key_parts parts = {.options = item->options_text,
-                                    .parsed = item->options,
-                                    .model = item->model,
+    const struct job_view *v = &drawing->views[view];
+    struct batch_key_parts parts = {.options = drawing->options_text,
+                                    .parsed = drawing->options,
+                                    .model = drawing->model,
                                     .format = format,
                                     .picture = job->format,
                                     .side = v->side,
@@ -234,12 +234,12 @@ static void add_key(json_t *record, const struct batch_item *item, int view, con
     journal_set_text(record, "key", text);
 }
 
-static json_t *record_of(const struct batch_item *item, int view, const struct job *job, const lam_error *error,
+static json_t *record_of(const struct batch_drawing *drawing, int view, const struct job *job, const lam_error *error,
                          const struct files *files)
 {
     const struct exit_code *code = exit_code_of(error->code);
-    json_t *record =
-        start_record(item, view, code->name, code->code, batch_is_by_machine(error), error->code ? error->text : NULL);
+    json_t *record = start_record(drawing, view, code->name, code->code, batch_is_by_machine(error),
+                                  error->code ? error->text : NULL);
     if (job->scene) {
         json_object_set_new(record, "triangles", json_integer((json_int_t)job->model_counts.triangles));
         json_object_set_new(record, "lines", json_integer((json_int_t)job->model_counts.lines));
@@ -255,9 +255,9 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
         json_object_set_new(record, "bytes", json_integer((json_int_t)job->bytes));
         const char *format = lam_scene_format(job->scene);
         journal_set_text(record, "format", *format ? format : "shape");
-        add_hash(record, item, view, job);
-        if (item->options_text)
-            add_key(record, item, view, job, files);
+        add_hash(record, drawing, view, job);
+        if (drawing->options_text)
+            add_key(record, drawing, view, job, files);
     }
     return record;
 }
@@ -266,7 +266,7 @@ static json_t *record_of(const struct batch_item *item, int view, const struct j
 
 // The state of drawing one model.
 struct model_run {
-    const struct batch_item *item;
+    const struct batch_drawing *drawing;
     const struct batch_artist *artist;
     struct batch_result *result;
     struct timespec start; // by the clock that file systems use
@@ -274,13 +274,13 @@ struct model_run {
     struct files files;
     int warnings; // the number of the scene's warnings after the previous picture
     bool hashed;
-    json_t *found; // the data that batch_use.draw adds to the record; NULL if the picture is written to a file
+    json_t *found; // the data that batch_receiver.draw adds to the record; NULL if the picture is written to a file
 };
 
 // Prints and records the result of a picture.
 static void finish_picture(struct model_run *r, struct job *job, int view, bool ok, lam_error *error)
 {
-    const struct options *o = r->item->options;
+    const struct options *o = r->drawing->options;
     FILE *stream = report_stream(o);
     bool may_talk = stream != stderr;
     job->times.total = clock_ms() - job->times.start;
@@ -311,13 +311,13 @@ static void finish_picture(struct model_run *r, struct job *job, int view, bool 
     r->result->outcomes[view].kind = ok                             ? BATCH_WRITTEN
                                      : error->code == LAM_CANCELLED ? BATCH_INTERRUPTED
                                                                     : BATCH_FAILED;
-    if (!r->item->has_records || error->code == LAM_CANCELLED)
+    if (!r->drawing->has_records || error->code == LAM_CANCELLED)
         return;
-    if (job->written && r->item->options_text && !r->hashed) {
+    if (job->written && r->drawing->options_text && !r->hashed) {
         r->hashed = true;
         r->files.changed |= !hash_files(job, &r->start, r->start_ms, &r->files);
     }
-    r->result->records[view] = record_of(r->item, view, job, error, &r->files);
+    r->result->records[view] = record_of(r->drawing, view, job, error, &r->files);
     if (r->found)
         json_object_update(r->result->records[view], r->found);
 }
@@ -325,12 +325,12 @@ static void finish_picture(struct model_run *r, struct job *job, int view, bool 
 static void run_views(struct model_run *r, struct job *job, struct progress *progress)
 {
     lam_error error = {0};
-    job->output = r->item->outputs[0];
+    job->output = r->drawing->outputs[0];
     bool read = (!page_wanted(job) || page_refuse_several(&error)) && job_load(job, progress, &error) &&
                 job_arrange(job, progress, &error);
     for (int i = 0; i < job->view_count; i++) {
-        job->output = r->item->outputs[i];
-        job->picture_bytes = r->item->contents ? &r->item->contents[i] : NULL;
+        job->output = r->drawing->outputs[i];
+        job->picture_bytes = r->drawing->contents ? &r->drawing->contents[i] : NULL;
         bool ok = read && job_run_view(job, i, progress, &error);
         progress_end(progress);
         finish_picture(r, job, i, ok, &error);
@@ -344,34 +344,34 @@ static void run_views(struct model_run *r, struct job *job, struct progress *pro
 
 static void draw(struct model_run *r)
 {
-    const struct batch_item *item = r->item;
-    struct options own = *item->options; // several sizes on the command line are treated like --size
+    const struct batch_drawing *drawing = r->drawing;
+    struct options own = *drawing->options; // several sizes on the command line are treated like --size
     own.picture.has_size |= own.batch.size_count > 0;
-    struct job job = {.options = item->several ? &own : item->options,
-                      .model = item->model,
-                      .model_bytes = item->model_bytes,
-                      .picture_bytes = item->contents,
-                      .one_of_many = item->one_of_many,
-                      .makes_folder = item->makes_folders,
-                      .cancel = item->cancel,
+    struct job job = {.options = drawing->several ? &own : drawing->options,
+                      .model = drawing->model,
+                      .model_bytes = drawing->model_bytes,
+                      .picture_bytes = drawing->contents,
+                      .one_of_many = drawing->one_of_many,
+                      .makes_folder = drawing->makes_folders,
+                      .cancel = drawing->cancel,
                       .device = r->artist->device,
                       .environments = r->artist->environments};
     job.times.start = clock_ms();
     clock_gettime(CLOCK_REALTIME_COARSE, &r->start);
     r->start_ms = clock_ms();
     struct progress progress;
-    progress_start(&progress, item->model,
+    progress_start(&progress, drawing->model,
                    console_is_terminal() && r->artist->has_bar && !own.report.quiet && report_stream(&own) != stderr);
-    if (item->several) {
-        job.views = item->views;
-        job.view_count = item->view_count;
+    if (drawing->several) {
+        job.views = drawing->views;
+        job.view_count = drawing->view_count;
         run_views(r, &job, &progress);
     } else {
         lam_error error = {0};
-        job.output = item->outputs[0];
-        const struct batch_use *use = item->use;
+        job.output = drawing->outputs[0];
+        const struct batch_receiver *use = drawing->use;
         r->found = use ? json_object() : NULL;
-        bool ok = use                             ? use->draw(use->user, item->index, &job, &progress, r->found, &error)
+        bool ok = use ? use->draw(use->user, drawing->index, &job, &progress, r->found, &error)
                   : animation_wanted(job.options) ? animation_run(&job, &progress, &error)
                   : page_wanted(&job)             ? page_run(&job, &progress, &error)
                                                   : job_run(&job, &progress, &error);
@@ -384,11 +384,11 @@ static void draw(struct model_run *r)
     free(r->files.texts);
 }
 
-void batch_draw(const struct batch_item *item, const struct batch_artist *artist, struct batch_result *result)
+void batch_draw(const struct batch_drawing *drawing, const struct batch_artist *artist, struct batch_result *result)
 {
-    *result = (struct batch_result){.record_count = item->view_count,
-                                    .records = calloc((size_t)item->view_count, sizeof *result->records),
-                                    .outcomes = calloc((size_t)item->view_count, sizeof *result->outcomes)};
+    *result = (struct batch_result){.record_count = drawing->view_count,
+                                    .records = calloc((size_t)drawing->view_count, sizeof *result->records),
+                                    .outcomes = calloc((size_t)drawing->view_count, sizeof *result->outcomes)};
     if (!result->records || !result->outcomes) {
         say_error("out of memory");
         result->code = exit_code_of(LAM_LIMIT)->code;
@@ -397,9 +397,9 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
     }
     // Markers of lights are objects of the scene and depend on the camera, so a model with markers is read again for
     // each picture.
-    int together = item->options->shading.show_lights ? 1 : item->view_count;
-    for (int i = 0; i < item->view_count; i += together) {
-        struct batch_item part = *item;
+    int together = drawing->options->shading.show_lights ? 1 : drawing->view_count;
+    for (int i = 0; i < drawing->view_count; i += together) {
+        struct batch_drawing part = *drawing;
         struct batch_result own = *result;
         part.views += i;
         part.outputs += i;
@@ -408,7 +408,7 @@ void batch_draw(const struct batch_item *item, const struct batch_artist *artist
         part.view_count = together;
         own.records += i;
         own.outcomes += i;
-        struct model_run run = {.item = &part, .artist = artist, .result = &own};
+        struct model_run run = {.drawing = &part, .artist = artist, .result = &own};
         draw(&run);
         own.records = result->records;
         own.outcomes = result->outcomes;

@@ -140,7 +140,7 @@ void batch_end_suspects(struct batch *b)
 
 enum { MACHINE_FAILURES = 10 }; // after this many in succession, the run stops
 
-static void count(struct batch *b, const struct batch_unit *u, int view)
+static void count(struct batch *b, const struct batch_work *u, int view)
 {
     struct batch_tally *t = &b->tally;
     struct batch_picture *picture = &u->pictures[view];
@@ -172,7 +172,7 @@ static void count(struct batch *b, const struct batch_unit *u, int view)
 }
 
 // Stores the new state of a picture, and its record for the page.
-static void keep(struct batch *b, struct batch_unit *u, int view)
+static void keep(struct batch *b, struct batch_work *u, int view)
 {
     size_t at = u->task.model * (size_t)b->plan->view_count + (size_t)view;
     b->pictures[at] = u->pictures[view];
@@ -183,7 +183,7 @@ static void keep(struct batch *b, struct batch_unit *u, int view)
     }
 }
 
-void batch_deliver(struct batch *b, struct batch_unit *u)
+void batch_deliver(struct batch *b, struct batch_work *u)
 {
     lam_error error = {0};
     bool ok = true;

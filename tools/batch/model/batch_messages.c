@@ -1,5 +1,5 @@
-// batch_tell.c: prints the messages of a batch.
-#include "item.h"
+// batch_messages.c: prints the messages of a batch.
+#include "batch_work.h"
 
 #include <stdio.h>
 #include <stdlib.h>

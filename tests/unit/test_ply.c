@@ -391,7 +391,7 @@ TEST(test_textures)
                         "property int texnumber\nend_header\n" SQUARE
                         "4 0 1 2 3 8 0 0 1 0 1 1 0 1 1\n3 0 1 2 6 0.5 0 0.25 0 nan 1 1\n3 0 2 1 0 0\n3 0 2 3 2 7 8 5\n";
     static const float corners[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}, {0.5f, 0}, {0.25f, 0},
-                                       {0, 1}, {0, 0}, {0, 0}, {0, 0}, {7, 8}, {0, 0}, {0, 0}};
+                                       {0, 0}, {0, 0}, {0, 0}, {0, 0}, {7, 8}, {0, 0}, {0, 0}};
     static const lam_part parts[] = {{.triangle_count = 3, .material = 1},
                                      {.first_triangle = 3, .triangle_count = 1, .material = 0},
                                      {.first_triangle = 4, .triangle_count = 1, .material = -1}};

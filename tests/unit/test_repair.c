@@ -154,6 +154,23 @@ TEST(test_points)
     lam_scene_free(scene);
 }
 
+// Texture coordinates of vertices, and of the corners of faces.
+TEST(test_texcoords)
+{
+    static const char *const texts[] = {
+        PLY("4", "1", "property float s\nproperty float t\n") "end_header\n0 0 0 nan 1\n1 0 0 1 0\n1 1 0 1 -inf\n0 1 0 "
+                                                              "0 1\n4 0 1 2 3\n",
+        PLY("4", "1", "") "property list uchar float texcoord\n"
+                          "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 8 nan 1 1 0 1 -inf 0 1\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        AUTO_SCENE scene = load_text(texts[i], "a.ply");
+        assert_string_equal(lam_scene_warning(scene, 0), "a.ply: 2 texture coordinates are not finite and become 0");
+        assert_null(lam_scene_warning(scene, 1));
+        const float *st = lam_scene_mesh(scene, 0)->texcoords;
+        assert_true(st[0] == 0 && st[1] == 0 && st[2] == 1 && st[4] == 0 && st[5] == 0 && st[7] == 1);
+    }
+}
+
 // glTF: meshes that share their vertices; normals as floats and as normalised bytes; flat normals replace missing ones.
 TEST(test_gltf)
 {

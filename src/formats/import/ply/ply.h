@@ -140,10 +140,12 @@ struct ply_attributes {
     const void *colors;
     lam_colors_format colors_format;
 };
-// Reads the wanted attributes in one pass into arrays from `arena`. Numbers that are not finite become 0, except of
-// normals. Warns in `scene` if the range of colours is not the usual one of their type.
+// Reads the wanted attributes in one pass into arrays from `arena`. Tangents that are not finite become 0. Warns in
+// `scene` if the range of colours is not the usual one of their type.
 bool ply_read_attributes(const struct import_source *source, struct lam_scene *scene, const struct ply_table *table,
                          unsigned wanted, struct arena *arena, struct ply_attributes *out, lam_error *error);
+// Sets texture coordinates that are not finite to 0, with one warning.
+void ply_clear_texcoords(struct lam_scene *scene, const char *name, float *texcoords, size_t count);
 
 // Sets indices and triangle_count of a mesh with positions, from faces or from strips. Colours and normals of the faces
 // are used if the vertices have none. The faces' numbers of textures (texnumber) become parts: the scene's materials with

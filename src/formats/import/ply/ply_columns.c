@@ -5,7 +5,6 @@
 #include "linear.h"
 #include "ply_load.h"
 
-#include <float.h>
 #include <math.h>
 
 void ply_copy_column(const struct ply_table *table, int property, const uint8_t *rows, size_t count, float divisor,
@@ -92,15 +91,9 @@ static void clean_vector(enum kind kind, float *v)
                : value < 0.0f && kind == COLORS_SPLAT ? 0.0f
                                                       : NAN; // mesh_convert_colors counts it
     }
-    if (kind == NORMALS || kind == TEXNUMBERS || kind >= COLORS)
-        return;
-    int numbers = kind == TEXCOORDS ? 2 : 3;
-    bool good = true;
-    for (int c = 0; c < numbers; c++)
-        good &= v[c] >= -FLT_MAX && v[c] <= FLT_MAX;
-    if (!good)
-        memset(v, 0, (size_t)numbers * sizeof *v);
     if (kind == TANGENTS) {
+        if (!((v[0] - v[0]) + (v[1] - v[1]) + (v[2] - v[2]) == 0))
+            memset(v, 0, 3 * sizeof *v);
         lam_vec3 unit = v3_unit(v3((double)v[0], (double)v[1], (double)v[2]));
         v[0] = (float)unit.x;
         v[1] = (float)unit.y;
@@ -293,6 +286,18 @@ static bool add_directions(struct columns *columns, const char *const *names, st
            (*out = add_column(columns, column, 3, error)) != NULL;
 }
 
+void ply_clear_texcoords(struct lam_scene *scene, const char *name, float *texcoords, size_t count)
+{
+    uint64_t bad = 0;
+    for (float *st = texcoords; st < texcoords + 2 * count; st += 2)
+        if (!((st[0] - st[0]) + (st[1] - st[1]) == 0)) {
+            st[0] = st[1] = 0;
+            bad++;
+        }
+    if (bad)
+        scene_warn(scene, "%s: %llu texture coordinates are not finite and become 0", name, (unsigned long long)bad);
+}
+
 bool ply_read_attributes(const struct import_source *source, struct lam_scene *scene, const struct ply_table *table,
                          unsigned wanted, struct arena *arena, struct ply_attributes *out, lam_error *error)
 {
@@ -313,6 +318,8 @@ bool ply_read_attributes(const struct import_source *source, struct lam_scene *s
         return false;
     if (columns.count > 0 && !parallel_rows_read(source, &table->rows, columns_chunk, &columns, error))
         return false;
+    if (out->texcoords)
+        ply_clear_texcoords(scene, source->name, (float *)(uintptr_t)out->texcoords, table->rows.count);
     return !out->colors || out->colors_format != LAM_COLORS_LINEAR_F32 ||
            mesh_convert_colors(source, scene, (float *)(uintptr_t)out->colors, table->rows.count, columns.ranges,
                                error);

@@ -104,6 +104,7 @@ static bool wedge_texcoords(const struct import_source *source, const struct ply
                    "%s: %zu of %zu faces have lists of texture coordinates of another length than two numbers for each "
                    "corner; missing numbers are 0",
                    source->name, faces->odd_wedges, faces->rows.count);
+    ply_clear_texcoords(scene, source->name, faces->wedges, corners);
     mesh->texcoords = faces->wedges;
     mesh->texcoord_count = (uint32_t)corners;
     mesh->texcoord_indices = indices;

@@ -54,7 +54,7 @@ static inline void ply_put_wedge(const struct ply_reader *reader, size_t row, si
     size_t start = reader->starts[row], room = reader->starts[row + 1] - start;
     size_t numbers = room ? 2 * (room / 3 + 2) : 0;
     if (index < numbers)
-        reader->wedges[2 * start + index] = number - number == 0 ? number : 0;
+        reader->wedges[2 * start + index] = number;
     if (index == 0 && numbers && count != numbers)
         __atomic_add_fetch(&reader->table->odd_wedges, 1, __ATOMIC_RELAXED);
 }

@@ -28,7 +28,7 @@ struct pixel_rays {
 // Cells with up to BLOCKERS_TRIED listed triangles, BLOCKERS_FEW of which may cover light at a fragment on average, need
 // no rays. The light at a fragment is computed from up to BLOCKERS_COVER triangles. Lit cells with up to BLOCKERS_LIT
 // listed triangles are checked with these.
-enum { BLOCKERS_TRIED = 128, BLOCKERS_FEW = 6, BLOCKERS_COVER = 96, BLOCKERS_LIT = 512 };
+enum { BLOCKERS_TRIED = 128, BLOCKERS_FEW = 6, BLOCKERS_COVER = 160, BLOCKERS_LIT = 512 };
 
 // --- triangles that may block light on its way to a cell
 

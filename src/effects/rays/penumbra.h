@@ -234,10 +234,11 @@ static void trial_add(struct trial *t, float rays, float found, float light)
     t->variance += rays * light * (1 - light);
 }
 
-static bool trial_fails(const struct trial *t)
+// Returns whether the rays are very unlikely. `doubt` is a variance that every light may have.
+static bool trial_fails(const struct trial *t, float doubt)
 {
     float off = t->found - t->expected;
-    return off * off > 10 * (t->variance + 0.2f);
+    return off * off > 10 * (t->variance + doubt);
 }
 
 // Returns whether the first rays of a cell contradict its interpolated light, in a row, in a column, or in a square of
@@ -255,14 +256,14 @@ static bool contradicted(const struct pixel_rays *s, const uint16_t *points, int
     }
     bool fails = false;
     for (int i = 0; i < CELL; i++)
-        fails |= trial_fails(&rows[i]) || trial_fails(&columns[i]);
+        fails |= trial_fails(&rows[i], 0.2f) || trial_fails(&columns[i], 0.2f);
     for (int i = 0; i < CELL * CELL / 4; i++)
-        fails |= trial_fails(&squares[i]);
+        fails |= trial_fails(&squares[i], 0.2f);
     return fails;
 }
 
-// Interpolates the light of a cell. Fragments that are not on the surface between the nodes use all rays. Returns false,
-// and stores no values, if the cell is not smooth.
+// Interpolates the light of a cell. Fragments that are not on the surface between the nodes, or whose first rays
+// contradict the interpolated light, use all rays. Returns false, and stores no values, if the cell is not smooth.
 static bool pass_smooth(struct pixel_rays *s, const uint16_t *points, int count)
 {
     uint16_t of_pixel[CELL][CELL], nodes[NODES * NODES], apart[RAY_STARTS_MAX];
@@ -308,6 +309,11 @@ static bool pass_smooth(struct pixel_rays *s, const uint16_t *points, int count)
         }
         for (int c = 0; c < s->channels; c++) // a node keeps its value
             s->passed[c][points[n]] = (float)(value[c] < 0 ? 0 : value[c] > 1 ? 1 : value[c]);
+        struct trial own = {0};
+        trial_add(&own, s->pixels->scratch->probes[points[n]], s->pixels->scratch->probed[points[n]],
+                  s->passed[0][points[n]]);
+        if (trial_fails(&own, 0.02f))
+            apart[apart_count++] = points[n];
     }
     pass_each(s, apart, apart_count);
     return !contradicted(s, points, count);

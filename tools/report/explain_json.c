@@ -38,7 +38,8 @@ static void write_cone(struct json *json, const lam_light *light)
                               NUMBER("exponent", light->exponent)));
 }
 
-static void write_light(struct json *json, const lam_explained_light *l, const lam_light *given)
+// `n` and `v`: the normal and the direction to the eye.
+static void write_light(struct json *json, const lam_explained_light *l, const lam_light *given, lam_vec3 n, lam_vec3 v)
 {
     const lam_attenuation *a = &l->attenuation_terms;
     json_open(json, NULL, '{');
@@ -47,7 +48,7 @@ static void write_light(struct json *json, const lam_explained_light *l, const l
              MATRIX("matrix", l->ambient, l->diffuse, l->specular), VECTOR("position", l->position),
              VECTOR("axis", l->axis), VECTOR("l", l->l), VECTOR("r", l->r), VECTOR("h", l->h),
              NUMBER("theta_deg", in_degrees(l->theta_rad)), NUMBER("phi_deg", in_degrees(l->phi_rad)),
-             NUMBER("psi_deg", in_degrees(l->psi_rad)),
+             NUMBER("psi_deg", in_degrees(l->psi_rad)), NUMBER("v_off_plane_deg", off_plane_deg(v, n, l->l)),
              NUMBER("distance", l->type == LAM_LIGHT_DIRECTIONAL ? NAN : l->distance),
              NUMBERS("attenuation_terms", 3, (double)a->constant, (double)a->linear, (double)a->quadratic),
              NUMBER("range", l->range > 0 ? l->range : NAN), NUMBER("attenuation", l->attenuation),
@@ -113,7 +114,7 @@ static void write_point(struct json *json, const lam_explanation *e, const lam_e
     write_layers(json, p->layers);
     json_open(json, "lights", '[');
     for (int i = 0; i < p->light_count; i++)
-        write_light(json, &p->lights[i], &e->lights[i]);
+        write_light(json, &p->lights[i], &e->lights[i], p->n, p->v);
     json_close(json, ']');
     json_open(json, "hemispheres", '[');
     for (int i = 0; i < p->hemisphere_count; i++) {
@@ -234,7 +235,7 @@ static void write_fragment(struct json *json, const lam_explanation *e, const la
              // "gated" means that the result is 0 if n·l is not positive
              OBJECT("formulas", TEXT("D", model->diffuse), TEXT("base", model->base),
                     FLAG("gated", !model->backlit && !(model->backlit_fibre && f->surface.fibre)),
-                    FLAG("microfacet", model->microfacet)),
+                    FLAG("microfacet", model->microfacet), FLAG("threads", model->tangents)),
              TEXT("side", f->back ? "back" : "front"), TEXT("lit_normal", f->flipped ? "-n" : "n"),
              COUNT("samples", f->samples));
     json_open(json, "shown", '[');
@@ -277,11 +278,13 @@ void explain_json(FILE *file, const lam_explanation *e, const struct job *job)
         json_put(&json, COLOR("behind", e->behind));
     json_put(&json, COLOR4("sum", e->sum), COLOR4("background", e->background), COLOR4("result", e->result),
              COLOR("straight", e->straight), NUMBER("exposure_stops", e->stops), NUMBER("exposure", e->exposure),
-             TEXT("encoding", e->color == LAM_COLOR_RAW ? "raw" : "srgb"), TEXT("tone", lam_tone_name(e->tone)));
+             TEXT("encoding", e->color == LAM_COLOR_RAW ? "raw" : "srgb"), TEXT("tone", lam_tone_name(e->tone)),
+             OBJECT("formulas", TEXT("curved", lam_tone_formula(e->tone)), TEXT("encoded", encoding_formula(e->color)),
+                    TEXT("bytes", BYTE_FORMULA)));
     if (e->reference)
         json_put(&json, COUNT("reference", e->reference));
-    json_put(&json, COLOR("toned", e->toned), COLOR("encoded", e->encoded),
-             NUMBERS("bytes", 4, e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]));
+    json_put(&json, COLOR("exposed", exposed_color(e)), COLOR("curved", curved_color(e)), COLOR("toned", e->toned),
+             COLOR("encoded", e->encoded), NUMBERS("bytes", 4, e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]));
     json_close(&json, '}');
     putc('\n', file);
 }

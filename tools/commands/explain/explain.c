@@ -99,8 +99,7 @@ static bool make_request(const struct job *job, const lam_explanation *e, bool s
     struct json json = {.file = file};
     if (!file)
         return complain(error, LAM_MACHINE, "out of memory");
-    json_put(&json, OBJECT(NULL, FLAG("svg", svg), FLAG("threads", lam_reflection_describe(e->reflection)->tangents),
-                           NUMBER("fovy_rad", job->camera.fovy_rad),
+    json_put(&json, OBJECT(NULL, FLAG("svg", svg), NUMBER("fovy_rad", job->camera.fovy_rad),
                            NUMBER("ortho_half_height", job->camera.ortho_half_height)));
     putc('\n', file);
     explain_json(file, e, job);

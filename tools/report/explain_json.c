@@ -208,6 +208,9 @@ static void write_places(struct json *json, const lam_explained_fragment *f)
     }
     json_close(json, ']');
     json_number(json, "winding", f->winding);
+    double plane[4];
+    explain_plane(f, plane);
+    json_numbers(json, "plane", plane, 4);
 }
 
 static void write_material(struct json *json, const lam_explained_fragment *f)
@@ -260,6 +263,38 @@ static void write_fragment(struct json *json, const lam_explanation *e, const la
     json_close(json, '}');
 }
 
+bool explain_formula(const struct job *job, const lam_explanation *e, lam_formula_point *point)
+{
+    const lam_formula formula = job_formula(job->options);
+    const lam_explained_fragment *f = e->fragments;
+    lam_error unused;
+    if (!formula.text || !e->fragment_count || f->corners != 3 || f->mesh < 0)
+        return false;
+    if (formula.implicit)
+        return f->places && lam_formula_evaluate(&formula, f->places[3].mesh_position, point, &unused);
+    const lam_mesh *mesh = lam_scene_mesh(job->scene, f->mesh);
+    const uint32_t *indices = mesh->texcoord_indices ? mesh->texcoord_indices : mesh->indices;
+    lam_vec3 at = {0, 0, 0};
+    for (uint32_t i = 0, corner = 3 * f->triangle; mesh->texcoords && i < 3; i++, corner++) {
+        const float *st = mesh->texcoords + 2 * (size_t)(indices ? indices[corner] : corner);
+        at.x += (double)f->weights[i] * (double)st[0];
+        at.y += (double)f->weights[i] * (double)st[1];
+    }
+    return mesh->texcoords && lam_formula_evaluate(&formula, at, point, &unused);
+}
+
+static void write_formula(struct json *json, const struct job *job, const lam_explanation *e)
+{
+    lam_formula_point p;
+    if (!explain_formula(job, e, &p))
+        return;
+    if (job->options->shape.implicit)
+        json_put(json, OBJECT("formula", VECTOR("at", p.at), NUMBER("f", p.value), VECTOR("gradient", p.normal)));
+    else
+        json_put(json, OBJECT("formula", NUMBER("u", p.at.x), NUMBER("v", p.at.y), VECTOR("p", p.p),
+                              VECTOR("p_u", p.p_u), VECTOR("p_v", p.p_v), VECTOR("cross", p.normal)));
+}
+
 void explain_json(FILE *file, const lam_explanation *e, const struct job *job)
 {
     struct json json = {.file = file};
@@ -270,6 +305,7 @@ void explain_json(FILE *file, const lam_explanation *e, const struct job *job)
              COUNT("samples", e->samples), TEXT("shading", shading_word(e->shading)),
              TEXT("reflection", lam_reflection_describe(e->reflection)->word),
              TEXT("viewer", e->distant_viewer ? "infinite" : "local"));
+    write_formula(&json, job, e);
     json_open(&json, "triangles", '[');
     for (int i = 0; i < e->fragment_count; i++)
         write_fragment(&json, e, &e->fragments[i]);

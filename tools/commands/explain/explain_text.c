@@ -578,12 +578,38 @@ static void print_pixel(const lam_explanation *e)
            (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
 }
 
-void explain_text(const lam_explanation *e, const char *model)
+// Prints the derivatives of the model's formula, and the normal that they give, in the axes of the formula.
+static void print_formula(const lam_explanation *e, const struct job *job)
 {
-    print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(model));
+    lam_formula_point p;
+    if (!explain_formula(job, e, &p))
+        return;
+    printf("\nthe formula at the point, in its own axes\n");
+    const double size = sqrt(dot(p.normal, p.normal));
+    const lam_vec3 n = {p.normal.x / size, p.normal.y / size, p.normal.z / size};
+    if (job->options->shape.implicit) {
+        row_vector(2, "x, y, z", p.at, "");
+        row_number(2, "f", p.value, "left side − right side; not exactly 0 on a triangle");
+        row_vector(2, "∇f", p.normal, "(∂f/∂x, ∂f/∂y, ∂f/∂z), outward");
+        row_vector(2, "n", n, "∇f / |∇f|");
+        return;
+    }
+    row_label(2, "u, v");
+    printf("%13.7g %13.7g\n", p.at.x, p.at.y);
+    row_vector(2, "p(u, v)", p.p, "");
+    row_vector(2, "∂p/∂u", p.p_u, "");
+    row_vector(2, "∂p/∂v", p.p_v, "");
+    row_vector(2, "∂p/∂u × ∂p/∂v", p.normal, job->options->shading.flip ? "reversed by --flip" : "");
+    row_vector(2, "n", n, "the cross product, normalised");
+}
+
+void explain_text(const lam_explanation *e, const struct job *job)
+{
+    print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(job->model));
     printf(": pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", e->x, e->y, e->width, e->height,
            shading_word(e->shading), lam_reflection_describe(e->reflection)->word, e->samples,
            e->samples == 1 ? "" : "s");
+    print_formula(e, job);
     if (!e->fragment_count)
         printf("\nOnly the background is visible here.\n");
     for (int i = 0; i < e->fragment_count; i++)

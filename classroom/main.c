@@ -35,7 +35,7 @@ int classroom_main(int count, char **words)
         return run_program(count, words, run);
     puts("lambent-classroom contains the commands of lambent for teaching, which lambent starts:\n"
          "       lambent check SHADER.frag...\n"
-         "       lambent plot attenuation|spot|highlight [CURVE...]\n\n"
+         "       lambent plot KIND [CURVE...]\n\n"
          "`lambent check --help` and `lambent plot --help` describe them.");
     return 0;
 }

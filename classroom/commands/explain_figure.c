@@ -1,5 +1,5 @@
 // explain_figure.c: draws the figure of `explain -o`. The figure shows the vectors n, l, v, r and h as arrows on the
-// surface, and the same vectors from the side. For threads, the figure shows t instead of r and h. Tables list the
+// surface, and below it the same vectors from the side. For threads, the figure shows t instead of r and h. Tables list the
 // point's coordinates, the vectors, the angles and the terms.
 //
 // The file is longer than 600 lines, because all panels of the figure share its layout and the members of the explanation.
@@ -24,7 +24,7 @@
 
 enum { INK = 0x222222, GREY = 0x707070, RULE = 0xd8d8d8, WHITE = 0xffffff };
 // the number of arrows, and the panel's size in units
-enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 690, SIDE_HEIGHT = 190, SIDE_MAX = 65535 };
+enum { ARROWS = 6, PANEL = 500, PANEL_HEIGHT = 810, SIDE_HEIGHT = 190, SIDE_MAX = 65535 };
 
 // Colours that remain distinct for colour-blind readers (Okabe and Ito, https://jfly.uni-koeln.de/color/).
 static const struct {
@@ -37,9 +37,9 @@ static const struct {
 struct figure {
     const json_t *explanation; // the line of `lambent explain --json`
     int x, y, width, height;   // the explained pixel, and the size of the picture
-    bool threads;              // the reflection model shades threads
     lam_camera camera;         // the camera that rendered the picture; only its projection is set
     lam_image picture;
+    bool beam; // --figure beam
 };
 
 // The subject of the figure: the pixel's nearest surface, its shaded point, and the light that contributes most.
@@ -105,7 +105,7 @@ static struct subject find_subject(const struct figure *f)
     }
     s.vectors[0] = vector(s.point, "n");
     s.vectors[2] = vector(s.point, "v");
-    s.threads = f->threads && !is_zero(vector(s.point, "t"));
+    s.threads = json_is_true(member(member(s.fragment, "formulas"), "threads")) && !is_zero(vector(s.point, "t"));
     if (s.threads)
         s.vectors[5] = vector(s.point, "t");
     s.vectors[1] = vector(s.light, "l");
@@ -296,6 +296,37 @@ static bool draw_from_the_side(const struct subject *s, const struct sheet_layou
     return draw_line(d, ground, 2, 2 * u, GREY, 0, error) && draw_diagram(&g, d, error);
 }
 
+// Draws Lambert's law below the picture: a beam of the light with the width 1, and the area 1/cos θ that it covers.
+static bool draw_beam(const struct subject *s, const struct sheet_layout *at, struct drawing *d, lam_error *error)
+{
+    const double u = at->unit, cosine = dot(s->vectors[0], s->vectors[1]), sine = __builtin_sqrt(1 - cosine * cosine);
+    const struct point foot = {(at->left + at->right) / 2, at->y + 148 * u};
+    struct point ground[2] = {{foot.x - 190 * u, foot.y}, {foot.x + 190 * u, foot.y}};
+    struct diagram g = {.from = foot, .has = {true, true}, .unit = u};
+    char text[120] = "the light is behind the surface: cos θ ≤ 0";
+    bool ok = draw_line(d, ground, 2, 2 * u, GREY, 0, error);
+    g.tips[0] = (struct point){foot.x, foot.y - 118 * u};
+    g.tips[1] = (struct point){foot.x - 118 * u * sine, foot.y - 118 * u * cosine};
+    if (cosine > 0) {
+        const double half = 30 * u, area = half / cosine < 190 * u ? half / cosine : 190 * u;
+        struct point trace[2] = {{foot.x - area, foot.y}, {foot.x + area, foot.y}}, across[2];
+        for (int side = -1; ok && side <= 1; side += 2) {
+            struct point edge[2] = {trace[side > 0], {trace[side > 0].x - 150 * u * sine, foot.y - 150 * u * cosine}};
+            ok = draw_line(d, edge, 2, u, arrows[1].color, 4 * u, error);
+            // the beam's width, perpendicular to l
+            across[side > 0] = (struct point){foot.x - 75 * u * sine + side * half * cosine,
+                                              foot.y - 75 * u * cosine - side * half * sine};
+        }
+        ok = ok && draw_line(d, trace, 2, 5 * u, arrows[1].color, 0, error) &&
+             draw_line(d, across, 2, 3 * u, arrows[1].color, 0, error);
+        snprintf(text, sizeof text, "light on an area of 1: cos θ = n·l = %.6g", cosine);
+        draw_text(d, (struct point){foot.x, foot.y + 40 * u}, 12.5 * u, ALIGN_MIDDLE, INK, text);
+        snprintf(text, sizeof text, "beam: 1, surface: 1/cos θ = %.6g", 1 / cosine);
+    }
+    draw_text(d, (struct point){foot.x, foot.y + 24 * u}, 12.5 * u, ALIGN_MIDDLE, INK, text);
+    return ok && draw_diagram(&g, d, error);
+}
+
 // --- tables
 
 static bool draw_rule(struct drawing *d, const struct sheet_layout *at, double y, lam_error *error)
@@ -331,7 +362,7 @@ static void put_row(struct drawing *d, struct sheet_layout *at, uint32_t color, 
     put(d, at, 0, ALIGN_LEFT, color, name);
     for (int i = 0; i < count; i++) {
         double x = numbers[i] + 0.0;
-        snprintf(text, sizeof text, "%.5g", x > -5e-13 && x < 5e-13 ? 0.0 : x);
+        snprintf(text, sizeof text, "%.6g", x > -5e-13 && x < 5e-13 ? 0.0 : x);
         put(d, at, 186 + 98 * i, ALIGN_RIGHT, INK, x - x == 0 ? text : "–");
     }
 }
@@ -339,6 +370,21 @@ static void put_row(struct drawing *d, struct sheet_layout *at, uint32_t color, 
 static void put_vector(struct drawing *d, struct sheet_layout *at, uint32_t color, const char *name, lam_vec3 v)
 {
     put_row(d, at, color, name, (double[3]){v.x, v.y, v.z}, 3);
+}
+
+// Prints a line of names and numbers with a unit: "D = 0.5, S = 0.1". Omits missing numbers.
+static void put_numbers(struct drawing *d, struct sheet_layout *at, const char *const *names, const double *numbers,
+                        const char *unit)
+{
+    char text[200] = "";
+    for (int i = 0; names[i]; i++)
+        if (numbers[i] - numbers[i] == 0) {
+            size_t used = strlen(text);
+            snprintf(text + used, sizeof text - used, "%s%s = %.6g%s", used ? ", " : "", names[i], numbers[i] + 0.0,
+                     unit);
+        }
+    at->y += 20 * at->unit;
+    put(d, at, 0, ALIGN_LEFT, INK, text);
 }
 
 // Prints the numbers of a member of an object.
@@ -393,48 +439,146 @@ static bool put_vectors(const struct subject *s, struct drawing *d, struct sheet
     }
     if (!s->light)
         return true;
-    char text[160];
-    const double angles[3] = {number(s->light, "theta_deg"), number(s->light, "phi_deg"), number(s->light, "psi_deg")};
-    static const char *const names[3] = {"θ(n, l)", "φ(r, v)", "ψ(n, h)"};
-    text[0] = 0;
-    if (s->threads)
-        snprintf(text, sizeof text, "cos(t, l) = %.5g, cos(t, v) = %.5g", dot(s->vectors[5], s->vectors[1]),
-                 dot(s->vectors[5], s->vectors[2]));
-    for (int i = 0; !s->threads && i < 3; i++)
-        if (angles[i] - angles[i] == 0)
-            snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s = %.4g°", *text ? ", " : "", names[i],
-                     angles[i]);
-    at->y += 20 * at->unit;
-    put(d, at, 0, ALIGN_LEFT, INK, text);
+    if (s->threads) {
+        put_numbers(d, at, (const char *[]){"cos(t, l)", "cos(t, v)", NULL},
+                    (double[]){dot(s->vectors[5], s->vectors[1]), dot(s->vectors[5], s->vectors[2])}, "");
+        return true;
+    }
+    put_numbers(d, at, (const char *[]){"θ(n, l)", "φ(r, v)", "ψ(n, h)", NULL},
+                (double[]){number(s->light, "theta_deg"), number(s->light, "phi_deg"), number(s->light, "psi_deg")},
+                "°");
+    char text[100];
+    const double off = number(s->light, "v_off_plane_deg");
+    if (off > 0.05) {
+        snprintf(text, sizeof text, "φ is not 2ψ, because v is %.2f° off the plane of n and l", off);
+        at->y += 18 * at->unit;
+        put(d, at, 0, ALIGN_LEFT, GREY, text);
+    }
     return true;
 }
 
-// Prints the factors of the drawn light and the terms of the sum.
-static bool put_terms(const json_t *e, const struct subject *s, struct drawing *d, struct sheet_layout *at,
-                      lam_error *error)
+static const char *const channels[] = {"red", "green", "blue", NULL};
+
+// Prints the factors of the drawn light.
+static bool put_light(const json_t *l, struct drawing *d, struct sheet_layout *at, lam_error *error)
 {
-    static const char *const columns[] = {"red", "green", "blue", NULL};
-    static const char *const keys[] = {"emission", "ambient", "diffuse", "specular", "reflection"};
-    const json_t *terms = member(s->point, "terms"), *bytes = member(e, "bytes");
-    if (!begin_table(d, at, json_is_integer(member(s->point, "corner")) ? "Terms at the corner" : "Terms", columns,
+    if (!l)
+        return true;
+    if (!begin_table(d, at, "The light's factors", channels, error))
+        return false;
+    put_member(d, at, "kd Ld", l, "kd_Ld");
+    put_member(d, at, "ks Ls", l, "ks_Ls");
+    if (json_is_true(member(l, "casts_shadows")))
+        put_member(d, at, "passed", l, "passed");
+    double occlusion = number(l, "occlusion");
+    put_numbers(d, at, (const char *[]){"n·l", "attenuation", "spot", "occlusion", NULL},
+                (double[]){number(l, "n_dot_l"), number(l, "attenuation"), number(l, "spot"),
+                           occlusion != 1 ? occlusion : (double)NAN},
+                "");
+    put_numbers(d, at, (const char *[]){"D", "S = base^α", "base", "α", NULL},
+                (double[]){number(l, "D"), number(l, "S"), number(l, "base"), number(l, "power")}, "");
+    return true;
+}
+
+// Prints the terms of the sum. The diffuse and specular terms belong to the drawn light; the other lights and the
+// environment are one row.
+static bool put_terms(const struct subject *s, struct drawing *d, struct sheet_layout *at, lam_error *error)
+{
+    const json_t *terms = member(s->point, "terms"), *color = member(s->point, "color");
+    if (!begin_table(d, at, json_is_integer(member(s->point, "corner")) ? "Terms at the corner" : "Terms", channels,
                      error))
         return false;
-    for (int i = 0; i < 5; i++)
-        if ((i != 0 || sum_of(terms, keys[i]) != 0) && (i != 4 || json_is_object(member(s->point, "environment"))))
-            put_member(d, at, keys[i], terms, keys[i]);
-    put_member(d, at, "sum", s->point, "sum");
-    char text[160];
-    if (s->light) {
-        at->y += 20 * at->unit;
-        snprintf(text, sizeof text, "light: n·l = %.4g, attenuation %.4g, spot %.4g, D = %.4g, S = %.4g",
-                 number(s->light, "n_dot_l"), number(s->light, "attenuation"), number(s->light, "spot"),
-                 number(s->light, "D"), number(s->light, "S"));
-        put(d, at, 0, ALIGN_LEFT, INK, text);
+    double diffuse[3], specular[3], others[3], most = 0;
+    for (size_t i = 0; i < 3; i++) {
+        diffuse[i] =
+            s->light ? number_of(element(color, i)) * number_of(element(member(s->light, "diffuse_term"), i)) : 0;
+        specular[i] = s->light ? number_of(element(member(s->light, "specular_term"), i)) : 0;
+        others[i] = number_of(element(member(terms, "diffuse"), i)) + number_of(element(member(terms, "specular"), i)) -
+                    diffuse[i] - specular[i];
+        most = fabs(others[i]) > most ? fabs(others[i]) : most;
     }
-    at->y += 18 * at->unit;
-    snprintf(text, sizeof text, "the pixel: %g %g %g, alpha %g", number_of(element(bytes, 0)),
-             number_of(element(bytes, 1)), number_of(element(bytes, 2)), number_of(element(bytes, 3)));
-    put(d, at, 0, ALIGN_LEFT, INK, text);
+    if (sum_of(terms, "emission") != 0)
+        put_member(d, at, "emission", terms, "emission");
+    put_member(d, at, "ambient", terms, "ambient");
+    if (sum_of(s->point, "color") != 3)
+        put_member(d, at, "surface colour", s->point, "color");
+    put_row(d, at, GREY, "diffuse", diffuse, 3);
+    put_row(d, at, GREY, "specular", specular, 3);
+    if (most > 1e-7)
+        put_row(d, at, GREY, "other lights", others, 3);
+    if (json_is_object(member(s->point, "environment")))
+        put_member(d, at, "reflection", terms, "reflection");
+    put_member(d, at, "sum", s->point, "sum");
+    return true;
+}
+
+// Prints a row of colours, with a remark.
+static void put_step(struct drawing *d, struct sheet_layout *at, const char *name, const double *color,
+                     const char *remark)
+{
+    put_row(d, at, GREY, name, color, 3);
+    put(d, at, 400, ALIGN_LEFT, GREY, remark);
+}
+
+static void numbers_of(const json_t *o, const char *key, double numbers[4])
+{
+    for (size_t i = 0; i < 4; i++)
+        numbers[i] = number_of(element(member(o, key), i));
+}
+
+// Prints every step from the sum to the bytes: other triangles, exposure, background, alpha, tone curve, encoding and
+// rounding. Omits the steps that change nothing.
+static bool put_steps(const json_t *e, const struct subject *s, struct drawing *d, struct sheet_layout *at,
+                      lam_error *error)
+{
+    if (!begin_table(d, at, "From sum to bytes", channels, error))
+        return false;
+    double color[4], sum[4], others[4], back[4], shown[4];
+    numbers_of(s->fragment, "color", color);
+    numbers_of(e, "sum", sum);
+    numbers_of(e, "background", back);
+    const double share = number(s->fragment, "weight") * color[3], exposure = number(e, "exposure");
+    for (int i = 0; i < 4; i++)
+        others[i] = sum[i] - share * (i < 3 ? color[i] : 1);
+    char text[48];
+    if (json_array_size(member(s->fragment, "points")) > 1)
+        put_step(d, at, "interpolated", color, "Σ weight · corner");
+    if (share != 1) {
+        snprintf(text, sizeof text, "%.6g · colour", share);
+        for (int i = 0; i < 3; i++)
+            color[i] *= share;
+        put_step(d, at, text, color, "covered share");
+        put_step(d, at, "+ others", others, "other triangles");
+    }
+    if (exposure != 1) {
+        snprintf(text, sizeof text, "· %.6g", exposure);
+        put_step(d, at, text, (double[]){sum[0] * exposure, sum[1] * exposure, sum[2] * exposure}, "exposure");
+    }
+    if (sum[3] != 1) {
+        snprintf(text, sizeof text, "÷ %.6g", sum[3]);
+        numbers_of(e, "exposed", shown);
+        put_step(d, at, text, shown, "alpha");
+    }
+    static const struct {
+        const char *key, *name, *choice;
+        int count;
+    } last[] = {{"curved", "toned: ", "tone", 3}, {"encoded", "encoded: ", "encoding", 3}, {"bytes", "bytes", NULL, 4}};
+    for (int i = strcmp(text_of(e, "tone"), "none") == 0; i < 3; i++) {
+        if (i == 1 && back[3] > 0 && sum[3] < 1) { // the background does not pass the tone curve
+            put_step(d, at, "background", back, "");
+            numbers_of(e, "toned", shown);
+            put_row(d, at, GREY, "over it", shown, 3);
+            double all = sum[3] + (1 - sum[3]) * back[3];
+            snprintf(text, sizeof text, "%.6g · x + %.6g · background", sum[3] / all, (1 - sum[3]) * back[3] / all);
+            at->y += 18 * at->unit;
+            put(d, at, 12, ALIGN_LEFT, GREY, text);
+        }
+        numbers_of(e, last[i].key, shown);
+        snprintf(text, sizeof text, "%s%.30s", last[i].name, last[i].choice ? text_of(e, last[i].choice) : "");
+        put_row(d, at, GREY, text, shown, last[i].count);
+        at->y += 18 * at->unit;
+        put(d, at, 12, ALIGN_LEFT, GREY, text_of(member(e, "formulas"), last[i].key));
+    }
     return true;
 }
 
@@ -487,6 +631,13 @@ static double unit_of(const struct figure *f)
 }
 
 static double head_of(double unit) { return 52 * unit; }
+
+// Returns the width of the left column, which contains the picture and, below it, the vectors from the side.
+static double left_width(const struct figure *f)
+{
+    double side = 400 * unit_of(f);
+    return f->width > side ? f->width : side;
+}
 
 // Adds to a text. Omits what does not fit.
 __attribute__((format(printf, 2, 3))) static void add(char text[700], const char *format, ...)
@@ -555,7 +706,8 @@ static bool draw(const struct figure *f, const char *own_title, struct drawing *
              f->x, f->y);
     const char *words = own_title ? own_title : title;
     struct point corner = {(int)(24 * unit), (int)head_of(unit)};
-    struct sheet_layout at = {.unit = unit, .left = 24 * unit + f->width + 28 * unit, .y = head_of(unit) + 10 * unit};
+    struct sheet_layout at = {
+        .unit = unit, .left = 24 * unit + left_width(f) + 28 * unit, .y = head_of(unit) + 10 * unit};
     at.right = at.left + (PANEL - 4) * unit;
     if (!describe(f, &s, words, d, error))
         return false;
@@ -566,10 +718,12 @@ static bool draw(const struct figure *f, const char *own_title, struct drawing *
     if (!s.point)
         return draw_ring(d, (struct point){corner.x + f->x + 0.5, corner.y + f->y + 0.5}, unit, error);
     at.y += 8 * unit;
-    bool ok = draw_vectors(f, &s, corner, unit, d, error) && draw_from_the_side(&s, &at, d, error);
-    at.y += SIDE_HEIGHT * unit;
+    struct sheet_layout below = {
+        .unit = unit, .left = corner.x, .right = corner.x + left_width(f), .y = corner.y + f->height};
+    bool ok = draw_vectors(f, &s, corner, unit, d, error) &&
+              (f->beam && s.light ? draw_beam(&s, &below, d, error) : draw_from_the_side(&s, &below, d, error));
     return ok && put_places(s.fragment, d, &at, error) && put_vectors(&s, d, &at, error) &&
-           put_terms(e, &s, d, &at, error);
+           put_light(s.light, d, &at, error) && put_terms(&s, d, &at, error) && put_steps(e, &s, d, &at, error);
 }
 
 // --- the request: a line of JSON about the page, the line of `lambent explain --json`, and the picture's pixels
@@ -590,7 +744,7 @@ static bool read_request(const lam_bytes *request, struct figure *f, bool *svg, 
     f->y = whole(read[1], "y");
     f->camera.fovy_rad = number(read[0], "fovy_rad");
     f->camera.ortho_half_height = number(read[0], "ortho_half_height");
-    f->threads = json_is_true(member(read[0], "threads"));
+    f->beam = json_is_true(member(read[0], "beam"));
     *svg = json_is_true(member(read[0], "svg"));
     // The picture is not changed.
     f->picture =
@@ -608,9 +762,9 @@ bool classroom_figure(const struct options *o, const lam_bytes *request, lam_byt
     struct drawing drawing;
     json_t *read[2];
     bool svg, ok = read_request(request, &f, &svg, read, error);
-    double unit = unit_of(&f), rows = PANEL_HEIGHT * unit;
-    int width = f.width + (int)((PANEL + 72) * unit);
-    int height = (int)(head_of(unit) + (rows > f.height ? rows : f.height) + 24 * unit);
+    double unit = unit_of(&f), rows = PANEL_HEIGHT * unit, left = f.height + SIDE_HEIGHT * unit;
+    int width = (int)(left_width(&f) + (PANEL + 72) * unit);
+    int height = (int)(head_of(unit) + (rows > left ? rows : left) + 24 * unit);
     if (ok && (ok = drawing_open(&drawing, width, height, svg, !o->captions.no_captions, o->captions.font, error))) {
         ok = draw(&f, o->captions.title, &drawing, error) && drawing_pack(&drawing, answer, error);
         drawing_free(&drawing);

@@ -176,6 +176,10 @@ typedef enum lam_tone {
 // range.
 LAM_API const char *lam_tone_name(lam_tone tone);
 
+// Returns a curve's formula for a channel x of at least 0, such as "x / (1 + x)". For a curve that mixes the channels,
+// the text names the curve and its page in the documentation. AUTO and NONE: "x". Returns a static string.
+LAM_API const char *lam_tone_formula(lam_tone tone);
+
 // Applies a tone curve to a colour, each channel at least 0. AUTO and NONE clip each channel at 1.
 LAM_API lam_rgb lam_tone_apply(lam_tone tone, lam_rgb color);
 

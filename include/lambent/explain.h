@@ -310,7 +310,8 @@ typedef struct lam_explanation {
     lam_rgb encoded;  // `straight` sRGB-encoded, or clamped with LAM_COLOR_RAW
     uint8_t bytes[4]; // the bytes of LAM_RGBA8: floor(255·encoded + ½), and alpha
     lam_tone tone;    // in use, never AUTO
-    lam_rgb toned;    // `straight` after the tone curve, before encoding
+    // The colour that is encoded: exposure · sum / alpha after the tone curve, over the background. Not clipped with NONE.
+    lam_rgb toned;
     // As in lam_draw_params: if it is not 0, the reflection terms of physical materials are sums over this many
     // directions, and the members of the split sum are 0.
     int reference;

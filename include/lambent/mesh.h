@@ -175,6 +175,20 @@ typedef struct lam_formula {
     LAM_RESERVED(4);
 } lam_formula;
 
+// A point of a formula's surface, in the axes of the formula.
+typedef struct lam_formula_point {
+    // Implicit: the point. Parametric: u, v and 0.
+    lam_vec3 at;
+    double value;         // implicit: left side minus right side at the point
+    lam_vec3 p, p_u, p_v; // parametric: the point, ∂p/∂u and ∂p/∂v
+    lam_vec3 normal;      // any length: ∇f, or ∂p/∂u × ∂p/∂v; reversed by `flip`
+    LAM_RESERVED(4);
+} lam_formula_point;
+
+// Evaluates a formula and its symbolic derivatives. Implicit: at the point `at`. Parametric: at the texture coordinates
+// at.x and at.y of the mesh, the fractions of the ranges of u and v. Errors: as lam_scene_add_formula.
+LAM_API bool lam_formula_evaluate(const lam_formula *formula, lam_vec3 at, lam_formula_point *point, lam_error *error);
+
 // A surface given by the zeros of a function that is negative inside.
 typedef struct lam_implicit {
     double (*value)(void *user, lam_vec3 p);      // the function

@@ -8,7 +8,7 @@
 #define ALL                                                                                                            \
     (((1ull << GROUP_COUNT) - 1) &                                                                                     \
      ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
-       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH |                        \
+       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_FIGURE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH | \
        1ull << GROUP_CONVERT | 1ull << GROUP_SETTINGS | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {{"output", "MODEL-SHEET.png", NULL},
@@ -65,8 +65,10 @@ const struct command command_table[] = {
         {"explain", "MODEL X,Y",
          "Print the calculation of one pixel: the vectors, angles and terms of each light, and the resulting bytes. -o "
          "FILE (SVG, PNG) draws a figure with arrows, coordinates and terms. Lambent ignores --save-scene.",
-         ALL | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SETTINGS | TAKES_TITLE, .min_operands = 2, .max_operands = 2,
-         .one_more = "write the pixel as one word, such as 512,400", .defaults = explain_defaults},
+         ALL | 1ull << GROUP_SHAPE | 1ull << GROUP_FIGURE | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SETTINGS |
+             TAKES_TITLE,
+         .min_operands = 1, .max_operands = 2, .one_more = "write the pixel as one word, such as 512,400",
+         .defaults = explain_defaults},
     [COMMAND_info] =
         {"info", "MODEL...",
          "Print the contents of models: size, triangles, materials, pictures, lights, cameras, animations, extensions.",
@@ -103,8 +105,8 @@ const struct command command_table[] = {
                              TAKES_THREADS | TAKES_JSON | TAKES_QUIET,
                          .min_operands = 2, .max_operands = 2,
                          .one_more = "the command writes one model: lambent convert MODEL OUT.glb"},
-    [COMMAND_plot] = {"plot", "attenuation|spot|highlight [CURVE...]",
-                      "Plot attenuation, spot cones or highlights as curves (PNG or SVG), and print the values.",
+    [COMMAND_plot] = {"plot", "attenuation|spot|highlight|lambert|fresnel|tone|depth|lobe [CURVE...]",
+                      "Plot curves (PNG or SVG) and print their values.",
                       ABOUT | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
                           TAKES_QUIET | TAKES_FILES | TAKES_TERM | TAKES_TITLE,
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},

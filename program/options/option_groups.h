@@ -24,6 +24,9 @@ enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
 // --term: selects the protocol for pictures in a terminal.
 enum term_kind { TERM_AUTO, TERM_KITTY, TERM_ITERM2, TERM_SIXEL, TERM_BLOCKS, TERM_OFF };
 
+// --figure: selects the small figure of explain -o.
+enum figure_name { FIGURE_VECTORS, FIGURE_BEAM };
+
 enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
 enum texture_filter { TEXTURE_FILTER_EXACT, TEXTURE_FILTER_HARDWARE };
 enum shard_by { SHARD_BY_NAME, SHARD_BY_LIST };
@@ -209,6 +212,7 @@ struct captions_options {
     const char *font; // NULL means the system's font
     bool no_captions;
     const char *title;  // the page's title; NULL means the default
+    int figure;         // the value of --figure
     struct texts texts; // captions of a sheet's pictures in order; the sheet adds missing captions
 };
 

@@ -35,7 +35,8 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_SHEET] = "Sheets (compare)",
     [GROUP_CHECK] = "Checking shaders (check)",
     [GROUP_SHADER] = "Shaders (shader)",
-    [GROUP_SHAPE] = "Formulas (shape)",
+    [GROUP_SHAPE] = "Formulas (shape, explain)",
+    [GROUP_FIGURE] = "Figures (explain)",
     [GROUP_VIEWER] = "Viewer (view)",
 };
 
@@ -150,6 +151,10 @@ static const struct choice tone_words[] = {
     {"khronos-neutral", LAM_TONE_KHRONOS_NEUTRAL, "unchanged colours, compressed highlights"},
     {"contrast", LAM_TONE_CONTRAST, "0.4 (x / 0.4)^2 for each channel"},
     {NULL, 0, NULL}};
+
+static const struct choice figure_words[] = {{"vectors", FIGURE_VECTORS, "the vectors from the side"},
+                                             {"beam", FIGURE_BEAM, "the area that a beam of the light covers"},
+                                             {NULL, 0, NULL}};
 
 static const struct choice look_words[] = {
     {"studio", 0, "the default"},
@@ -964,7 +969,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"across", 0, GROUP_SHEET, "OPTION[=VALUES]", NULL,
      "Draw a row with one picture per value of an option (shading, or shininess=10,50,1000). A second --across makes a "
      "grid.",
-     "OPTION is the name of an option for pictures, without the leading dashes. Separate the values by commas. If the "
+     "OPTION is the name of an option for pictures, without the leading dashes, or of a field of materials "
+     "(`emission=0,0.2`). A switch such as `match-highlights` has no values. Separate the values by commas. If the "
      "values themselves contain commas, as for `light` and `material`, separate the values by semicolons "
      "(`light=point;directional:color=red,frame=camera`). By default, the values are all names that the option "
      "accepts. The default values of `shininess` are 10, 50 and 1000. `light` draws one light of each type by default, "
@@ -1120,6 +1126,8 @@ struct option option_table[OPTIONS_MAX] = {
      "slightly different. The pictures on the sheet do not change. An SVG file requests DejaVu Sans, but the "
      "viewer may use another font.",
      .kind = VALUE_FILE, .store = store_text, .others = "typeface", FIELD(captions.font)},
+    {"figure", 0, GROUP_FIGURE, "NAME", "vectors", "The small figure of `explain -o`, below the picture.", NULL,
+     figure_words, .store = store_word, FIELD(captions.figure)},
     {"no-captions", 0, GROUP_CAPTIONS, NULL, NULL, "Omit all text. Lambent then needs no font.", NULL,
      .store = store_switch, .others = "no-text no-labels", FIELD(captions.no_captions)},
 

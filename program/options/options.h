@@ -85,6 +85,7 @@ enum option_group {
     GROUP_CHECK,
     GROUP_SHADER,
     GROUP_SHAPE,
+    GROUP_FIGURE,
     GROUP_VIEWER,
     GROUP_HASH,
     GROUP_CONVERT,

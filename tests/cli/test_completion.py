@@ -27,7 +27,7 @@ class Words(Case):
         self.assertEqual(self.words("compare", "te"), ["teapot", ":files"])
         self.assertEqual(self.words("explain", "teapot", ""), [])
         self.assertEqual(self.words("diff", "a"), [":files"])
-        self.assertEqual(self.words("plot", ""), ["attenuation", "spot", "highlight"])
+        self.assertEqual(self.words("plot", ""), ["attenuation", "spot", "highlight", "lambert", "fresnel", "tone", "depth", "lobe"])
         self.assertEqual(self.words("generate", "b"), ["bash"])
         self.assertEqual(self.words("shapes", ""), [])
         self.assertEqual(self.words("help", "exit"), ["exit-codes"])

@@ -217,7 +217,7 @@ class Explain(Case):
     def test_text(self):
         text = self.good("explain", "teapot", "31,34", "-s", 64, "--rig", "headlight").stdout.decode()
         for part in ("teapot: pixel 31,34 of 64x64", "triangle", "16 samples a pixel", "weights of the corners", "θ", "φ", "ψ", "°   between n and l",
-                     "base^α", "spot · attenuation · kd ⊙ Ld · D = 1 · 1 · (", "weighted sum", "sRGB curve", "floor(255 x + ½)"):
+                     "base^α", "spot · attenuation · kd ⊙ Ld · D = 1 · 1 · (", "weighted sum", "--color-mode srgb", "floor(255 · x + ½)"):
             self.assertIn(part, text)
         counts = [tuple(map(int, pair)) for pair in re.findall(r": (\d+) of (\d+) samples", text)]
         self.assertTrue(counts and all(of == 16 for _, of in counts) and sum(n for n, _ in counts) <= 16)

@@ -113,6 +113,11 @@ class Shader(Case):
                     self.assertLessEqual(len(lines), 42, text)
                     self.assertLess(len(lecture[stage]), len(full[stage]) + 300)
 
+    def test_lecture_style_says_which_picture_it_draws(self):
+        for words in ((), ("--stage", "application"), ("-o", "a")):
+            self.assertIn("same picture with these options and --tone none --ao off", self.good("shader", "teapot", "--style", "lecture", *words).stdout.decode())
+        self.given |= {"a.vert", "a.frag"}
+
     def test_lecture_style_refuses_what_it_does_not_have(self):
         for words, option in ((("--reflection", "ggx"), "reflection"), (("--gl1", "--shading", "gouraud"), "gl1"), (("--shadows",), "shadows"), (("--exposure", "1"), "exposure"),
                               (("--tone", "aces"), "tone"), (("--back-material", "gold"), "back-material"), (("--show", "diffuse"), "show"), (("--lights-in", "texture"), "lights-in")):
@@ -204,7 +209,7 @@ class Shader(Case):
                         edges[at] = min(depth, edges.get(at, 2))
                     if depth < nearest.get(at, (2,))[0]:
                         nearest[at] = depth, number, corners, weights, front == (draw["front"] == "counter-clockwise")
-        done = self.good(*words, "--stage", "application", "--samples", "1", "--ao", "off", "-o", "-")
+        done = self.good(*words, "--stage", "application", "--samples", "1", "--tone", "none", "--ao", "off", "-o", "-")
         _, _, wanted = read_png(done.stdout)
         compared, largest = 0, 0
         for (x, y), (depth, number, corners, weights, front) in nearest.items():

@@ -66,4 +66,4 @@ class Shape(Case):
         self.bad(5, "shape", "torus", "-o", "nowhere/t.obj", says="nowhere")
         for name in ("w.gltf", "w.pgn"):
             self.bad(3, "shape", "torus", "-o", name, says=(name, ".png, .ppm", "a model file is .obj, .stl or .ply"))
-        self.bad(1, "cube.obj", "--parametric", RIPPLE, says="belongs to shape")
+        self.bad(1, "cube.obj", "--parametric", RIPPLE, says="belongs to explain, shape")

@@ -5,7 +5,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { around, cameraText, cut, cutShare, onBall, orbit, pan, project, readCamera, shifted, zoom } from '../../web/page/words/camera.js';
 import { dirname, join } from 'node:path';
 import { open } from '../../web/lambent.js';
-import { aroundEquations, lightEquations, sumEquation } from '../../web/page/explain/equations.js';
+import { aroundEquations, lightEquations, pixelEquations, sumEquation } from '../../web/page/explain/equations.js';
 import { lightText, lightWords, movedTo, newLight, parseLight, placeOf, withCone } from '../../web/page/words/lights.js';
 import { companions, ranked, setsSize, withNeighbours } from '../../web/page/files/ranked_models.js';
 import '../../web/page/shaders/shader_strings.js';
@@ -105,11 +105,12 @@ ok(setsSize('/a.json', tree({ '/a.json': '{"image":{"size":[2,2]}}' })) && !sets
 const lambent = await open(readFileSync(join(dirname(process.argv[2]), 'wasm', 'web', 'lambent.wasm')));
 function computed(values, channel) {
   const one = values.replace(/\((-?[\d.e+-]+), (-?[\d.e+-]+), (-?[\d.e+-]+)\)/g, (...parts) => `(${parts[1 + channel]})`);
-  const script = one.replaceAll('·', '*').replaceAll('−', '-').replaceAll('^', '**').replace(/\b(min|max)\(/g, 'Math.$1(');
-  if (!/^[-\d.e+*/() ,Mathminax]*$/.test(script)) throw new Error(values);
+  const script = one.replaceAll('·', '*').replaceAll('−', '-').replaceAll('^', '**').replace(/\b(min|max|floor)\(/g, 'Math.$1(');
+  if (!/^[-\d.e+*/() ,Mathminxflor]*$/.test(script)) throw new Error(values);
   return Function(`return ${script}`)();
 }
-const EQUATIONS = [['teapot'], ['teapot', '--reflection=phong', '--material=brass'], ['sphere', '--light=spot:position=0/0/4,cutoff=40,exponent=3,attenuation=0.5/0.1/0.05,range=6', '--ambient=0.2'],
+const EQUATIONS = [['torus', '--reflection=kajiya-kay'], ['torus', '--reflection=kajiya-kay-lecture', '--light=directional:direction=1/1/-1'],
+  ['teapot', '--tone=reinhard', '--exposure=-1', '--background=white', '--material=opacity=0.5'], ['teapot'], ['teapot', '--reflection=phong', '--material=brass'], ['sphere', '--light=spot:position=0/0/4,cutoff=40,exponent=3,attenuation=0.5/0.1/0.05,range=6', '--ambient=0.2'],
   ['torus-knot', '--material=metallic=0.4,roughness=0.5,color=#c9a227', '--light=directional:direction=-1/-1/-1'], ['teapot', '--reflection=oren-nayar'], ['teapot', '--shadows', '--shading=gouraud'],
   ['sphere', '--reflection=lambert', '--rig=lecture'], ['sphere', '--light=spot:position=0/0/4,inner=1,outer=30'], ['sphere', '--light=spot:position=0/0/4,cutoff=1'], ['sphere', '--light=point:position=0/0/-4'], ['teapot', '--environment=studio', '--reflectivity=0.4', '--ao=screen'], ['cube', '--material=ambient=0.2/0.4/0.8,diffuse=red', '--ambient=0.5/0.4/0.3', '--ao=off'], ['sphere', '--material=metallic=0.3,roughness=0.5,color=#c9a227', '--ambient=0.4']];
 let checked = 0;
@@ -125,6 +126,15 @@ for (const words of EQUATIONS) {
         if (!(Math.abs(found - wanted) <= 0.03 * Math.abs(wanted) + 1e-9)) wrong.push(`${name}: ${values} is ${found}, the program has ${wanted}`);
       }
     }
+  // from the sum to the bytes, with the numbers of the text alone
+  for (const { name, values, result } of pixelEquations(pixel)) {
+    if (!values) continue;
+    checked++;
+    for (const channel of [0, 1, 2]) {
+      const found = computed(values, channel);
+      if (!(name === 'bytes' ? found === result[channel] : Math.abs(found - result[channel]) < 1e-5)) wrong.push(`${name}: ${values} is ${found}, the program has ${result}`);
+    }
+  }
   ok(!wrong.length, `equations: ${words.join(' ')}${wrong.map((one) => `: ${one}`).join('')}`);
 }
 ok(checked > 50, `equations: ${checked} were computed`);

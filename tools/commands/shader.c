@@ -159,6 +159,8 @@ static void print(const struct options *o, const lam_shader *shader, const char 
         printf("// ===== fragment shader =====\n%s\n", shader->fragment);
     }
     printf("// ===== inputs =====\n");
+    if (o->shader.style == LAM_SHADER_STYLE_LECTURE || o->shader.mistake)
+        printf("// Lambent draws the same picture with these options and --tone none --ao off.\n");
     shader_contract(stdout, shader);
     if (o->shader.host && sources) {
         printf("\n// ===== host code =====\n");

@@ -167,9 +167,10 @@ static void complete_varied(const struct typed_word *typed)
         if (!sheet_varies(o))
             continue;
         if (!typed->prefix[length]) {
-            if (o->words)
+            if (o->words || !o->value)
                 complete_offer(typed, o->name, "", o->summary);
-            complete_offer(typed, o->name, "=", o->summary);
+            if (o->value)
+                complete_offer(typed, o->name, "=", o->summary);
         } else if (strlen(o->name) == length && memcmp(o->name, typed->prefix, length) == 0) {
             struct typed_word values = after(typed, length + 1);
             if (o->words || o->kind == VALUE_COLOR)
@@ -177,6 +178,8 @@ static void complete_varied(const struct typed_word *typed)
             complete_value(o, &values);
         }
     }
+    for (int i = 0; !typed->prefix[length] && lam_material_field(i); i++)
+        complete_offer(typed, lam_material_field(i)->key, "=", lam_material_field(i)->summary);
 }
 
 // Completes "KEY=" of --sweep.

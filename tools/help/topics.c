@@ -74,7 +74,7 @@ const struct topic topics[] = {
      "that changes the picture most, and shows this highlight below, three times as large. For a picture of one term, "
      "`--sheet terms` sets the coefficients of the other terms to 0. `--sheet ambient` sets the ambient coefficient of "
      "the default material."},
-    {"explain", "Explaining a pixel", 0, TOPIC_NO_TABLE,
+    {"explain", "Explaining a pixel", BIT(FIGURE), TOPIC_NO_TABLE,
      "`lambent explain MODEL X,Y` accepts the same options as `lambent render` and prints the calculation of one "
      "pixel. X is the pixel's column and Y is its row, counted from 0 at the top left corner. For each visible "
      "triangle, Lambent prints the samples, the object, the position in the triangle, the vectors n, v and t, and the "
@@ -82,7 +82,8 @@ const struct topic topics[] = {
      "and the distance. Lambent also prints three angles: between n and l, between r and v, and between n and h. Then "
      "Lambent prints the light's attenuation and spot factors, the base and exponent of the highlight, and the diffuse "
      "and specular terms. Lambent then prints the terms and their sum. At the end, it blends the weighted sum of the "
-     "triangles over the background, and prints the encoding and the bytes. Vectors are in eye space. The numbers are "
+     "triangles over the background, and prints the tone curve, the encoding and the bytes. Vectors are in eye space. "
+     "The numbers are "
      "bit-identical to the numbers from which Lambent computes the picture. For the formulas, see `docs/lighting.md`. "
      "`--json` prints the same numbers on one line. `-o figure.svg` draws the numbers as a figure."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
@@ -174,11 +175,15 @@ const struct topic topics[] = {
      "axis. The first cone uses the formula of OpenGL, and the second uses the formula of glTF. `lambent plot "
      "highlight 10 50 1000` plots the highlight against the angle between the mirrored light and the eye. For each "
      "shininess, Lambent draws three curves: Phong, Blinn-Phong, and Blinn-Phong at four times the shininess, which "
-     "looks like Phong. Without arguments, each plot draws a default set of curves. The values come from the same "
-     "functions that compute the lighting of pixels.\nBy default, Lambent writes a picture of 1600x1000 pixels to "
-     "`attenuation.png`, `spot.png` or `highlight.png` (with `-o plots/`, in that folder). If the name ends in `.svg`, "
+     "looks like Phong. `lambent plot lobe phong:50 ggx:0.3` draws the reflected share over directions. Other kinds "
+     "are "
+     "`lambert`, `fresnel 0.04 ior=1.5`, `tone reinhard contrast` and `depth NEAR/FAR`. Without arguments, each plot "
+     "draws a default set of curves.\nBy default, Lambent writes a picture of 1600x1000 pixels to "
+     "`attenuation.png`, or another file named after the kind (with `-o plots/`, in that folder). If the name ends in "
+     "`.svg`, "
      "Lambent writes an SVG file. The table on standard output lists the distance or angle at which each curve falls "
-     "below 1/255. With `--json`, Lambent prints the table on one line, with the keys `plot`, `x`, `y`, `curves` and "
+     "below 1/255, or five values of a curve that does not fade. With `--json`, Lambent prints the table on one line, "
+     "with the keys `plot`, `x`, `y`, `curves` and "
      "`picture`. Each curve contains `label`, `points` (101 pairs) and `below_1_255_from`, which is null if the curve "
      "stays above 1/255."},
     {"work", "Threads and devices", BIT(WORK), TOPIC_NO_TABLE, NULL},

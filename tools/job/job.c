@@ -83,8 +83,7 @@ static void name_formula_option(const char *model, lam_error *error)
     }
 }
 
-// Returns the formula in the options. Without a formula, the returned `text` is NULL.
-static lam_formula formula_of(const struct options *o)
+lam_formula job_formula(const struct options *o)
 {
     if (o->shape.implicit)
         return (lam_formula){.text = o->shape.implicit,
@@ -112,7 +111,7 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
     object.name = name;
     lam_shape_params params = {
         .slices = o->shading.slices, .stacks = o->shading.stacks, .control = control, .threads = o->work.threads};
-    const lam_formula formula = formula_of(o);
+    const lam_formula formula = job_formula(o);
     object.mesh = formula.text ? lam_scene_add_formula(scene, &formula, control, error)
                                : lam_scene_add_shape(scene, name, &params, error);
     bool ok = object.mesh >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
@@ -180,7 +179,7 @@ static bool make_scene(struct job *job, struct progress *progress, lam_error *er
     progress_phase(progress, 0, 0.5);
     if (!job_control(job, progress, &control, error))
         return false;
-    if (!job->model_bytes && (formula_of(o).text || lam_shape_find(job->model) >= 0)) {
+    if (!job->model_bytes && (job_formula(o).text || lam_shape_find(job->model) >= 0)) {
         job->scene = make_shape(job->model, o, &control, error);
         job->times.prepare = clock_ms() - job->times.start;
     } else {
@@ -266,7 +265,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         return false;
     warn_maps(job);
     warn_colors(job);
-    if (o->shading.slices && !formula_of(o).text && lam_shape_find(job->model) < 0)
+    if (o->shading.slices && !job_formula(o).text && lam_shape_find(job->model) < 0)
         lam_scene_add_warning(job->scene, "option '--segments' changes nothing: the model is a file");
     bool is_gltf = strcmp(lam_scene_format(job->scene), "gltf") == 0;
     if (!is_gltf && (o->model.scene || o->model.variant || o->model.animation || o->model.has_time))

@@ -141,6 +141,8 @@ bool job_check_options(const struct options *options, lam_error *error);
 // Returns whether `model` names a built-in shape, or selects a formula of the options ("parametric" or "implicit").
 bool job_model_is_shape(const char *model);
 
+// Returns the formula in the options. Without a formula, the returned `text` is NULL.
+lam_formula job_formula(const struct options *options);
 // Returns whether the formula options match the model. Fails with LAM_BAD_ARGUMENT.
 bool job_check_formula(const char *model, const struct options *options, lam_error *error);
 

@@ -38,7 +38,8 @@ static void write_cone(struct json *json, const lam_light *light)
                               NUMBER("exponent", light->exponent)));
 }
 
-static void write_light(struct json *json, const lam_explained_light *l, const lam_light *given)
+// `n` and `v`: the normal and the direction to the eye.
+static void write_light(struct json *json, const lam_explained_light *l, const lam_light *given, lam_vec3 n, lam_vec3 v)
 {
     const lam_attenuation *a = &l->attenuation_terms;
     json_open(json, NULL, '{');
@@ -47,7 +48,7 @@ static void write_light(struct json *json, const lam_explained_light *l, const l
              MATRIX("matrix", l->ambient, l->diffuse, l->specular), VECTOR("position", l->position),
              VECTOR("axis", l->axis), VECTOR("l", l->l), VECTOR("r", l->r), VECTOR("h", l->h),
              NUMBER("theta_deg", in_degrees(l->theta_rad)), NUMBER("phi_deg", in_degrees(l->phi_rad)),
-             NUMBER("psi_deg", in_degrees(l->psi_rad)),
+             NUMBER("psi_deg", in_degrees(l->psi_rad)), NUMBER("v_off_plane_deg", off_plane_deg(v, n, l->l)),
              NUMBER("distance", l->type == LAM_LIGHT_DIRECTIONAL ? NAN : l->distance),
              NUMBERS("attenuation_terms", 3, (double)a->constant, (double)a->linear, (double)a->quadratic),
              NUMBER("range", l->range > 0 ? l->range : NAN), NUMBER("attenuation", l->attenuation),
@@ -113,7 +114,7 @@ static void write_point(struct json *json, const lam_explanation *e, const lam_e
     write_layers(json, p->layers);
     json_open(json, "lights", '[');
     for (int i = 0; i < p->light_count; i++)
-        write_light(json, &p->lights[i], &e->lights[i]);
+        write_light(json, &p->lights[i], &e->lights[i], p->n, p->v);
     json_close(json, ']');
     json_open(json, "hemispheres", '[');
     for (int i = 0; i < p->hemisphere_count; i++) {
@@ -207,6 +208,9 @@ static void write_places(struct json *json, const lam_explained_fragment *f)
     }
     json_close(json, ']');
     json_number(json, "winding", f->winding);
+    double plane[4];
+    explain_plane(f, plane);
+    json_numbers(json, "plane", plane, 4);
 }
 
 static void write_material(struct json *json, const lam_explained_fragment *f)
@@ -234,7 +238,7 @@ static void write_fragment(struct json *json, const lam_explanation *e, const la
              // "gated" means that the result is 0 if n·l is not positive
              OBJECT("formulas", TEXT("D", model->diffuse), TEXT("base", model->base),
                     FLAG("gated", !model->backlit && !(model->backlit_fibre && f->surface.fibre)),
-                    FLAG("microfacet", model->microfacet)),
+                    FLAG("microfacet", model->microfacet), FLAG("threads", model->tangents)),
              TEXT("side", f->back ? "back" : "front"), TEXT("lit_normal", f->flipped ? "-n" : "n"),
              COUNT("samples", f->samples));
     json_open(json, "shown", '[');
@@ -259,6 +263,38 @@ static void write_fragment(struct json *json, const lam_explanation *e, const la
     json_close(json, '}');
 }
 
+bool explain_formula(const struct job *job, const lam_explanation *e, lam_formula_point *point)
+{
+    const lam_formula formula = job_formula(job->options);
+    const lam_explained_fragment *f = e->fragments;
+    lam_error unused;
+    if (!formula.text || !e->fragment_count || f->corners != 3 || f->mesh < 0)
+        return false;
+    if (formula.implicit)
+        return f->places && lam_formula_evaluate(&formula, f->places[3].mesh_position, point, &unused);
+    const lam_mesh *mesh = lam_scene_mesh(job->scene, f->mesh);
+    const uint32_t *indices = mesh->texcoord_indices ? mesh->texcoord_indices : mesh->indices;
+    lam_vec3 at = {0, 0, 0};
+    for (uint32_t i = 0, corner = 3 * f->triangle; mesh->texcoords && i < 3; i++, corner++) {
+        const float *st = mesh->texcoords + 2 * (size_t)(indices ? indices[corner] : corner);
+        at.x += (double)f->weights[i] * (double)st[0];
+        at.y += (double)f->weights[i] * (double)st[1];
+    }
+    return mesh->texcoords && lam_formula_evaluate(&formula, at, point, &unused);
+}
+
+static void write_formula(struct json *json, const struct job *job, const lam_explanation *e)
+{
+    lam_formula_point p;
+    if (!explain_formula(job, e, &p))
+        return;
+    if (job->options->shape.implicit)
+        json_put(json, OBJECT("formula", VECTOR("at", p.at), NUMBER("f", p.value), VECTOR("gradient", p.normal)));
+    else
+        json_put(json, OBJECT("formula", NUMBER("u", p.at.x), NUMBER("v", p.at.y), VECTOR("p", p.p),
+                              VECTOR("p_u", p.p_u), VECTOR("p_v", p.p_v), VECTOR("cross", p.normal)));
+}
+
 void explain_json(FILE *file, const lam_explanation *e, const struct job *job)
 {
     struct json json = {.file = file};
@@ -269,6 +305,7 @@ void explain_json(FILE *file, const lam_explanation *e, const struct job *job)
              COUNT("samples", e->samples), TEXT("shading", shading_word(e->shading)),
              TEXT("reflection", lam_reflection_describe(e->reflection)->word),
              TEXT("viewer", e->distant_viewer ? "infinite" : "local"));
+    write_formula(&json, job, e);
     json_open(&json, "triangles", '[');
     for (int i = 0; i < e->fragment_count; i++)
         write_fragment(&json, e, &e->fragments[i]);
@@ -277,11 +314,13 @@ void explain_json(FILE *file, const lam_explanation *e, const struct job *job)
         json_put(&json, COLOR("behind", e->behind));
     json_put(&json, COLOR4("sum", e->sum), COLOR4("background", e->background), COLOR4("result", e->result),
              COLOR("straight", e->straight), NUMBER("exposure_stops", e->stops), NUMBER("exposure", e->exposure),
-             TEXT("encoding", e->color == LAM_COLOR_RAW ? "raw" : "srgb"), TEXT("tone", lam_tone_name(e->tone)));
+             TEXT("encoding", e->color == LAM_COLOR_RAW ? "raw" : "srgb"), TEXT("tone", lam_tone_name(e->tone)),
+             OBJECT("formulas", TEXT("curved", lam_tone_formula(e->tone)), TEXT("encoded", encoding_formula(e->color)),
+                    TEXT("bytes", BYTE_FORMULA)));
     if (e->reference)
         json_put(&json, COUNT("reference", e->reference));
-    json_put(&json, COLOR("toned", e->toned), COLOR("encoded", e->encoded),
-             NUMBERS("bytes", 4, e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]));
+    json_put(&json, COLOR("exposed", exposed_color(e)), COLOR("curved", curved_color(e)), COLOR("toned", e->toned),
+             COLOR("encoded", e->encoded), NUMBERS("bytes", 4, e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]));
     json_close(&json, '}');
     putc('\n', file);
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lambent/fields.h>
 #include <lambent/shader.h>
 
 #include "console.h"
@@ -104,11 +105,14 @@ static const struct sheet sheets[] = {
 
 // --- a row of variants
 
-bool sheet_varies(const struct option *o) { return o->value && option_is_in(o, IN_SHEET); }
+bool sheet_varies(const struct option *o) { return option_is_in(o, IN_SHEET); }
 
-static const struct option *find_option(const char *name, size_t length, lam_error *error)
+// Finds an option or, if no option has this name, a field of the material. The result is the option, or --material with
+// the field in `*field`.
+static const struct option *find_option(const char *name, size_t length, const lam_field **field, lam_error *error)
 {
     char typed[64];
+    *field = NULL;
     snprintf(typed, sizeof typed, "%.*s", (int)(length < 60 ? length : 60), name);
     struct suggestion nearest = suggest_start(typed);
     for (const struct option *o = option_table; o->name; o++) {
@@ -117,9 +121,17 @@ static const struct option *find_option(const char *name, size_t length, lam_err
         if (sheet_varies(o))
             suggest_try(&nearest, o->name);
     }
+    for (int i = 0; lam_material_field(i); i++) {
+        *field = lam_material_field(i);
+        if (strcmp((*field)->key, typed) == 0)
+            return find_option("material", 8, &(const lam_field *){NULL}, error);
+        suggest_try(&nearest, (*field)->key);
+    }
     complain(error, LAM_BAD_ARGUMENT,
-             "option '--across': found '%s', expected an option of the picture such as shading%s%s%s", typed,
-             nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+             "option '--across': found '%s', expected an option of the picture such as shading, or a field of "
+             "materials such "
+             "as emission%s%s%s",
+             typed, nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
     return NULL;
 }
 
@@ -270,54 +282,80 @@ static void title_of(const char *option, char *title, size_t size)
     snprintf(title, size, "values of --%s", option);
 }
 
+// Makes a row of two pictures, without and with a switch.
+static bool choose_switch(const struct option *option, const char *values, struct sheet *sheet, char **store,
+                          lam_error *error)
+{
+    if (values)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--across': '%s' is a switch without values; found '%.60s'",
+                        option->name, values);
+    if (asprintf(store, "--%s", option->name) < 0) {
+        *store = NULL;
+        return complain(error, LAM_MACHINE, "out of memory");
+    }
+    *sheet = (struct sheet){.name = option->name, .across = true, .columns = 2, .count = 2};
+    snprintf(sheet->title, sizeof sheet->title, "Without and with --%s", option->name);
+    snprintf(sheet->cells[0].caption, sizeof sheet->cells[0].caption, "without %s", option->name);
+    snprintf(sheet->cells[1].caption, sizeof sheet->cells[1].caption, "%s", option->name);
+    sheet->cells[1].words[0] = *store;
+    return true;
+}
+
 static bool choose_across(const char *across, struct sheet *sheet, char **store, lam_error *error)
 {
     size_t length = strcspn(across, "=");
     if (length == 7 && memcmp(across, "mistake", 7) == 0)
         return choose_mistakes(across[length] ? across + length + 1 : "all", sheet, store, error);
     bool term = length == 4 && memcmp(across, "term", 4) == 0; // an alias of --show
-    const struct option *option = term ? find_option("show", 4, error) : find_option(across, length, error);
+    const lam_field *field = NULL;
+    const struct option *option =
+        term ? find_option("show", 4, &field, error) : find_option(across, length, &field, error);
     if (!option)
         return false;
-    const char *values = across[length] ? across + length + 1 : NULL;
-    const struct row *row = find_row(option->name);
+    const char *values = across[length] ? across + length + 1 : NULL, *name = field ? field->key : option->name;
+    if (!option->value)
+        return choose_switch(option, values, sheet, store, error);
+    const struct row *row = find_row(name);
+    if (!values && field && field->type == LAM_FIELD_FLAG)
+        values = "no,yes";
     bool all_terms = !values && strcmp(option->name, "show") == 0;
     if (!values && row)
         values = row->values;
     if (!values && !option->words)
-        return complain(error, LAM_BAD_ARGUMENT, "option '--across': '%s' needs values: %s=A,B,C", option->name,
-                        option->name);
+        return complain(error, LAM_BAD_ARGUMENT, "option '--across': '%s' needs values: %s=A,B,C", name, name);
     if (values && lacks_semicolons(option, values))
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--across': found a comma between two lights in '%.200s', expected a semicolon",
                         across);
-    // Allocates one block for "--name" and the values, each with a terminating zero.
-    size_t dashed = strlen(option->name) + 3;
-    *store = malloc(dashed + (values ? strlen(values) : 0) + 1);
+    // Allocates one block for "--name" and the values, each with a terminating zero and, for a field, with its key.
+    size_t dashed = strlen(option->name) + 3, key = field ? strlen(name) + 1 : 0, count = 1;
+    for (const char *s = values; s && *s; s++)
+        count += *s == ',' || *s == ';';
+    *store = malloc(dashed + (values ? strlen(values) : 0) + count * (key + 1));
     if (!*store)
         return complain(error, LAM_MACHINE, "out of memory");
     sprintf(*store, "--%s", option->name);
-    *sheet = (struct sheet){.name = option->name, .across = true};
+    *sheet = (struct sheet){.name = name, .across = true};
     // A row of single terms or values shows the unchanged model. In a row of all five terms, the row's defaults change
     // the scene, so that every term is visible.
     if (row && (all_terms || strcmp(option->name, "show") != 0))
         memcpy(sheet->defaults, row->defaults, sizeof sheet->defaults);
-    title_of(option->name, sheet->title, sizeof sheet->title);
+    title_of(name, sheet->title, sizeof sheet->title);
     *sheet->title = (char)toupper((unsigned char)*sheet->title);
     bool ok = true;
     if (!values) {
         ok = add_words(sheet, *store, option, error);
     } else {
         char *value = *store + dashed;
-        strcpy(value, values);
-        bool own_commas = !option->words && strpbrk(values, ";=") != NULL;
-        while (ok && value) {
-            char *end = strchr(value, own_commas ? ';' : ',');
-            if (end)
-                *end++ = 0;
-            ok = *value ? add_variant(sheet, *store, option->name, value, error)
-                        : complain(error, LAM_BAD_ARGUMENT, "option '--across': an empty value in '%.200s'", across);
-            value = end;
+        const char *separator = !option->words && strpbrk(values, ";=") ? ";" : ",";
+        for (const char *from = values; ok && from; value += strlen(value) + 1) {
+            size_t size = strcspn(from, separator);
+            sprintf(value, "%s%s%.*s", field ? name : "", field ? "=" : "", (int)size, from);
+            ok = size ? add_variant(sheet, *store, name, value + key, error)
+                      : complain(error, LAM_BAD_ARGUMENT, "option '--across': an empty value in '%.200s'", across);
+            if (ok)
+                sheet->cells[sheet->count - 1].words[1] = value;
+            from = from[size] ? from + size + 1 : NULL;
         }
     }
     // Puts up to six pictures in one row, and distributes more pictures evenly over several rows.

@@ -1,6 +1,8 @@
-// plot.c: the command `plot`: plots attenuation, spot cones and highlights as curves, and prints the values.
+// plot.c: the command `plot`: plots attenuation, spot cones, highlights and other functions as curves, and prints the
+// values.
 #include "plot.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -20,6 +22,8 @@
 
 enum { TABLE_STEPS = 100 };
 
+#define PLOT_KINDS "attenuation, spot, highlight, lambert, fresnel, tone, depth or lobe"
+
 // Colours that remain distinct for colour-blind readers (Okabe and Ito, 2008), without yellow, which is hard to see on
 // white.
 static const uint32_t palette[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x222222};
@@ -34,6 +38,39 @@ static double spot_value(const struct curve *c, double x) { return (double)lam_s
 static double highlight_value(const struct curve *c, double x)
 {
     return (double)lam_highlight_at(c->reflection, c->shininess, radians(x));
+}
+
+static double cosine_of(double degrees) { return cos(radians(degrees)); }
+
+static double lambert_value(const struct curve *c, double x)
+{
+    return c->style ? 1 / cosine_of(x) : x < 90 ? cosine_of(x) : 0;
+}
+
+// Schlick (1994).
+static double schlick_value(const struct curve *c, double x)
+{
+    return c->number[0] + (1 - c->number[0]) * pow(1 - (x < 90 ? cosine_of(x) : 0), 5);
+}
+
+// Fresnel's equations for a dielectric, the mean of both polarisations.
+static double fresnel_value(const struct curve *c, double x)
+{
+    double in = x < 90 ? cosine_of(x) : 0, ior = c->number[0], out = sqrt(1 - (1 - in * in) / (ior * ior));
+    double across = (in - ior * out) / (in + ior * out), along = (ior * in - out) / (ior * in + out);
+    return (across * across + along * along) / 2;
+}
+
+static double tone_value(const struct curve *c, double x)
+{
+    return (double)lam_tone_apply(c->tone, (lam_rgb){(float)x, (float)x, (float)x}).g;
+}
+
+// The depth in the window, 0 to 1, of a point at the distance x along the axis of a perspective camera.
+static double depth_value(const struct curve *c, double x)
+{
+    double near = c->number[0], far = c->number[1];
+    return x <= near ? 0 : x >= far ? 1 : far / (far - near) * (1 - near / x);
 }
 
 // Returns the smallest x from which the curve stays below a level. All curves decrease monotonically. Bisects an
@@ -63,7 +100,7 @@ static double find_below(const struct curve *curve, double level, double farthes
 
 // --- parsing the curves
 
-static struct curve *add_curve(struct plot *plot, double (*value)(const struct curve *, double), lam_error *error)
+struct curve *plot_add_curve(struct plot *plot, double (*value)(const struct curve *, double), lam_error *error)
 {
     if (plot->count == CURVES_MAX) {
         complain(error, LAM_LIMIT, "plot: more than %d curves, the most that can be distinguished", CURVES_MAX);
@@ -74,7 +111,7 @@ static struct curve *add_curve(struct plot *plot, double (*value)(const struct c
     return curve;
 }
 
-static bool wrong(lam_error *error, const char *kind, const char *word, const char *expected)
+bool plot_wrong(lam_error *error, const char *kind, const char *word, const char *expected)
 {
     return complain(error, LAM_BAD_ARGUMENT, "plot %s: found '%.100s', expected %s", kind, word, expected);
 }
@@ -82,7 +119,7 @@ static bool wrong(lam_error *error, const char *kind, const char *word, const ch
 // Adds the curve of a light. The label consists of `name` (may be NULL) and the light's numbers.
 static bool add_faded(struct plot *plot, const lam_light *light, const char *name, lam_error *error)
 {
-    struct curve *curve = add_curve(plot, attenuation_value, error);
+    struct curve *curve = plot_add_curve(plot, attenuation_value, error);
     if (!curve)
         return false;
     curve->light = *light;
@@ -120,7 +157,7 @@ static bool add_words(struct plot *plot, const char *kind, const char *word, con
 static bool add_fading(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
 {
     if (!fades(light))
-        return wrong(error, "attenuation", word, "a point or spot light, since the others do not fade");
+        return plot_wrong(error, "attenuation", word, "a point or spot light, since the others do not fade");
     return add_faded(plot, light, light->name, error);
 }
 
@@ -173,15 +210,16 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
         count++;
     } while (rest && *rest == '/');
     if (!rest || *rest || count < 3)
-        return wrong(error, "attenuation", word,
-                     "a/b/c or a/b/c/range, such as 1/0.54/0.2, a light such as point:attenuation=1/0.54/0.2, or a "
-                     "file with lights");
+        return plot_wrong(
+            error, "attenuation", word,
+            "a/b/c or a/b/c/range, such as 1/0.54/0.2, a light such as point:attenuation=1/0.54/0.2, or a "
+            "file with lights");
     lam_light light = lam_light_default(LAM_LIGHT_POINT);
     light.attenuation = (lam_attenuation){(float)part[0], (float)part[1], (float)part[2]};
     light.range = (float)part[3];
     lam_error reason;
     if (part[0] == 0 && part[1] == 0 && part[2] == 0)
-        return wrong(error, "attenuation", word, "at least one of a, b and c above 0");
+        return plot_wrong(error, "attenuation", word, "at least one of a, b and c above 0");
     if (!lam_light_check(&light, &reason))
         return complain(error, LAM_BAD_ARGUMENT, "plot attenuation: '%.60s': %.300s", word, reason.text);
     return add_faded(plot, &light, NULL, error);
@@ -191,8 +229,8 @@ static bool add_attenuation(struct plot *plot, const char *word, lam_error *erro
 static bool add_spot_light(struct plot *plot, const lam_light *light, const char *word, lam_error *error)
 {
     if (light->outer_rad == 0 && !strstr(word, "cutoff") && !strstr(word, "exponent"))
-        return wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
-    struct curve *curve = add_curve(plot, spot_value, error);
+        return plot_wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
+    struct curve *curve = plot_add_curve(plot, spot_value, error);
     if (!curve)
         return false;
     curve->light = *light;
@@ -213,7 +251,7 @@ static bool add_spot(struct plot *plot, const char *word, lam_error *error)
 {
     char light[200];
     if (snprintf(light, sizeof light, "spot:%s", word) >= (int)sizeof light)
-        return wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
+        return plot_wrong(error, "spot", word, "cutoff=DEGREES,exponent=E or inner=DEGREES,outer=DEGREES");
     return add_words(plot, "spot", word, light, add_spot_light, error);
 }
 
@@ -222,9 +260,9 @@ static bool add_highlight(struct plot *plot, const char *word, lam_error *error)
     double alpha;
     const char *rest = read_number(word, &alpha);
     if (!rest || *rest || !(alpha >= 0 && alpha <= 1e9))
-        return wrong(error, "highlight", word, "a shininess of 0 or more, such as 50");
+        return plot_wrong(error, "highlight", word, "a shininess of 0 or more, such as 50");
     for (int i = 0; i < 3; i++) {
-        struct curve *curve = add_curve(plot, highlight_value, error);
+        struct curve *curve = plot_add_curve(plot, highlight_value, error);
         if (!curve)
             return false;
         curve->reflection = i == 0 ? LAM_REFLECTION_PHONG : LAM_REFLECTION_BLINN_PHONG;
@@ -236,6 +274,73 @@ static bool add_highlight(struct plot *plot, const char *word, lam_error *error)
     return true;
 }
 
+static bool add_lambert(struct plot *plot, const char *word, lam_error *error)
+{
+    bool area = strcmp(word, "area") == 0;
+    if (!area && strcmp(word, "share") != 0)
+        return plot_wrong(error, "lambert", word, "share or area");
+    struct curve *curve = plot_add_curve(plot, lambert_value, error);
+    if (!curve)
+        return false;
+    curve->style = area;
+    snprintf(curve->label, sizeof curve->label, "%s",
+             area ? "1/cos θ: area of a beam of 1" : "cos θ: light on an area of 1");
+    return true;
+}
+
+static bool add_fresnel(struct plot *plot, const char *word, lam_error *error)
+{
+    double number;
+    bool exact = strncmp(word, "ior=", 4) == 0;
+    const char *rest = read_number(word + (exact ? 4 : 0), &number);
+    if (!rest || *rest || !(exact ? number > 1 && number <= 100 : number >= 0 && number <= 1))
+        return plot_wrong(error, "fresnel", word,
+                          "the reflectance f0 from 0 to 1, such as 0.04, or ior= and an index of refraction above 1");
+    struct curve *curve = plot_add_curve(plot, exact ? fresnel_value : schlick_value, error);
+    if (!curve)
+        return false;
+    curve->number[0] = number;
+    curve->style = exact;
+    snprintf(curve->label, sizeof curve->label, exact ? "Fresnel, index of refraction %.6g" : "Schlick, f0 = %.6g",
+             number);
+    return true;
+}
+
+static bool add_tone(struct plot *plot, const char *word, lam_error *error)
+{
+    int tone = LAM_TONE_NONE;
+    while (tone < LAM_TONE_COUNT && strcmp(lam_tone_name((lam_tone)tone), word) != 0)
+        tone++;
+    if (tone == LAM_TONE_COUNT)
+        return plot_wrong(error, "tone", word, "none, reinhard, aces, agx, khronos-neutral or contrast");
+    struct curve *curve = plot_add_curve(plot, tone_value, error);
+    if (!curve)
+        return false;
+    curve->tone = (lam_tone)tone;
+    snprintf(curve->label, sizeof curve->label, "%s: %s", word,
+             tone == LAM_TONE_NONE ? "min(x, 1)" : lam_tone_formula(curve->tone));
+    return true;
+}
+
+static bool add_depth(struct plot *plot, const char *word, lam_error *error)
+{
+    double near, far;
+    const char *rest = read_number(word, &near);
+    rest = rest && *rest == '/' ? read_number(rest + 1, &far) : NULL;
+    if (!rest || *rest || !(near > 0 && far > near))
+        return plot_wrong(error, "depth", word, "NEAR/FAR, the distances of the clipping planes, such as 0.1/100");
+    struct curve *curve = plot_add_curve(plot, depth_value, error);
+    if (!curve)
+        return false;
+    curve->number[0] = near;
+    curve->number[1] = far;
+    // dz/dd is far near / ((far − near) d²), so that a step of the buffer at the far plane is:
+    double step = far * (far - near) / near;
+    snprintf(curve->label, sizeof curve->label, "near %.6g, far %.6g; 24-bit step at far %.2g", near, far,
+             step / 16777215);
+    return true;
+}
+
 // A kind of plot.
 struct kind {
     const char *name, *title, *x_label, *y_label;
@@ -243,6 +348,7 @@ struct kind {
     const char *standard[5]; // the default curves
     double x_max, farthest;  // 0 means that the axis is fitted to the curves
     int per_color;           // the number of curves with the same colour
+    bool fades;              // the curves decrease to 0
 };
 
 static const struct kind kinds[] = {
@@ -254,7 +360,8 @@ static const struct kind kinds[] = {
      {"1/0/0", "1/0.54/0.2", "1/0/1", NULL},
      0,
      1e9,
-     1},
+     1,
+     true},
     {"spot",
      "Spot light",
      "angle from the axis in degrees",
@@ -263,7 +370,8 @@ static const struct kind kinds[] = {
      {"cutoff=30,exponent=0", "cutoff=30,exponent=8", "exponent=32", "inner=20,outer=35", NULL},
      90,
      180,
-     1},
+     1,
+     true},
     {"highlight",
      "Highlight: Phong cos(φ)^α, Blinn–Phong cos(φ/2)^α",
      "angle φ between reflected light and eye in degrees",
@@ -272,7 +380,47 @@ static const struct kind kinds[] = {
      {"10", "50", "1000", NULL},
      90,
      180,
-     3},
+     3,
+     true},
+    {.name = "lambert",
+     .title = "Lambert's law: an oblique beam covers more area",
+     .x_label = "angle θ between the normal and the light in degrees",
+     .y_label = "share, area",
+     .add = add_lambert,
+     .standard = {"share", "area"},
+     .x_max = 90,
+     .per_color = 1},
+    {.name = "fresnel",
+     .title = "Fresnel: f0 + (1 − f0) (1 − cos θ)⁵",
+     .x_label = "angle θ between the normal and the light in degrees",
+     .y_label = "reflected share",
+     .add = add_fresnel,
+     .standard = {"0.04", "ior=1.5", "0.3", "0.9"},
+     .x_max = 90,
+     .per_color = 1},
+    {.name = "tone",
+     .title = "Tone curves",
+     .x_label = "light x",
+     .y_label = "light of the display, before encoding",
+     .add = add_tone,
+     .standard = {"none", "reinhard", "contrast"},
+     .x_max = 2,
+     .per_color = 1},
+    {.name = "depth",
+     .title = "Depth z = far/(far − near) · (1 − near/d)",
+     .x_label = "distance d along the view axis",
+     .y_label = "depth z in the window",
+     .add = add_depth,
+     .standard = {"0.1/20", "1/20", "5/20"},
+     .per_color = 1},
+    {.name = "lobe",
+     .title = "Lobes in the plane of n and l",
+     .x_label = "angle of v from the normal in degrees, towards r",
+     .y_label = "reflected share, relative to its peak",
+     .add = plot_add_lobe,
+     .standard = {"phong:50", "blinn-phong:200", "ggx:0.3"},
+     .x_max = 90,
+     .per_color = 1},
 };
 
 static const struct kind *find_kind(const char *name, lam_error *error)
@@ -283,7 +431,7 @@ static const struct kind *find_kind(const char *name, lam_error *error)
             return &kinds[i];
         suggest_try(&nearest, kinds[i].name);
     }
-    complain(error, LAM_BAD_ARGUMENT, "plot: found '%.100s', expected attenuation, spot or highlight%s%s%s", name,
+    complain(error, LAM_BAD_ARGUMENT, "plot: found '%.100s', expected " PLOT_KINDS "%s%s%s", name,
              nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
     return NULL;
 }
@@ -319,12 +467,17 @@ static bool fill(struct plot *plot, const struct kind *kind, int count, char **w
     for (int i = 0; count == 0 && kind->standard[i]; i++)
         if (!kind->add(plot, kind->standard[i], error))
             return false;
+    double farthest = 0;
     for (int i = 0; i < plot->count; i++) {
         struct curve *curve = &plot->curves[i];
         curve->color = palette[(size_t)(i / kind->per_color) % (sizeof palette / sizeof *palette)];
-        curve->below = find_below(curve, 1.0 / 255, kind->farthest);
+        curve->below = kind->fades ? find_below(curve, 1.0 / 255, kind->farthest) : (double)NAN;
+        farthest = curve->number[1] > farthest ? curve->number[1] : farthest;
     }
-    plot->x_max = o->plot.to > 0 ? o->plot.to : kind->x_max > 0 ? kind->x_max : length_of(plot, kind->farthest);
+    plot->x_max = o->plot.to > 0    ? o->plot.to
+                  : kind->x_max > 0 ? kind->x_max
+                  : kind->fades     ? length_of(plot, kind->farthest)
+                                    : farthest;
     // Attenuations may start above 1. The plot clips values above 2.
     for (int i = 0; i < plot->count; i++)
         for (int k = 0; k <= TABLE_STEPS; k++)
@@ -344,7 +497,11 @@ static void print_text(FILE *file, const struct plot *plot)
         for (const char *s = c->label; *s; s++)
             letters += (*s & 0xC0) != 0x80;
         fprintf(file, "%s%*s  ", c->label, letters < 30 ? 30 - letters : 0, "");
-        if (c->below < 1e30)
+        if (c->below - c->below != 0 && !(c->below > 0)) // NaN
+            for (int k = 0; k <= 4; k++)
+                fprintf(file, "%s%.5g: %.5g%s", k ? ", " : "", plot->x_max * k / 4, c->value(c, plot->x_max * k / 4),
+                        k < 4 ? "" : "\n");
+        else if (c->below < 1e30)
             fprintf(file, "below 1/255 from %.5g%s\n", c->below,
                     strcmp(plot->kind, "attenuation") == 0 ? "" : " degrees");
         else
@@ -401,7 +558,8 @@ static bool draw_to(const struct plot *plot, const char *path, const struct opti
     char text[300];
     snprintf(text, sizeof text, "%d curves over the %s: %.200s%s", plot->count, plot->x_label, plot->curves[0].label,
              plot->count > 1 ? " and others" : "");
-    bool ok = drawing_describe(&drawing, plot->title, text, error) && plot_draw(plot, &drawing, error) &&
+    bool ok = drawing_describe(&drawing, plot->title, text, error) &&
+              (strcmp(plot->kind, "lobe") == 0 ? plot_draw_lobes : plot_draw)(plot, &drawing, error) &&
               drawing_write(&drawing, path, error);
     drawing_free(&drawing);
     return ok;

@@ -4,6 +4,7 @@
 
 #include "drawing.h"
 
+#include <lambent/device.h>
 #include <lambent/light.h>
 #include <lambent/reflection.h>
 
@@ -18,7 +19,10 @@ struct curve {
     lam_light light; // the argument of `value` for attenuation and spot
     lam_reflection reflection;
     float shininess;
-    double below; // the smallest x at which the curve is below 1/255, or infinity
+    double
+        number[2]; // of fresnel: f0 or the index of refraction; depth: near and far; lobe: the roughness and the peak
+    lam_tone tone;
+    double below; // the smallest x at which the curve is below 1/255, infinity, or NaN if the curve does not fade
     bool marked;  // whether a dot labelled with `below` is drawn at this x
 };
 
@@ -35,5 +39,17 @@ struct plot {
 
 // Draws the plot over the whole page.
 bool plot_draw(const struct plot *plot, struct drawing *drawing, lam_error *error);
+
+// Draws lobes as a polar figure, with n, l, r and h (plot_lobe.c). The light is at LOBE_LIGHT degrees from the normal.
+#define LOBE_LIGHT 45
+bool plot_draw_lobes(const struct plot *plot, struct drawing *drawing, lam_error *error);
+// Adds a lobe, "phong:50", "blinn-phong:200", "ggx:0.3" or "lambert".
+bool plot_add_lobe(struct plot *plot, const char *word, lam_error *error);
+
+// --- parts of the command (plot.c) and of the drawing (plot_draw.c) that the lobes use
+
+struct curve *plot_add_curve(struct plot *plot, double (*value)(const struct curve *, double), lam_error *error);
+bool plot_wrong(lam_error *error, const char *kind, const char *word, const char *expected);
+double plot_dash(const struct curve *curve, double unit);
 
 #endif

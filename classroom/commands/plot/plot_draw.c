@@ -63,7 +63,7 @@ static bool draw_axes(const struct plot *plot, const struct layout *at, struct d
     return draw_text_upwards(d, (struct point){24 * u, (at->top + at->bottom) / 2}, 15 * u, INK, plot->y_label, error);
 }
 
-static double style_dash(const struct curve *curve, double unit)
+double plot_dash(const struct curve *curve, double unit)
 {
     return curve->style == 0 ? 0 : (curve->style == 1 ? 8 : 3) * unit;
 }
@@ -119,7 +119,7 @@ static bool draw_path(const struct plot *plot, const struct layout *at, const st
         if (in)
             stroke[count++] = place(plot, at, p.x, p.y);
         if ((!in && was_in) || i + 1 == path->count) {
-            ok = draw_line(d, stroke, count, 2.4 * at->unit, curve->color, style_dash(curve, at->unit), error);
+            ok = draw_line(d, stroke, count, 2.4 * at->unit, curve->color, plot_dash(curve, at->unit), error);
             count = 0;
         }
     }
@@ -242,7 +242,7 @@ static bool draw_names(const struct plot *plot, const struct names *box, double 
         const struct curve *curve = &plot->curves[i];
         double base = top + (i + 1) * row;
         struct point line[2] = {{left + 8 * u, base - 5 * u}, {left + swatch, base - 5 * u}};
-        if (!draw_line(d, line, 2, 2.4 * u, curve->color, style_dash(curve, u), error))
+        if (!draw_line(d, line, 2, 2.4 * u, curve->color, plot_dash(curve, u), error))
             return false;
         char text[LEGEND_SIZE];
         draw_text(d, (struct point){left + swatch + 8 * u, base}, 14 * u, ALIGN_LEFT, INK,
@@ -251,14 +251,42 @@ static bool draw_names(const struct plot *plot, const struct names *box, double 
     return true;
 }
 
+// Draws a band for each depth curve: it is filled at the distances d at which surfaces at d and 1.001 d have the same
+// depth in a buffer of 16 bits, so that they flicker (z-fighting).
+static void draw_fights(const struct plot *plot, const struct layout *at, struct drawing *d)
+{
+    enum { COLUMNS = 1000 };
+    double u = at->unit, width = (at->right - at->left) / COLUMNS, top = at->bottom + 66 * u;
+    draw_text(d, (struct point){at->left, top}, 13 * u, ALIGN_LEFT, INK,
+              "z-fighting, filled: surfaces at d and 1.001 d have the same depth of 16 bits");
+    for (int i = 0; i < plot->count; i++) {
+        const struct curve *c = &plot->curves[i];
+        double band = top + (8 + 16 * i) * u;
+        int from = -1; // the first column of a run
+        draw_box(d, (struct point){at->left, band}, at->right - at->left, 11 * u, GRID);
+        for (int k = 0; k <= COLUMNS; k++) {
+            double x = plot->x_max * (k + 0.5) / COLUMNS;
+            bool same = k < COLUMNS && x > c->number[0] && x * 1.001 < c->number[1] &&
+                        (int)(65535 * c->value(c, x) + 0.5) == (int)(65535 * c->value(c, 1.001 * x) + 0.5);
+            if (!same && from >= 0)
+                draw_box(d, (struct point){at->left + width * from, band}, width * (k - from), 11 * u, c->color);
+            from = !same ? -1 : from < 0 ? k : from;
+        }
+    }
+}
+
 bool plot_draw(const struct plot *plot, struct drawing *d, lam_error *error)
 {
     double u = d->width / 800.0 < d->height / 500.0 ? d->width / 800.0 : d->height / 500.0;
     struct layout at = {
         .left = 78 * u, .top = 54 * u, .right = d->width - 30 * u, .bottom = d->height - 66 * u, .unit = u};
+    bool depth = strcmp(plot->kind, "depth") == 0;
+    at.bottom -= depth ? (26 + 16 * plot->count) * u : 0;
     struct names names = place_names(plot, &at, d);
     if (!draw_axes(plot, &at, d, error))
         return false;
+    if (depth)
+        draw_fights(plot, &at, d);
     if (plot->level > 0) {
         struct point across[2] = {place(plot, &at, 0, plot->level), place(plot, &at, plot->x_max, plot->level)};
         if (!draw_line(d, across, 2, u, GREY, 4 * u, error))

@@ -2,10 +2,15 @@
 import base64
 import json
 import math
+import re
 import unittest
 import xml.etree.ElementTree as xml
 
 from harness import Case, pixel, read_png
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -37,12 +42,81 @@ class Figure(Case):
         place = answer["triangles"][0]["places"][3]
         for space in ("object", "eye", "clip", "ndc", "window"):
             row = texts.index("NDC" if space == "ndc" else space)
-            self.assertEqual(texts[row + 1:row + 1 + len(place[space])], ["%.5g" % x for x in place[space]], space)
+            self.assertEqual(texts[row + 1:row + 1 + len(place[space])], ["%.6g" % x for x in place[space]], space)
         self.assertIn("counter-clockwise, the front; 2 · area = %.5g pixels" % answer["triangles"][0]["winding"], texts)
-        terms = answer["triangles"][0]["points"][0]["terms"]
-        for name in ("ambient", "diffuse", "specular"):
-            row = texts.index(name)
-            self.assertEqual(texts[row + 1:row + 4], ["%.5g" % x for x in terms[name]], name)
+
+    def redo(self, texts):
+        """Computes the numbers of a figure from its printed text alone, up to the bytes."""
+        model, texts = texts[0], texts[texts.index("Vectors in eye space"):]
+
+        def row(name, count=3):
+            at = texts.index(name) + 1
+            return [float(x) for x in texts[at:at + count]]
+
+        def close(found, wanted, what, within=3e-5):
+            for a, b in zip(found, wanted):
+                self.assertLessEqual(abs(a - b), within * max(abs(a), abs(b)) + 2e-6, (what, found, wanted, texts))
+
+        parts = [part.split(" = ") for text in texts for part in re.split(r", (?=[^() ]+(?:\([^)]*\))? = )", text)]
+        line = {part[0]: float(part[-1].strip("°")) for part in parts if len(part) > 1}
+        n, l, v = row("n"), row("l"), row("v")
+        if "t" in texts:
+            t = row("t")
+            line["cos(t, l)"], line["cos(t, v)"] = dot(t, l), dot(t, v)
+            sine = [math.sqrt(max(0, 1 - line["cos(t, %s)" % k] ** 2)) for k in "lv"]
+            gate = dot(n, l) > 0
+            close([line["D"], line["base"]], [gate * sine[0], max(sine[0] * sine[1] - line["cos(t, l)"] * line["cos(t, v)"], 0)], "threads")
+        else:
+            close(row("r"), [2 * dot(n, l) * a - b for a, b in zip(n, l)], "r")
+            half = [a + b for a, b in zip(l, v)]
+            close(row("h"), [x / math.hypot(*half) for x in half], "h")
+            for name, a, b in (("θ(n, l)", n, l), ("φ(r, v)", row("r"), v), ("ψ(n, h)", n, row("h"))):
+                self.assertAlmostEqual(line[name], math.degrees(math.acos(min(1, dot(a, b)))), delta=0.02)
+            close([line["n·l"], line["D"]], [dot(n, l), max(dot(n, l), 0)], "D")
+            close([line["base"]], [max(dot(row("r"), v) if "Phong shading, phong" in model else dot(n, row("h")), 0)], "base")
+        close([line["S"]], [line["base"] ** line["α"] * (dot(n, l) > 0)], "S", 6e-6 * line["α"] + 1e-5)
+        arriving = line["attenuation"] * line["spot"] * line.get("occlusion", 1)
+        passed = row("passed") if "passed" in texts else (1, 1, 1)
+        tint = row("surface colour") if "surface colour" in texts else (1, 1, 1)
+        close(row("diffuse"), [k * p * c * line["D"] * arriving for k, p, c in zip(row("kd Ld"), passed, tint)], "diffuse")
+        close(row("specular"), [k * p * line["S"] * arriving for k, p in zip(row("ks Ls"), passed)], "specular")
+        terms = [row(name) for name in ("emission", "ambient", "diffuse", "specular", "other lights", "reflection") if name in texts]
+        close(row("sum"), [sum(c) for c in zip(*terms)], "sum")
+        # from the sum to the bytes, by the printed formulas
+        color = row("interpolated") if "interpolated" in texts else row("sum")
+        for text in texts[texts.index("From sum to bytes"):]:
+            if share := re.fullmatch(r"([\d.e-]+) · colour", text):
+                close(row(text), [float(share[1]) * x for x in color], text)
+                color = [a + b for a, b in zip(row(text), row("+ others"))]
+            elif factor := re.fullmatch(r"([·÷]) ([\d.e-]+)", text):
+                color = [x * float(factor[2]) if factor[1] == "·" else x / float(factor[2]) for x in color]
+                close(row(text), color, text)
+        for name in (text for text in texts if re.match("toned: |over it|encoded: ", text)):
+            formula = texts[texts.index(name) + 4].replace("²", "^2").replace("^", "**").replace("·", "*").replace("−", "-").replace("≤", "<=")
+            formula = re.sub(r"(.*) \? (.*) : (.*)", r"(\2) if (\1) else (\3)", formula)
+            back = row("background") if "background" in texts else color
+            color = [eval(formula, {"x": x, "min": min, "background": b}) for x, b in zip(color, back)]
+            close(row(name), color, name, 2e-5)
+        formula = texts[texts.index("bytes") + 5]
+        self.assertEqual(formula, "floor(255 · x + ½)")
+        for found, x in zip(row("bytes"), color):
+            self.assertIn(found, (math.floor(255 * x + 0.498), math.floor(255 * x + 0.502)), (color, texts))
+
+    def test_sums(self):
+        """Everything from the vectors to the bytes can be computed from the printed text, for all shapes and kinds of light."""
+        lights = (("--light", "spot:position=1/2/3,cutoff=60,exponent=2,attenuation=1/0.1/0.05", "--ambient", "0.1"), ("--reflection", "phong", "--tone", "reinhard"),
+                  ("--reflection", "kajiya-kay"), ("--color-mode", "raw", "--background", "white", "--material", "opacity=0.5"), ("--exposure", "-1", "--shading", "gouraud"),
+                  ("--material", "emission=0.1,diffuse=1/0.5/0.2", "--shadows", "--ground", "--light", "point:position=2r/3r/2r"), ("--samples", "16"))
+        done = 0
+        for shape in ("teapot", "torus", "sphere", "cube", "gyroid", "cone", "torus-knot"):
+            for more in ((), *lights):
+                svg, answer = self.figure(shape, "54,50", "-s", "96", *more)
+                texts = ["".join(t.itertext()) for t in svg.iter(SVG + "text")]
+                if "From sum to bytes" in texts and "no light adds anything here" not in texts[2]:
+                    with self.subTest((shape, more)):
+                        self.redo(texts[next(i for i, t in enumerate(texts) if " reflection" in t):])
+                        done += 1
+        self.assertGreater(done, 40)
 
     def test_arrows(self):
         """Without perspective, the arrows are the vectors' x and y, starting at the point's position in the picture."""
@@ -57,7 +131,7 @@ class Figure(Case):
             lines = {}
             for line in svg.iter(SVG + "polyline"):
                 ends = [tuple(map(float, p.split(","))) for p in line.get("points").split()]
-                if len(ends) == 2 and ends[0][0] < left + 320:
+                if len(ends) == 2 and ends[0][0] < left + 320 and ends[0][1] < top + 240:
                     lines[line.get("stroke")] = ends
             vectors = {"n": point["n"], **{name: point["lights"][0][name] for name in "lrh"}}
             longest = max(math.hypot(v[0], v[1]) for v in vectors.values())

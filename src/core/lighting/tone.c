@@ -1,4 +1,4 @@
-// tone.c: the names of the tone curves, and their application to a single colour.
+// tone.c: the names and formulas of the tone curves, and their application to a single colour.
 #define LANES 1
 #include "lighting.h"
 
@@ -12,6 +12,19 @@ static const char *const names[LAM_TONE_COUNT] = {[LAM_TONE_AUTO] = "auto",
 };
 
 const char *lam_tone_name(lam_tone tone) { return (unsigned)tone < LAM_TONE_COUNT ? names[tone] : NULL; }
+
+const char *lam_tone_formula(lam_tone tone)
+{
+    switch (tone) {
+#define TONE(NAME, function, word, formula)                                                                            \
+    case LAM_TONE_##NAME:                                                                                              \
+        return formula;
+        TONES(TONE)
+#undef TONE
+    default:
+        return "x";
+    }
+}
 
 lam_rgb lam_tone_apply(lam_tone tone, lam_rgb color)
 {

@@ -87,14 +87,14 @@ FN vec3 saturate3(vec3 c) { return vec3_of(saturate(c.x), saturate(c.y), saturat
 
 // --- C only: the GLSL text ends here (src/gpu/glsl/embed.py).
 
-// The table of the curves: enumerator of lam_tone without LAM_TONE_, function, keyword, summary.
+// The table of the curves: enumerator of lam_tone without LAM_TONE_, function, keyword, formula (lam_tone_formula).
 // clang-format off
 #define TONES(X) \
-    X(REINHARD, reinhard_tone, "reinhard", "x / (1 + x), each channel by itself") \
-    X(ACES, aces_tone, "aces", "film-like contrast: Hill's fit of ACES") \
-    X(AGX, agx_tone, "agx", "soft contrast, bright colours fade to white: AgX") \
-    X(KHRONOS_NEUTRAL, khronos_neutral_tone, "khronos-neutral", "colours as they are, highlights compressed") \
-    X(CONTRAST, contrast_tone, "contrast", "0.4 (x / 0.4)^2, each channel by itself")
+    X(REINHARD, reinhard_tone, "reinhard", "x / (1 + x)") \
+    X(ACES, aces_tone, "aces", "Hill's fit of ACES, docs/lighting/tone.md") \
+    X(AGX, agx_tone, "agx", "AgX, docs/lighting/tone.md") \
+    X(KHRONOS_NEUTRAL, khronos_neutral_tone, "khronos-neutral", "Khronos PBR Neutral, docs/lighting/tone.md") \
+    X(CONTRAST, contrast_tone, "contrast", "min(0.4 · (x / 0.4)², 1)")
 // clang-format on
 
 // AUTO and NONE clip at 1.

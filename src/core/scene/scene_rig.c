@@ -151,9 +151,10 @@ int lam_scene_rig_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_l
 
 lam_tone lam_draw_tone(const lam_scene *scene, const lam_draw_params *params)
 {
-    bool classic =
-        params->reflection == LAM_REFLECTION_AUTO || !lam_reflection_describe(params->reflection)->microfacet;
-    bool contrast =
-        classic && params->color != LAM_COLOR_RAW && scene && suits_contrast(scene, params->rig, params->ground);
+    const lam_reflection_info *model =
+        params->reflection == LAM_REFLECTION_AUTO ? NULL : lam_reflection_describe(params->reflection);
+    // threads are bright far from the light's mirror direction, so the curve would make most of a solid white
+    bool contrast = (!model || !(model->microfacet || model->tangents)) && params->color != LAM_COLOR_RAW && scene &&
+                    suits_contrast(scene, params->rig, params->ground);
     return params->tone || !contrast ? params->tone : LAM_TONE_CONTRAST;
 }

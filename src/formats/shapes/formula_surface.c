@@ -10,6 +10,7 @@
 #include "formula.h"
 
 #include "fail.h"
+#include "float_state.h"
 #include "linear.h"
 #include "shapes.h"
 
@@ -424,12 +425,27 @@ static bool make(struct surface *s, struct arena *arena, struct arena *scratch, 
     return true;
 }
 
+// Parses a parametric formula and its ranges.
+static bool parse(const lam_formula *formula, struct arena *scratch, struct surface *s, lam_error *error)
+{
+    const char *whole = "0..2pi";
+    const char *texts[2] = {formula->u ? formula->u : whole, formula->v ? formula->v : whole};
+    bool ok = formula_parse(formula->text, false, scratch, &s->formula, error);
+    for (int a = 0; ok && a < 2; a++) {
+        double range[2];
+        ok = formula_range(&s->formula, a ? "v" : "u", texts[a], range, error);
+        if (ok) {
+            s->from[a] = range[0];
+            s->to[a] = range[1];
+        }
+    }
+    return ok && formula_finish(&s->formula, scratch, error);
+}
+
 bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct call_control *call, lam_mesh *mesh,
                         lam_error *error)
 {
     struct surface s = {0};
-    const char *whole = "0..2pi";
-    const char *texts[2] = {formula->u ? formula->u : whole, formula->v ? formula->v : whole};
     int given[2] = {formula->u_segments, formula->v_segments};
     for (int a = 0; a < 2; a++)
         if (given[a] < 0 || given[a] > SEGMENTS_MAX)
@@ -437,16 +453,7 @@ bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct 
                         given[a], SEGMENTS_MAX);
     struct arena scratch;
     arena_start(&scratch, call);
-    bool ok = formula_parse(formula->text, false, &scratch, &s.formula, error);
-    for (int a = 0; ok && a < 2; a++) {
-        double range[2];
-        ok = formula_range(&s.formula, a ? "v" : "u", texts[a], range, error);
-        if (ok) {
-            s.from[a] = range[0];
-            s.to[a] = range[1];
-        }
-    }
-    ok = ok && formula_finish(&s.formula, &scratch, error) && measure(&s, error);
+    bool ok = parse(formula, &scratch, &s, error) && measure(&s, error);
     for (int a = 0; ok && a < 2; a++)
         s.segments[a] = given[a] || s.undefined ? given[a] : choose_segments(&s, a);
     if (ok && s.undefined)
@@ -455,5 +462,38 @@ bool tessellate_formula(const lam_formula *formula, struct arena *arena, struct 
     if (ok && formula->flip)
         formula_flip(mesh);
     arena_free(&scratch);
+    return ok;
+}
+
+bool lam_formula_evaluate(const lam_formula *formula, lam_vec3 at, lam_formula_point *point, lam_error *error)
+{
+    struct surface s = {0};
+    struct call_control call;
+    struct arena scratch;
+    uint64_t state = float_state_enter();
+    call_start(&call, NULL);
+    arena_start(&scratch, &call);
+    *point = (lam_formula_point){.at = at};
+    bool ok;
+    if (formula->implicit) {
+        ok = formula_parse(formula->text, true, &scratch, &s.formula, error) &&
+             formula_finish(&s.formula, &scratch, error);
+        if (ok) {
+            point->value = formula_value(&s.formula, at);
+            point->normal = formula_gradient(&s.formula, at);
+        }
+    } else if ((ok = parse(formula, &scratch, &s, error))) {
+        lam_surface_point surface;
+        point->at = v3(s.from[0] + at.x * (s.to[0] - s.from[0]), s.from[1] + at.y * (s.to[1] - s.from[1]), 0);
+        formula_evaluate(&s.formula, point->at.x, point->at.y, &surface);
+        point->p = surface.p;
+        point->p_u = surface.dp_du;
+        point->p_v = surface.dp_dv;
+        point->normal = v3_cross(surface.dp_du, surface.dp_dv);
+    }
+    if (formula->flip)
+        point->normal = v3_scale(point->normal, -1);
+    arena_free(&scratch);
+    float_state_leave(state);
     return ok;
 }

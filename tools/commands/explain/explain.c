@@ -99,7 +99,7 @@ static bool make_request(const struct job *job, const lam_explanation *e, bool s
     struct json json = {.file = file};
     if (!file)
         return complain(error, LAM_MACHINE, "out of memory");
-    json_put(&json, OBJECT(NULL, FLAG("svg", svg), FLAG("threads", lam_reflection_describe(e->reflection)->tangents),
+    json_put(&json, OBJECT(NULL, FLAG("svg", svg), FLAG("beam", job->options->captions.figure == FIGURE_BEAM),
                            NUMBER("fovy_rad", job->camera.fovy_rad),
                            NUMBER("ortho_half_height", job->camera.ortho_half_height)));
     putc('\n', file);
@@ -136,7 +136,7 @@ static void print(const lam_explanation *explanation, const struct job *job)
     if (job->options->report.json)
         explain_json(stdout, explanation, job);
     else
-        explain_text(explanation, job->model);
+        explain_text(explanation, job);
 }
 
 // Explains the pixel, prints the explanation unless the figure is written to standard output, and draws the figure if
@@ -179,12 +179,18 @@ static bool check(const struct job *job, const char *pixel, int *x, int *y, lam_
 
 int run_explain(int operand_count, char **operands, const struct options *options)
 {
-    (void)operand_count;
-    struct job job = {.options = options, .model = operands[0]};
+    const char *formula = options->shape.implicit ? "implicit" : options->shape.parametric ? "parametric" : NULL;
+    struct job job = {.options = options, .model = formula ? formula : operands[0]};
     int x = 0, y = 0;
     lam_error error = {0};
     bool failed = false;
-    bool ok = check(&job, operands[1], &x, &y, &error);
+    bool ok = operand_count == (formula ? 1 : 2) ||
+              complain(&error, LAM_BAD_ARGUMENT,
+                       formula ? "explain: found '%s' and --%s, expected one of them"
+                               : "explain: the pixel after the model '%s' is missing, expected X,Y such as 512,400",
+                       operands[0], formula);
+    ok =
+        ok && job_check_formula(job.model, options, &error) && check(&job, operands[operand_count - 1], &x, &y, &error);
     char *figure = ok ? figure_path(options, job.model, &failed) : NULL;
     ok = ok && (!failed || complain(&error, LAM_MACHINE, "out of memory"));
     struct child classroom = NO_CHILD;

@@ -6,7 +6,8 @@
 
 #include <lambent/explain.h>
 
-void explain_text(const lam_explanation *explanation, const char *model);
+struct job;
+void explain_text(const lam_explanation *explanation, const struct job *job);
 
 // --- prints aligned rows of an explanation to standard output: a name, numbers and a remark.
 

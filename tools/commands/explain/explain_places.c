@@ -4,6 +4,8 @@
 
 #include <stdio.h>
 
+#include "explain_json.h"
+
 static lam_vec3 unit(lam_vec3 v)
 {
     double length = __builtin_sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
@@ -87,6 +89,11 @@ void explain_places(const lam_explanation *e, const lam_explained_fragment *f)
         printf("  %s\n", names[i]);
         print_place(f, i, e->width, e->height);
     }
+    double plane[4];
+    explain_plane(f, plane);
+    row_label(2, "plane a b c d");
+    printf("%13.7g %13.7g %13.7g %13.7g   a x + b y + c z + d = 0, object; (a b c) is the face's unit normal\n",
+           plane[0] + 0.0, plane[1] + 0.0, plane[2] + 0.0, plane[3] + 0.0);
     if (f->winding - f->winding == 0)
         row_number(2, "winding", f->winding,
                    f->winding > 0 ? "counter-clockwise; (x3−x2)(y1−y2) − (y3−y2)(x1−x2) in the window"

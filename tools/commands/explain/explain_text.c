@@ -97,10 +97,10 @@ static void print_shadow(const lam_explained_light *l)
 static void product(char text[200], const lam_explained_light *l, const char *what, lam_rgb c, float answer)
 {
     char occlusion[24] = "";
-    if (l->occlusion < 1)
+    if (l->occlusion != 1)
         snprintf(occlusion, sizeof occlusion, "%.7g · ", (double)l->occlusion);
     int used = snprintf(text, 200, "%sspot · attenuation · %s%s = %s%.7g · %.7g · (%.7g %.7g %.7g) · %.7g",
-                        l->occlusion < 1 ? "occlusion · " : "", what, l->casts_shadows ? " · passed" : "", occlusion,
+                        l->occlusion != 1 ? "occlusion · " : "", what, l->casts_shadows ? " · passed" : "", occlusion,
                         (double)l->spot, (double)l->attenuation, (double)c.r, (double)c.g, (double)c.b, (double)answer);
     if (l->casts_shadows && used < 200)
         snprintf(text + used, 200 - (size_t)used, " · (%.7g %.7g %.7g)", (double)l->passed.r, (double)l->passed.g,
@@ -152,16 +152,24 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
     if (l->type != LAM_LIGHT_POINT)
         row_vector(4, "axis", l->axis, "direction of the light");
     row_vector(4, "l", l->l, "to the light");
-    row_vector(4, "r", l->r, "2 (n·l) n − l");
-    row_vector(4, "h", l->h, "(l + v) / |l + v|");
-    row_angle("θ", l->theta_rad, "between n and l");
-    row_angle("φ", l->phi_rad, "between r and v");
-    row_angle("ψ", l->psi_rad, "between n and h");
+    if (!lam_reflection_describe(f->reflection)->tangents) {
+        char remark[100];
+        const double off = off_plane_deg(p->v, p->n, l->l);
+        snprintf(remark, sizeof remark,
+                 off > 0.05 ? "between n and h; not φ/2, because v is %.2f° off the plane of n and l"
+                            : "between n and h, φ/2",
+                 off);
+        row_vector(4, "r", l->r, "2 (n·l) n − l");
+        row_vector(4, "h", l->h, "(l + v) / |l + v|");
+        row_angle("θ", l->theta_rad, "between n and l");
+        row_angle("φ", l->phi_rad, "between r and v");
+        row_angle("ψ", l->psi_rad, remark);
+    }
     print_attenuation(l);
     if (l->type == LAM_LIGHT_SPOT)
         print_cone(l, &e->lights[number_in_list]);
     print_shadow(l);
-    if (l->occlusion < 1)
+    if (l->occlusion != 1)
         row_number(4, "occlusion", (double)l->occlusion, "1 − occluded (1 − unoccluded)");
     row_number(4, "n·l", (double)l->n_dot_l, "");
     print_highlight(f, p, l);
@@ -171,7 +179,7 @@ static void print_light(const lam_explanation *e, const lam_explained_fragment *
     row_color(4, "diffuse", l->diffuse_term, text);
     if (l->layers && p->layers) {
         bool coat = p->layers->coat > 0, sheen = l->layers->sheen_left < 1 || !is_black(l->layers->sheen);
-        snprintf(text, sizeof text, "%sspot · attenuation%s · Ls ⊙ (%s%s%s)", l->occlusion < 1 ? "occlusion · " : "",
+        snprintf(text, sizeof text, "%sspot · attenuation%s · Ls ⊙ (%s%s%s)", l->occlusion != 1 ? "occlusion · " : "",
                  l->casts_shadows ? " · passed" : "", coat ? "(1 − share) " : "",
                  !sheen ? "base"
                  : coat ? "(left · base + sheen)"
@@ -274,7 +282,7 @@ static void print_terms(const lam_explanation *e, const lam_explained_fragment *
         snprintf(text, sizeof text, "kd: unlit%s", tint);
         row_color(4, "diffuse", p->diffuse, text);
     } else {
-        if (p->unoccluded < 1)
+        if (p->unoccluded != 1)
             row_number(4, "unoccluded", (double)p->unoccluded,
                        "ambient occlusion: the fraction of surrounding light that arrives; multiplies ambient and "
                        "environment light");
@@ -550,27 +558,58 @@ static void print_pixel(const lam_explanation *e)
     char stops[64];
     snprintf(stops, sizeof stops, "2^%.7g stops, multiplies the sum's colour", e->stops);
     row_number(2, "exposure", (double)e->exposure, e->exposure == 1 ? "not applied" : stops);
+    char text[100];
+    row_color(2, "colour ÷ alpha", exposed_color(e), e->exposure == 1 ? "" : "exposure · sum ÷ alpha");
+    if (e->tone != LAM_TONE_NONE) {
+        snprintf(text, sizeof text, "--tone %s: %s", lam_tone_name(e->tone), lam_tone_formula(e->tone));
+        row_color(2, "toned", curved_color(e), text);
+    }
     row_label(2, "background");
     printf("%13.7g %13.7g %13.7g %13.7g\n", (double)e->background.r, (double)e->background.g, (double)e->background.b,
            (double)e->background.a);
-    row_label(2, "over it");
-    printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background; .pfm stores this\n", (double)e->result.r,
-           (double)e->result.g, (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
-    row_color(2, "colour ÷ alpha", e->straight, "");
-    if (e->tone != LAM_TONE_NONE)
-        row_color(2, "toned", e->toned, lam_tone_name(e->tone));
-    row_color(2, "encoded", e->encoded,
-              e->color == LAM_COLOR_RAW ? "clamped to 0…1 (--color-mode raw)" : "by the sRGB curve");
+    row_color(2, "over it", e->toned, "(alpha · colour + (1 − alpha) · background) ÷ alpha of both");
+    snprintf(text, sizeof text, "--color-mode %s: %s", e->color == LAM_COLOR_RAW ? "raw" : "srgb",
+             encoding_formula(e->color));
+    row_color(2, "encoded", e->encoded, text);
     row_label(2, "bytes");
-    printf("%13u %13u %13u %13u   floor(255 x + ½)\n", e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]);
+    printf("%13u %13u %13u %13u   " BYTE_FORMULA "\n", e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]);
+    row_label(2, "in .pfm");
+    printf("%13.7g %13.7g %13.7g %13.7g   %ssum + (1 − alpha) · background\n", (double)e->result.r, (double)e->result.g,
+           (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
 }
 
-void explain_text(const lam_explanation *e, const char *model)
+// Prints the derivatives of the model's formula, and the normal that they give, in the axes of the formula.
+static void print_formula(const lam_explanation *e, const struct job *job)
 {
-    print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(model));
+    lam_formula_point p;
+    if (!explain_formula(job, e, &p))
+        return;
+    printf("\nthe formula at the point, in its own axes\n");
+    const double size = sqrt(dot(p.normal, p.normal));
+    const lam_vec3 n = {p.normal.x / size, p.normal.y / size, p.normal.z / size};
+    if (job->options->shape.implicit) {
+        row_vector(2, "x, y, z", p.at, "");
+        row_number(2, "f", p.value, "left side − right side; not exactly 0 on a triangle");
+        row_vector(2, "∇f", p.normal, "(∂f/∂x, ∂f/∂y, ∂f/∂z), outward");
+        row_vector(2, "n", n, "∇f / |∇f|");
+        return;
+    }
+    row_label(2, "u, v");
+    printf("%13.7g %13.7g\n", p.at.x, p.at.y);
+    row_vector(2, "p(u, v)", p.p, "");
+    row_vector(2, "∂p/∂u", p.p_u, "");
+    row_vector(2, "∂p/∂v", p.p_v, "");
+    row_vector(2, "∂p/∂u × ∂p/∂v", p.normal, job->options->shading.flip ? "reversed by --flip" : "");
+    row_vector(2, "n", n, "the cross product, normalised");
+}
+
+void explain_text(const lam_explanation *e, const struct job *job)
+{
+    print_foreign(stdout, FOREIGN_TERMINAL, FOREIGN(job->model));
     printf(": pixel %d,%d of %dx%d, %s shading, %s reflection, %d sample%s a pixel\n", e->x, e->y, e->width, e->height,
            shading_word(e->shading), lam_reflection_describe(e->reflection)->word, e->samples,
            e->samples == 1 ? "" : "s");
+    print_formula(e, job);
     if (!e->fragment_count)
         printf("\nOnly the background is visible here.\n");
     for (int i = 0; i < e->fragment_count; i++)

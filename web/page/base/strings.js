@@ -225,7 +225,9 @@ const STRINGS = {
   aboutReflected: 'mirrored view: 2 (n·v) n − v',
   lightsTitle: 'Lights',
   interpolated: 'Weighted mean of the three corners: {color}.',
-  bytes: 'Encoded for the screen: bytes {bytes}.',
+  bytesTitle: 'From the sum to the bytes',
+  offPlane: 'φ is not 2ψ, because v is {degrees}° off the plane of n and l.',
+  aboutTangent: 'tangent of the threads',
   moreTriangles: 'The pixel also shows parts of {count} more triangles.',
   leftOut: 'Omitted: too weak here (--light-cutoff).',
 

@@ -1,22 +1,23 @@
 // equations.js: makes the equations of an explained point, with their values. The formulas of D and of the highlight's base come from the program;
 // tests/web/page.mjs computes each right-hand side and compares it with the program's number.
 
-// Returns a number as text with four digits. Only very large and very small numbers have an exponent.
+// Returns a number as text with six digits, so that the bytes can be computed from the text. Only very large and very small numbers have an exponent.
 export function number(x) {
   if (x === null || x === undefined) return '';
-  const rounded = Number(x.toPrecision(4)), size = Math.abs(rounded);
+  const rounded = Number(x.toPrecision(6)), size = Math.abs(rounded);
   return rounded === 0 ? '0' : size >= 1e-4 && size < 1e6 ? String(rounded) : rounded.toExponential();
 }
 
-export const triple = (v) => (v[0] === v[1] && v[1] === v[2] ? number(v[0]) : `(${v.map(number).join(', ')})`);
+export const triple = (v) => (v[0] === v[1] && v[1] === v[2] ? number(v[0]) : `(${v.slice(0, 3).map(number).join(', ')})`);
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 // Replaces the dot products in a formula by their values. Returns null if the formula contains other names.
 function filled(formula, point, light) {
-  const values = { 'n·l': light.n_dot_l, 'n·h': dot(point.n, light.h), 'r·v': dot(light.r, point.v) };
-  const text = formula.replace(/[nr]·[lhv]/g, (name) => number(values[name]));
-  return /^max\([-\d.e+]+, 0\)$/.test(text) ? text : null;
+  const { t } = point, of = (v) => (t ? dot(t, v) : 0), sine = (v) => Math.sqrt(Math.max(0, 1 - of(v) ** 2));
+  const values = { 'n·l': light.n_dot_l, 'n·h': dot(point.n, light.h), 'r·v': dot(light.r, point.v), 'cos(t,l)': of(light.l), 'cos(t,v)': of(point.v), 'sin(t,l)': sine(light.l), 'sin(t,v)': sine(point.v) };
+  const text = formula.replace(/[nr]·[lhv]|(sin|cos)\(t,[lv]\)/g, (name) => number(values[name])).replace(/(\d) (-?\d)/g, '$1 · $2');
+  return /^(max\([-−\d.e+· ]+, 0\)|[\d.e-]+)$/.test(text) ? text : null;
 }
 
 // Returns the formula of a spot light's cone, and the formula with numbers in place of its names.
@@ -40,10 +41,11 @@ export function lightEquations(triangle, point, light) {
     add('attenuation', `1 / (a + b d + c d²)${window[0]}`, `1 / (${a} + ${b} · ${d} + ${c} · ${d}^2)${window[1]}`, light.attenuation);
   }
   if (light.type === 'spot') add('spot', ...coneEquation(light), light.spot);
-  if (light.occlusion < 1) add('occlusion', '1 − occluded (1 − unoccluded)', null, light.occlusion);
+  if (light.occlusion !== 1) add('occlusion', '1 − occluded (1 − unoccluded)', null, light.occlusion);
   if (light.casts_shadows) add('passed', '', null, light.passed);
-  add('D', formulas.D, filled(formulas.D, point, light), light.D);
   const gate = formulas.gated ? '[n·l > 0] ' : '', open = !formulas.gated || light.n_dot_l > 0;
+  for (const [name, v] of formulas.threads && point.t ? [['cos(t,l)', light.l], ['cos(t,v)', point.v]] : []) add(name, `t·${name[6]}`, null, dot(point.t, v));
+  add('D', `${formulas.threads ? gate : ''}${formulas.D}`, open || !formulas.threads ? filled(formulas.D, point, light) : '0', light.D);
   const { layers } = light, all = point.layers;
   if (layers) { // the fraction of light that each layer of the surface reflects
     add('S', 'of the base', null, layers.S);
@@ -55,7 +57,7 @@ export function lightEquations(triangle, point, light) {
     const base = filled(formulas.base, point, light) ?? number(light.base);
     add('S', `${gate}${formulas.base}^α`, open ? `${base}^${number(light.power)}` : '0', light.S);
   }
-  const before = [['spot', light.type === 'spot', light.spot], ['attenuation', light.distance !== null, light.attenuation], ['occlusion', light.occlusion < 1, light.occlusion]];
+  const before = [['spot', light.type === 'spot', light.spot], ['attenuation', light.distance !== null, light.attenuation], ['occlusion', light.occlusion !== 1, light.occlusion]];
   const product = (color, colorValue, answer, answerValue, passed) => {
     const factors = [...before.filter(([, there]) => there).map(([name, , value]) => [name, number(value)]), [color, triple(colorValue)], [answer, number(answerValue)]];
     if (passed) factors.push(['passed', triple(light.passed)]);
@@ -75,7 +77,7 @@ export function lightEquations(triangle, point, light) {
 export function aroundEquations(triangle, point) {
   const rows = [], add = (name, formula, values, result) => rows.push({ name, formula, values, result });
   if (triangle.model === 'none') return rows;
-  const [ka, kd] = triangle.material.matrix.map((row) => row.map((x, i) => x * point.color[i])), terms = point.hemispheres.map(({ term }) => triple(term)), dimmed = point.unoccluded < 1;
+  const [ka, kd] = triangle.material.matrix.map((row) => row.map((x, i) => x * point.color[i])), terms = point.hemispheres.map(({ term }) => triple(term)), dimmed = point.unoccluded !== 1;
   for (const { name, ground, sky, n_dot_up, by_diffuse, term } of point.hemispheres)
     add(name ?? 'hemisphere', `${by_diffuse ? 'kd' : 'ka'} (ground + (sky − ground) (½ + ½ n·up))`, `${triple(by_diffuse ? kd : ka)} · (${triple(ground)} + (${triple(sky)} − ${triple(ground)}) · (0.5 + 0.5 · ${number(n_dot_up)}))`, term);
   const sum = [`${triple(ka)} · ${triple(point.ambient_light)}`, ...terms].join(' + ');
@@ -101,6 +103,24 @@ export function aroundEquations(triangle, point) {
 export function sumEquation(point) {
   const names = ['emission', 'ambient', 'diffuse', 'specular', 'reflection'].filter((name) => point.terms[name].some((x) => x !== 0));
   return { name: 'sum', formula: names.join(' + ') || '0', values: names.map((name) => triple(point.terms[name])).join(' + ') || '0', result: point.sum };
+}
+
+// Returns the rows from the sum of a point to the bytes of the pixel.
+export function pixelEquations(pixel) {
+  const rows = [], add = (name, formula, values, result) => rows.push({ name, formula, values, result });
+  const { triangles, sum, exposure, exposed, curved, toned, encoded, background, formulas, behind } = pixel;
+  const filledBy = (formula, color) => formula.replaceAll('²', '^2').replace(/\bx\b/g, triple(color)), alpha = sum[3], rest = background[3] * (1 - alpha);
+  const parts = triangles.map(({ weight, color }) => `${number(weight * color[3])} · ${triple(color)}`);
+  if (behind) parts.push(triple(behind));
+  add('weighted sum', 'Σ weight · alpha · colour', parts.join(' + '), sum.slice(0, 3));
+  if (exposure !== 1 || alpha !== 1) add('colour', 'exposure · sum ÷ alpha', alpha ? `${number(exposure)} · ${triple(sum)} / ${number(alpha)}` : '0', exposed);
+  if (pixel.tone !== 'none') add('toned', `${pixel.tone}: ${formulas.curved}`, /^[-\d.·/ min(),x+²]*$/.test(formulas.curved) ? filledBy(formulas.curved, exposed) : null, curved);
+  if (rest > 0) add('over the background', '(alpha · colour + (1 − alpha) · background) ÷ alpha', `(${number(alpha)} · ${triple(curved)} + ${number(rest)} · ${triple(background)}) / ${number(alpha + rest)}`, toned);
+  const [low, high] = formulas.encoded.split(/ [?:] /).slice(1), dark = toned.map((x) => x <= 0.0031308);
+  const one = !high ? formulas.encoded : dark.every((x) => x) ? low : dark.some((x) => x) ? null : high;
+  add('encoded', `${pixel.encoding}: ${formulas.encoded}`, one && filledBy(one, toned), encoded);
+  add('bytes', formulas.bytes, filledBy(formulas.bytes.replace('½', '0.5'), encoded), pixel.bytes.slice(0, 3));
+  return rows;
 }
 
 // Converts a point of an explanation from eye space to world space.

@@ -2,7 +2,7 @@
 import { state } from '../shared/app.js';
 import { curvesOf } from './curves.js';
 import { element, ours } from '../base/dom.js';
-import { aroundEquations, lightEquations, number, sumEquation, triple } from './equations.js';
+import { aroundEquations, lightEquations, number, pixelEquations, sumEquation, triple } from './equations.js';
 import { plainName } from '../words/lights.js';
 import { text } from '../base/strings.js';
 
@@ -55,8 +55,8 @@ export class Explanation {
     parts.push(vector('n', point.n, triangle.lit_normal === '-n' ? 'aboutNormalBack' : 'aboutNormal'), vector('v', point.v, 'aboutView'));
     parts.push(element('h2', { textContent: text('sumTitle') }), equation(sumEquation(point)));
     if (triangle.points.length > 1) parts.push(sentence(text('interpolated', { color: triple(triangle.color.slice(0, 3)) })));
-    parts.push(sentence(text('bytes', { bytes: this.pixel.bytes.join(' ') })));
     if (this.pixel.triangles.length > 1) parts.push(sentence(text('moreTriangles', { count: this.pixel.triangles.length - 1 })));
+    parts.push(element('h2', { textContent: text('bytesTitle') }), ...pixelEquations(this.pixel).map(equation));
     const around = aroundEquations(triangle, point);
     if (around.length) parts.push(element('h2', { textContent: text('aroundTitle') }));
     if (point.environment && around.length) parts.push(vector('R', point.environment.R, 'aboutReflected'));
@@ -100,8 +100,10 @@ export class Explanation {
   }
 
   #inside(triangle, point, light, i) {
-    const parts = [vector('l', light.l, 'aboutLight'), vector('r', light.r, 'aboutMirrored'), vector('h', light.h, 'aboutHalf')];
-    parts.push(element('p', { className: 'equation', translate: false, textContent: `θ(n,l) ${degrees(light.theta_deg)} · φ(r,v) ${degrees(light.phi_deg)} · ψ(n,h) ${degrees(light.psi_deg)}` }));
+    const parts = [vector('l', light.l, 'aboutLight')];
+    if (triangle.formulas.threads && point.t) parts.push(vector('t', point.t, 'aboutTangent'));
+    else parts.push(vector('r', light.r, 'aboutMirrored'), vector('h', light.h, 'aboutHalf'), element('p', { className: 'equation', translate: false, textContent: `θ(n,l) ${degrees(light.theta_deg)} · φ(r,v) ${degrees(light.phi_deg)} · ψ(n,h) ${degrees(light.psi_deg)}` }));
+    if (light.v_off_plane_deg > 0.05 && !triangle.formulas.threads) parts.push(sentence(text('offPlane', { degrees: number(light.v_off_plane_deg) })));
     if (light.left_out) parts.push(sentence(text('leftOut')));
     parts.push(...lightEquations(triangle, point, light).map(equation));
     // The previous curves stay visible until the new curves arrive.

@@ -1,0 +1,82 @@
+"""lecture_rows.py: the statements, formulas, figures, methods and printed programs of three lectures, in our words, with the command that shows
+each of them. The lectures are "Lighting and Shading" (Pittsburgh), "Using Shaders for Lighting" (Oregon State) and "Fragment shaders and basic
+lighting" (New York University). docs/lectures.md is made of this table by test_lectures.py.
+
+Each row: number, statement, command without `lambent`, result, and the page that explains it. The result is PICTURE (the command draws docs/pictures/
+lectures/NUMBER.png), or a list of names: the lines of the output that begin with them. Commands of CHECK read the programs of
+classroom/tests/check/lectures."""
+PICTURE, CHECK = "picture", "check"
+POINT = "explain sphere 160,110 -s 320 --samples 1 --light point:position=1/2/3,ambient=0.1"
+PHONG = POINT + " --reflection phong"
+LAMP = "--light point:position=1r/2r/3r"
+TO_V = " --reflection phong --light directional:direction=-1/-1/-2"
+ROWS = [
+    (1, "Without lighting, a sphere looks flat in every projection.", f"compare sphere --across reflection=none,blinn-phong --across projection {LAMP},ambient=0.15", PICTURE, "lighting.md"),
+    (2, "Lighting is computed in the application, the vertex shader or the fragment shader.", "compare teapot --across stage", PICTURE, "lighting/shading.md"),
+    (3, "Light goes to and fro among objects; lighting by surfaces alone is an approximation.", f"compare teapot --across ao=off,rays --ground checker --shadows {LAMP} --ambient 0.3", PICTURE, "lighting.md#limits-of-local-lighting"),
+    (4, "Surfaces are specular, diffuse or translucent.", "compare teapot --sheet surfaces", PICTURE, "lighting/surfaces.md"),
+    (5, "A source emits light from every point of its surface: integrate over it.", "compare teapot --across 'light=point:position=2r/2r/3r;point:position=2r/2r/3r,radius=0.6' --shadows --ground checker", PICTURE, "lighting/shadows.md#soft-shadows"),
+    (6, "The luminance of a light is three numbers.", "compare teapot --sheet light", PICTURE, "lighting/lights.md"),
+    (7, "Ambient light is the same everywhere: ka is 0, 0.5 and 1.", "compare sphere --across ambient=0,0.5,1 --rig none --light ambient:ambient=0.5", PICTURE, "lighting/ambient.md"),
+    (8, "A point light falls off with 1/d² or 1/(a + b d + c d²).", "compare plane --across 'light=point:position=0/1/0;point:position=0/1/0,attenuation=0/0/1;point:position=0/1/0,attenuation=1/0.5/0.2' --view top", PICTURE, "lighting/lights.md#attenuation"),
+    (9, "A spot light is limited to a cone; outside, it is 0.", "compare plane --across 'light=spot:position=0/3/0,cutoff=15;spot:position=0/3/0,cutoff=8' --view top", PICTURE, "lighting/lights.md#spot"),
+    (10, "Inside the cone, a spot light falls off with cosᵉ θ.", "plot spot cutoff=20,exponent=1 cutoff=20,exponent=8 exponent=8", PICTURE, "lighting/lights.md#spot"),
+    (11, "A distant light is a point with w = 0.", "compare sphere --across 'light=point:position=1/2/3;point:position=1/2/3/0'", PICTURE, "lighting/lights.md"),
+    (12, "The vectors n, v, l and r.", PHONG, PICTURE, "lighting/explain.md"),
+    (13, "Light and material are 3×3 matrices: ambient, diffuse and specular by red, green and blue.", PHONG, ["ambient ", "diffuse ", "specular "], "lighting/explain.md"),
+    (14, "A translucent surface has a fourth number.", f"compare teapot --across opacity=1,0.6,0.3 {LAMP},ambient=0.2", PICTURE, "lighting/surfaces.md#translucent-surfaces"),
+    (15, "I = Σ (Ia + Id + Is) + global ambient light, which the material also reflects.", PHONG + " --ambient 0.1", ["ambient ", "diffuse ", "specular ", "sum "], "lighting.md"),
+    (16, "An oblique beam spreads over more area (Lambert).", POINT.replace("160,110", "270,160") + " --figure beam", PICTURE, "lighting/diffuse.md"),
+    (17, "Id contains the attenuation and max(l·n, 0); without the maximum, light is subtracted.", "compare teapot --across mistake=no-clamp,no-gate", PICTURE, "mistakes.md"),
+    (18, "The highlight is cos^α φ, with α from 1 to 500; a mirror has ∞.", "compare sphere --across shininess=1,10,100,500,100000", PICTURE, "lighting/specular.md"),
+    (19, "The whole formula of Phong.", PHONG, ["D ", "base ", "S ", "sum ", "bytes "], "lighting.md#reflection-models"),
+    (20, "r and v differ at every point; an infinite viewer saves the second.", f"compare sphere --across viewer {LAMP} --material shininess=80,specular=0.7", PICTURE, "lighting/specular.md"),
+    (21, "The half vector h.", POINT, PICTURE, "lighting/specular.md"),
+    (22, "φ = 2ψ, if v is in the plane of l and n.", "explain sphere 240,150 -s 481 --samples 1 --view front --light point:frame=camera,position=0/2/0", ["φ ", "ψ "], "mistakes.md#sentences-that-need-a-condition"),
+    (23, "An exponent e′ with (n·h)^e′ ≈ (r·v)^e.", "plot highlight 10 50", PICTURE, "lighting/specular.md"),
+    (24, "The same exponent for both models, and the matched exponent.", f"compare sphere --across match-highlights --across reflection=phong,blinn-phong {LAMP} --material specular=0.7", PICTURE, "lighting/specular.md"),
+    (25, "The plane a x + b y + c z + d = 0 from n and p0.", "explain cube 160,200 -s 320 --samples 1 --light point:position=1/2/3", ["object ", "plane "], "lighting/explain.md"),
+    (26, "An implicit surface f = k; its normal is the gradient.", f"shape --implicit 'x^2+y^2/4+z^2/9=1' {LAMP}", PICTURE, "shapes.md"),
+    (27, "The gradient at a point, and ∂p/∂u × ∂p/∂v.", "explain --implicit 'x^2+y^2+z^2=1' 120,100 -s 240 --samples 1", ["x, y, z ", "∇f ", "n "], "lighting/explain.md"),
+    (28, "The sphere x = cos u sin v, y = cos u cos v, z = sin u, with its normal.", "explain --parametric 'x=cos(u)*sin(v); y=cos(u)*cos(v); z=sin(u)' --u -pi/2..pi/2 --v -pi..pi 120,100 -s 240 --samples 1", ["u, v ", "p(u, v) ", "∂p/∂u ", "∂p/∂v ", "n "], "shapes.md"),
+    (29, "The order of the corners decides the front: the right-hand rule.", "examples/bowl.json --show facing --cull none", PICTURE, "lighting/surfaces.md#front-and-back"),
+    (30, "A triangle's normal is (p1 − p0) × (p2 − p0).", "explain sphere 120,100 -s 240 --samples 1 --shading flat --segments 12x6", ["p1 − p0 ", "p2 − p0 ", "cross product ", "n "], "lighting/shading.md"),
+    (31, "r = 2 (l·n) n − l.", PHONG, ["l ", "r "], "lighting.md#vectors"),
+    (32, "A light: ambient 0.1, diffuse 1, specular 1, position (1, 2, 3, 1).", PHONG, ["ambient La", "diffuse Ld", "specular Ls"], "lighting/lights.md"),
+    (33, "Materials under white and red ambient and diffuse light.", "compare teapot --sheet ambient", PICTURE, "lighting/ambient.md"),
+    (34, "The emissive colour.", "compare teapot --across emission=0,0.2,0.3/0/0 --rig lecture", PICTURE, "lighting/emission.md"),
+    (35, "A yellow material: 0.2; 1, 0.8, 0; 1.", f"teapot --material ambient=0.2,diffuse=1/0.8/0,specular=1 {LAMP}", PICTURE, "lighting/materials.md"),
+    (36, "The back of a surface has its own material.", f"compare examples/bowl.json --across cull=none,back,front --back-material diffuse=0/0/1 {LAMP}", PICTURE, "lighting/surfaces.md#front-and-back"),
+    (37, "Brass: 0.33, 0.22, 0.03; 0.78, 0.57, 0.11; 0.99, 0.94, 0.81; 27.9.", "compare teapot --across 'material=brass;ambient=0.33/0.22/0.03,diffuse=0.78/0.57/0.11,specular=0.99/0.94/0.81,shininess=27.9' --color-mode raw --rig lecture", PICTURE, "lighting/materials.md"),
+    (38, "Several objects, each with its material.", "examples/still-life.json --material gold@teapot", PICTURE, "lighting/materials.md"),
+    (39, "A facet with one normal: flat and interpolated shading agree for a distant light, but not for a near one.", "compare sphere --segments 10x6 --normals facet --across 'light=directional:direction=-1/-1/-3;point:position=0.9r/0.9r/1.2r' --across shading=flat,gouraud --reflection lambert", PICTURE, "lighting/shading.md"),
+    (40, "product(), attenuation() and the light of a vertex in C.", "shader teapot --style lecture --stage application --segments 24x12", ["void light_vertex", "static vec3 lit"], "teaching.md#lighting-in-the-application"),
+    (41, "If the object rotates, every colour is computed again; lights are fixed to the world, the camera or an object.", "compare teapot --sheet frames", PICTURE, "lighting/lights.md#frames"),
+    (42, "The vertex shader with the products as uniforms.", "shader teapot --style lecture --stage vertex --glsl 120 --products", ["uniform vec4 ambient_product", "uniform vec4 diffuse_product"], "shaders.md#uniforms"),
+    (43, "glGetUniformLocation, glUniformMatrix4fv, glUniform4fv.", "shader teapot --glsl 120 --host c", ["//   mat4 ", "    glUniformMatrix4fv"], "shaders.md#host-code"),
+    (44, "The printed program that lights in the vertex shader.", "check pittsburgh-compiled.frag --vertex pittsburgh-compiled.vert", CHECK, "check/contracts.md#pittsburgh"),
+    (45, "The printed program that lights in the fragment shader.", "check pittsburgh-printed.frag --vertex pittsburgh-printed.vert", CHECK, "check/contracts.md#pittsburgh"),
+    (46, "N, L, E, R and the reflected eye vector ER.", POINT + " --reflectivity 0.9 --environment sky", ["l ", "r ", "R "], "lighting/reflection.md"),
+    (47, "Ambient, diffuse and specular light alone; shininess 50 and 1000; flat.", "compare teapot --sheet terms", PICTURE, "lighting/specular.md"),
+    (48, "Flat shading: one value for a polygon.", f"compare sphere --segments 12x6 --shading flat --across flat-normal {LAMP}", PICTURE, "lighting/shading.md"),
+    (49, "E = L ⊙ M: subtractive colour under white and green light.", "compare teapot --sheet light --title 'E = L ⊙ M'", PICTURE, "lighting/lights.md"),
+    (50, "Lighting per vertex: a jagged highlight, Mach bands.", "compare teapot --sheet stages", PICTURE, "lighting/shading.md"),
+    (51, "Lighting per fragment beside lighting per vertex.", f"compare sphere --segments 16x8 --across stage=vertex,fragment {LAMP} --material specular=0.7", PICTURE, "lighting/shading.md"),
+    (52, "A reflection looks up the cube map by ER.", "compare sphere --across 'environment=sky;studio' --reflectivity 0.9", PICTURE, "lighting/reflection.md"),
+    (53, "A cube map looked up by the light's R instead of ER is wrong.", None, "mistake-light-in-mirror.png", "mistakes.md#threads-and-mirrors"),
+    (54, "Kajiya and Kay, as printed (+) and right (−).", "compare torus --across reflection=blinn-phong,kajiya-kay,kajiya-kay-lecture --light directional:direction=-1/-2/-3 --material diffuse=0.45,specular=0.5,shininess=30", PICTURE, "lighting/threads.md"),
+    (55, "T is the only vector of the surface that counts.", "explain torus 160,150 -s 320 --samples 1 --reflection kajiya-kay --light directional:direction=-1/-2/-3", PICTURE, "lighting/threads.md"),
+    (56, "Flat, smooth, normal interpolation, reflection and anisotropy.", "compare teapot --sheet summary", PICTURE, "lighting/shading.md"),
+    (57, "A program with a switch uFlat.", "check oregon-compiled.frag --vertex oregon-compiled.vert", CHECK, "check/contracts.md#oregon"),
+    (58, "Clipping: −w ≤ x, y, z ≤ w, before the division.", "explain plane 160,290 -s 320 --samples 1 --camera eye=0/0.3/0.9,target=0/0.3/-1 --light point:position=0/2/0", ["clip ", "NDC"], "lighting/pixels.md"),
+    (59, "The viewport matrix.", PHONG, ["NDC ", "window "], "lighting/pixels.md"),
+    (60, "Front or back: the sign of c = a × b in the window.", PHONG, ["winding "], "lighting/surfaces.md#front-and-back"),
+    (61, "Culling of back and front faces.", f"compare cylinder --across cull=none,back,front --back-material color=blue {LAMP}", PICTURE, "lighting/surfaces.md#front-and-back"),
+    (62, "The bounce vector B(w).", PHONG, ["r "], "lighting.md#vectors"),
+    (63, "A light's direction goes from the world to eye space.", "explain sphere 160,110 -s 320 --samples 1" + TO_V, ["axis ", "l "], "lighting/lights.md#frames"),
+    (64, "Diffuse and specular light, two lights and positions: printed programs.", "check nyu-compiled.frag --vertex nyu-compiled.vert", CHECK, "check/contracts.md#nyu"),
+    (65, "The programs with corrected normals, without a gate, as taught.", "check nyu-normals.frag --vertex nyu-normals.vert", CHECK, "check/contracts.md#nyu"),
+    (66, "1/(1 + a x + b x²) with x = d/5, a = 2.7 and b = 5.", "plot attenuation 1/0.54/0.2 1/2.7/5", PICTURE, "lighting/lights.md#attenuation"),
+    (67, "Uniforms lights[0].position and others, by name.", "shader teapot --glsl 120 --host c --light point:position=1/2/3", ["//   vec4        lights[0].position"], "shaders.md#uniforms"),
+]
+LECTURES = [("Pittsburgh: lighting and shading", 1, 45), ("Oregon State: shaders for lighting", 46, 57), ("New York University: fragment shaders and basic lighting", 58, 67)]

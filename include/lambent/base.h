@@ -149,6 +149,11 @@ typedef struct lam_control {
 // known. Each call reads a few system files.
 LAM_API uint64_t lam_memory_available(void);
 
+// Returns the number of processors that this process may use, at least 1: its affinity allows them, and the quotas of
+// its control groups do (cgroup v2, parents included; rounded up). This is the default number of threads. The first call
+// reads a few system files.
+LAM_API int lam_processors_available(void);
+
 // A position, a direction or three angles.
 typedef struct lam_vec3 {
     double x, y, z;

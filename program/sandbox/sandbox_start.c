@@ -213,7 +213,8 @@ bool sandbox_start(const struct options *o, struct sandbox_paths *paths, lam_err
         active = (struct sandbox_state){.reason = sandbox_offered().reason};
         ok = check_required(o, error);
     } else {
-        limits_memory(o); // reads system files that are inaccessible afterwards
+        limits_memory(o); // both read system files that are inaccessible afterwards
+        lam_processors_available();
         add_system(paths);
         sandbox_add_options(paths, o);
         if (everything)

@@ -217,6 +217,24 @@ static void remove_root(void)
     assert_int_equal(system(command), 0);
 }
 
+// Quotas of processor time in a period, of the group and its ancestors.
+TEST(test_processors_of_groups)
+{
+    assert_non_null(mkdtemp(root));
+    put("/proc/self/cgroup", "4:cpu:/shop\n0::/shop/night\n");
+    assert_true(processors_of_groups(root) == UINT64_MAX);
+    put("/sys/fs/cgroup/shop/night/cpu.max", "max 100000\n");
+    assert_true(processors_of_groups(root) == UINT64_MAX);
+    put("/sys/fs/cgroup/shop/cpu.max", "250000 100000\n");
+    assert_true(processors_of_groups(root) == 3);
+    put("/sys/fs/cgroup/shop/night/cpu.max", "20000 100000\n");
+    assert_true(processors_of_groups(root) == 1);
+    assert_true(memory_of_groups(root) == UINT64_MAX);
+    remove_root();
+    memcpy(strrchr(root, '-'), "-XXXXXX", 7); // for the next test
+    assert_true(lam_processors_available() >= 1);
+}
+
 TEST(test_memory_of_groups)
 {
     assert_non_null(mkdtemp(root));

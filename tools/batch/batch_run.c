@@ -242,8 +242,7 @@ static bool run_passes(struct batch *b, lam_error *error)
 // threads.
 static void share_threads(struct batch *b)
 {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int threads = b->options->work.threads ? b->options->work.threads : processors > 0 ? (int)processors : 1;
+    int threads = b->options->work.threads ? b->options->work.threads : lam_processors_available();
     int most = device_option_is_gl(b->options) ? 1 : threads < WORKERS_MAX ? threads : WORKERS_MAX;
     size_t models = b->options->batch.jobs ? (size_t)most : b->plan->count;
     b->workers = (size_t)most < models ? most : models ? (int)models : 1;

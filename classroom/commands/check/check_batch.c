@@ -253,8 +253,7 @@ static void *check_next(void *work)
 
 static int thread_count(const struct check_batch *b)
 {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int count = b->options->work.threads ? b->options->work.threads : processors > 0 ? (int)processors : 1;
+    int count = b->options->work.threads ? b->options->work.threads : lam_processors_available();
     count = count < MAX_THREADS ? count : MAX_THREADS;
     return count < b->count ? count : b->count;
 }

@@ -111,7 +111,7 @@ struct pool *encoding_pool(const lam_image *image, int threads)
     // Starting a thread takes as long as encoding a few thousand pixels, so each thread encodes at least 65536 pixels.
     const int64_t max_threads = (int64_t)image->width * image->height >> 16;
     if (threads == 0)
-        threads = processor_count();
+        threads = lam_processors_available();
     if (threads > max_threads)
         threads = (int)max_threads;
     return threads > 1 ? pool_make(threads) : NULL;

@@ -459,7 +459,7 @@ static bool sample_box(const lam_parametric *surfaces, int count, double low[3],
 static struct pool *make_pool(int threads, uint64_t vertices)
 {
     uint64_t useful = vertices / OF_THREAD;
-    threads = threads ? threads : processor_count();
+    threads = threads ? threads : lam_processors_available();
     threads = (uint64_t)threads < useful ? threads : (int)useful;
     return threads > 1 ? pool_make(threads) : NULL;
 }

@@ -59,6 +59,8 @@ uint64_t memory_of_groups(const char *root)
     return UINT64_MAX;
 }
 
+uint64_t processors_of_groups(const char *root) { return memory_of_groups(root); }
+
 // A Windows job object limits the memory of a process, like a Linux control group.
 uint64_t lam_memory_available(void)
 {

@@ -69,12 +69,6 @@ int sched_getaffinity(int process, size_t size, cpu_set_t *set)
     return 0;
 }
 
-long sysconf(int name)
-{
-    cpu_set_t set;
-    return name == _SC_NPROCESSORS_ONLN && sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : -1;
-}
-
 int windows_hostname(char *name, size_t size)
 {
     DWORD length = (DWORD)size;

@@ -120,10 +120,10 @@ static void process_end(struct view_process *process)
 void view_tasks_start(struct view_tasks *tasks, const struct view_files *files, const struct options *options,
                       void (*done)(void *user, struct view_result *result))
 {
-    long cores = options->work.threads ? options->work.threads : sysconf(_SC_NPROCESSORS_ONLN);
+    int cores = options->work.threads ? options->work.threads : lam_processors_available();
     double limit_s = limits_time(options);
     *tasks = (struct view_tasks){.files = files, .options = options, .done = done};
-    tasks->count = (cores < 1 ? 1 : cores > VIEW_PROCESSES_MAX - 1 ? VIEW_PROCESSES_MAX - 1 : (int)cores) + 1;
+    tasks->count = (cores > VIEW_PROCESSES_MAX - 1 ? VIEW_PROCESSES_MAX - 1 : cores) + 1;
     tasks->time_limit_ms = limit_s > 0 ? limit_s * 1e3 + GRACE_MS : 0;
     for (int i = 0; i < VIEW_PROCESSES_MAX; i++)
         tasks->processes[i] = (struct view_process){.child = NO_CHILD};

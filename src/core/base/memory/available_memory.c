@@ -1,5 +1,5 @@
-// available_memory.c: the memory available to this process: the machine's memory or the smallest limit, whichever is
-// less.
+// available_memory.c: the memory and the processors available to this process: the machine's or the smallest limit,
+// whichever is less.
 //
 // Control groups limit memory in a container or under a batch system. The limit is in the file memory.max (cgroup v2)
 // or memory.limit_in_bytes (v1), and applies to a group and its descendants. In a container, /proc/self/cgroup may
@@ -12,6 +12,7 @@
 
 #include <lambent/base.h>
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +24,8 @@ uint64_t memory_of_groups(const char *root)
     (void)root;
     return UINT64_MAX;
 }
+
+uint64_t processors_of_groups(const char *root) { return memory_of_groups(root); }
 
 uint64_t lam_memory_available(void) { return UINT64_MAX; }
 
@@ -50,6 +53,16 @@ static bool read_head(const char *path, char *text, size_t size)
 
 static uint64_t smaller(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
+// Reads a limit: a number of bytes, or the microseconds of processor time in a period and the length of the period.
+static uint64_t limit_of_text(const char *text)
+{
+    char *end;
+    if (*text < '0' || *text > '9')
+        return UINT64_MAX;
+    uint64_t number = strtoull(text, &end, 10), period = *end == ' ' ? strtoull(end, NULL, 10) : 0;
+    return period ? number / period + (number % period > 0) : number;
+}
+
 // Returns the smallest limit of a group and its parents. `path` is the path of the group below `mount`. "max" means no
 // limit.
 static uint64_t limit_of_group(const char *root, const char *mount, const char *path, const char *file)
@@ -61,8 +74,8 @@ static uint64_t limit_of_group(const char *root, const char *mount, const char *
         while (length > 0 && path[length - 1] == '/')
             length--;
         snprintf(name, sizeof name, "%s%s%.*s/%s", root, mount, (int)length, path, file);
-        if (read_head(name, text, sizeof text) && *text >= '0' && *text <= '9')
-            limit = smaller(limit, strtoull(text, NULL, 10));
+        if (read_head(name, text, sizeof text))
+            limit = smaller(limit, limit_of_text(text));
         if (length == 0)
             return limit;
         while (length > 0 && path[length - 1] != '/')
@@ -83,21 +96,21 @@ static bool names_memory(const char *list, size_t length)
 
 // Returns the limit for the group in a line of /proc/self/cgroup. The line has the form "number:controllers:path"; for
 // cgroup v2, the number is 0 and there are no controllers.
-static uint64_t limit_of_line(const char *root, char *line)
+static uint64_t limit_of_line(const char *root, char *line, bool processors)
 {
     char *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;
     if (!path)
         return UINT64_MAX;
     list++;
     if (path == list)
-        return smaller(limit_of_group(root, "/sys/fs/cgroup", path + 1, "memory.max"),
-                       limit_of_group(root, "/sys/fs/cgroup/unified", path + 1, "memory.max"));
-    return names_memory(list, (size_t)(path - list))
+        return smaller(limit_of_group(root, "/sys/fs/cgroup", path + 1, processors ? "cpu.max" : "memory.max"),
+                       limit_of_group(root, "/sys/fs/cgroup/unified", path + 1, processors ? "cpu.max" : "memory.max"));
+    return !processors && names_memory(list, (size_t)(path - list))
                ? limit_of_group(root, "/sys/fs/cgroup/memory", path + 1, "memory.limit_in_bytes")
                : UINT64_MAX;
 }
 
-uint64_t memory_of_groups(const char *root)
+static uint64_t limit_of_groups(const char *root, bool processors)
 {
     char name[PATH_BYTES], text[PATH_BYTES];
     uint64_t limit = UINT64_MAX;
@@ -108,10 +121,13 @@ uint64_t memory_of_groups(const char *root)
         next = strchr(line, '\n');
         if (next)
             *next++ = 0;
-        limit = smaller(limit, limit_of_line(root, line));
+        limit = smaller(limit, limit_of_line(root, line, processors));
     }
     return limit;
 }
+
+uint64_t memory_of_groups(const char *root) { return limit_of_groups(root, false); }
+uint64_t processors_of_groups(const char *root) { return limit_of_groups(root, true); }
 
 static uint64_t limit_of_process(int resource)
 {

@@ -1,8 +1,11 @@
 // pool.c: a thread pool for parallel loops.
 #include "pool.h"
 
+#include "available_memory.h"
 #include "call_control.h"
 #include "float_state.h"
+
+#include <lambent/base.h>
 
 #include <pthread.h>
 #include <sched.h>
@@ -96,18 +99,24 @@ static void *worker_main(void *argument)
     return NULL;
 }
 
-int processor_count(void)
+int lam_processors_available(void)
 {
+    static uint64_t kept; // 0 before the first call; a sandbox makes the system's files inaccessible
     cpu_set_t set;
-    if (sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0)
-        return CPU_COUNT(&set);
-    return 1;
+    uint64_t quota = __atomic_load_n(&kept, __ATOMIC_RELAXED);
+    if (!quota) {
+        quota = processors_of_groups("");
+        quota = quota ? quota : 1;
+        __atomic_store_n(&kept, quota, __ATOMIC_RELAXED);
+    }
+    int count = sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0 ? CPU_COUNT(&set) : 1;
+    return quota < (uint64_t)count ? (int)quota : count;
 }
 
 struct pool *pool_make(int threads)
 {
     if (threads <= 0)
-        threads = processor_count();
+        threads = lam_processors_available();
     if (threads > THREADS_MAX)
         threads = THREADS_MAX;
     struct pool *pool = calloc(1, sizeof *pool + (size_t)threads * sizeof pool->workers[0]);
@@ -117,7 +126,7 @@ struct pool *pool_make(int threads)
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);
     pool->threads = 1;
-    pool->spins = threads <= processor_count();
+    pool->spins = threads <= lam_processors_available();
     // Workers block all signals, so that the program's own threads handle them.
     sigset_t all, before;
     pthread_attr_t attributes;

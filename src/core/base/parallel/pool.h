@@ -22,7 +22,4 @@ void pool_set_alone(struct pool *pool, bool alone); // while `alone` is set, onl
 typedef void pool_task(void *user, size_t index, int thread);
 void pool_run(struct pool *pool, size_t count, pool_task *task, void *user);
 
-// Returns the number of processors that this process may use.
-int processor_count(void);
-
 #endif

@@ -35,10 +35,6 @@ ssize_t pwrite(int file, const void *data, size_t size, off_t at);
 int windows_hostname(char *name, size_t size);
 #define gethostname(name, size) windows_hostname(name, size)
 
-#define _SC_NPROCESSORS_ONLN 84
-// Returns the number of processors, or −1 if `name` asks for another value.
-long sysconf(int name);
-
 // Always fails, because Lambent does not read links on Windows.
 static inline ssize_t readlink(const char *path, char *out, size_t size)
 {

@@ -9,7 +9,7 @@
 #include "run.h"
 
 static command_fn *const functions[COMMAND_COUNT] = {
-    [COMMAND_check] = run_check,        [COMMAND_plot] = run_plot,
+    [COMMAND_check] = run_check,        [COMMAND_plot] = run_plot,       [COMMAND_exercises] = run_exercises,
     [COMMAND_generate] = run_contracts, [COMMAND_shader] = run_mistakes,
 #ifndef CLASSROOM_INSIDE
     [COMMAND_explain] = run_figure,

@@ -8,8 +8,9 @@
 #define ALL                                                                                                            \
     (((1ull << GROUP_COUNT) - 1) &                                                                                     \
      ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
-       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_FIGURE | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH | \
-       1ull << GROUP_CONVERT | 1ull << GROUP_SETTINGS | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
+       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_FIGURE | 1ull << GROUP_EXERCISES |                   \
+       1ull << GROUP_VIEWER | 1ull << GROUP_HASH | 1ull << GROUP_CONVERT | 1ull << GROUP_SETTINGS |                    \
+       1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {{"output", "MODEL-SHEET.png", NULL},
                                                       {"size", "480x400 each", NULL},
@@ -23,6 +24,7 @@ static const struct own_default check_defaults[] = {{"output", "no sheet", NULL}
                                                     {"tolerance", "2", NULL},
                                                     {"memory-limit", "1Gi", NULL},
                                                     {NULL, NULL, NULL}};
+static const struct own_default exercises_defaults[] = {{"output", "required", NULL}, {NULL, NULL, NULL}};
 static const struct own_default shader_defaults[] = {{"output", "standard output", NULL}, {NULL, NULL, NULL}};
 static const struct own_default shape_defaults[] = {{"output", "NAME.png, parametric.png or implicit.png", NULL},
                                                     {NULL, NULL, NULL}};
@@ -110,6 +112,11 @@ const struct command command_table[] = {
                       ABOUT | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_SIZE | TAKES_JSON |
                           TAKES_QUIET | TAKES_FILES | TAKES_TERM | TAKES_TITLE,
                       .min_operands = 1, .max_operands = -1, .defaults = plot_defaults},
+    [COMMAND_exercises] =
+        {"exercises", NULL,
+         "Write exercises for a class: shaders with a mistake, pictures, a page for students and a key.",
+         ABOUT | 1ull << GROUP_EXERCISES | 1ull << GROUP_CAPTIONS | TAKES_OUTPUT | TAKES_QUIET | TAKES_TITLE,
+         .min_operands = 0, .max_operands = 0, .defaults = exercises_defaults},
     [COMMAND_lights] =
         {"lights", "MODEL",
          "Print the lights of a model (or of the rig if the model has no lights) in the format of scene files.",

@@ -8,10 +8,10 @@
 #define COMMANDS(row)                                                                                                  \
     row(render, LAMBENT) row(batch, LAMBENT) row(journal, LAMBENT) row(compare, LAMBENT) row(explain, LAMBENT)         \
         row(info, LAMBENT) row(check, CLASSROOM) row(shader, LAMBENT) row(diff, LAMBENT) row(hash, LAMBENT)            \
-            row(convert, LAMBENT) row(plot, CLASSROOM) row(lights, LAMBENT) row(shape, LAMBENT) row(view, LAMBENT)     \
-                row(shapes, LAMBENT) row(formats, LAMBENT) row(looks, LAMBENT) row(materials, LAMBENT)                 \
-                    row(config, LAMBENT) row(devices, LAMBENT) row(help, LAMBENT) row(complete, LAMBENT)               \
-                        row(generate, LAMBENT)
+            row(convert, LAMBENT) row(plot, CLASSROOM) row(exercises, CLASSROOM) row(lights, LAMBENT)                  \
+                row(shape, LAMBENT) row(view, LAMBENT) row(shapes, LAMBENT) row(formats, LAMBENT) row(looks, LAMBENT)  \
+                    row(materials, LAMBENT) row(config, LAMBENT) row(devices, LAMBENT) row(help, LAMBENT)              \
+                        row(complete, LAMBENT) row(generate, LAMBENT)
 
 #define COMMAND_INDEX(name, program) COMMAND_##name,
 enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };

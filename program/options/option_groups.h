@@ -26,6 +26,7 @@ enum term_kind { TERM_AUTO, TERM_KITTY, TERM_ITERM2, TERM_SIXEL, TERM_BLOCKS, TE
 
 // --figure: selects the small figure of explain -o.
 enum figure_name { FIGURE_VECTORS, FIGURE_BEAM };
+enum captions_style { CAPTIONS_FULL, CAPTIONS_PLAIN };
 
 enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
 enum texture_filter { TEXTURE_FILTER_EXACT, TEXTURE_FILTER_HARDWARE };
@@ -212,7 +213,7 @@ struct captions_options {
     const char *font; // NULL means the system's font
     bool no_captions;
     const char *title;  // the page's title; NULL means the default
-    int figure;         // the value of --figure
+    int figure, style;  // the values of --figure and --captions
     struct texts texts; // captions of a sheet's pictures in order; the sheet adds missing captions
 };
 
@@ -225,6 +226,11 @@ struct sheet_options {
 // Plots (plot).
 struct plot_options {
     double to; // the right end of the axis; 0 means a fitted axis
+};
+
+// Exercises (exercises).
+struct exercises_options {
+    int count, seed;
 };
 
 // Checking shaders (check).

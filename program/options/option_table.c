@@ -37,6 +37,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_SHADER] = "Shaders (shader)",
     [GROUP_SHAPE] = "Formulas (shape, explain)",
     [GROUP_FIGURE] = "Figures (explain)",
+    [GROUP_EXERCISES] = "Exercises (exercises)",
     [GROUP_VIEWER] = "Viewer (view)",
 };
 
@@ -155,6 +156,10 @@ static const struct choice tone_words[] = {
 static const struct choice figure_words[] = {{"vectors", FIGURE_VECTORS, "the vectors from the side"},
                                              {"beam", FIGURE_BEAM, "the area that a beam of the light covers"},
                                              {NULL, 0, NULL}};
+
+static const struct choice captions_words[] = {{"full", CAPTIONS_FULL, "with the options of each picture"},
+                                               {"plain", CAPTIONS_PLAIN, "only the captions, for slides"},
+                                               {NULL, 0, NULL}};
 
 static const struct choice look_words[] = {
     {"studio", 0, "the default"},
@@ -956,6 +961,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,
      .others = "layout", FIELD(sheet.name)},
+    {"captions", 0, GROUP_SHEET, "STYLE", "full", "Whether the captions of a sheet contain options: full or plain.",
+     NULL, captions_words, .store = store_word, FIELD(captions.style)},
     {"title", 0, GROUP_SHEET, "TEXT", NULL,
      "The title of a sheet, a plot or a figure, in any language; '' omits the title.",
      "An SVG file stores titles and captions as text, so the viewer provides the fonts, supports right-to-left "
@@ -983,6 +990,11 @@ struct option option_table[OPTIONS_MAX] = {
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or an angle in degrees.",
      NULL, .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},
 
+    {"count", 0, GROUP_EXERCISES, "N", "20", "The number of exercises.", NULL, .store = store_integer,
+     FIELD(exercises.count), .min = 1, .max = 999},
+    {"seed", 0, GROUP_EXERCISES, "N", "1",
+     "The number that chooses the exercises: the same seed gives the same exercises.", NULL, .store = store_integer,
+     FIELD(exercises.seed), .max = 1e9},
     {"vertex", 0, GROUP_CHECK, "FILE", NULL, "The vertex shader for the fragment shader.",
      "Without this option, Lambent recognises the varyings by name and type, and generates a correct vertex shader for "
      "them (`docs/check.md`).",

@@ -32,6 +32,7 @@ struct options {
     struct captions_options captions;
     struct sheet_options sheet;
     struct plot_options plot;
+    struct exercises_options exercises;
     struct check_options check;
     struct shader_options shader;
     struct report_options report;
@@ -86,6 +87,7 @@ enum option_group {
     GROUP_SHADER,
     GROUP_SHAPE,
     GROUP_FIGURE,
+    GROUP_EXERCISES,
     GROUP_VIEWER,
     GROUP_HASH,
     GROUP_CONVERT,

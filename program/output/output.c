@@ -144,8 +144,12 @@ static bool holds_bytes(int format)
 bool output_check_bytes(const char *path, const char *noun, const char *others, lam_error *error)
 {
     lam_pixel_format format;
-    if (!output_format(path, &format, error))
+    if (!output_format(path, &format, error)) {
+        size_t length = strlen(error->text);
+        if (*others)
+            snprintf(error->text + length, sizeof error->text - length, "; for vector graphics, use %.4s", others);
         return false;
+    }
     if (format == LAM_RGBA8)
         return true;
     char list[128] = "";

@@ -257,7 +257,7 @@ class Docs(Case):
                 if "[OPTIONS]" in words or "COMMAND" in words:
                     continue
                 tried += 1
-                limit = ["--memory-limit", "1k"] if words[0] not in ("diff", "plot", "check", "materials", "devices", "generate", "formats", "journal") else []
+                limit = ["--count", "1"] if words[0] == "exercises" else ["--memory-limit", "1k"] if words[0] not in ("diff", "plot", "check", "materials", "devices", "generate", "formats", "journal") else []
                 (self.folder / "docs" / "pictures" / "lighting").mkdir(parents=True, exist_ok=True)
                 done = self.run_program(*words, *limit)
                 self.assertNotEqual(done.returncode, 1, (page.name, line, done.stderr))

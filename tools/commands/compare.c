@@ -19,7 +19,15 @@
 #include "sandbox_start.h"
 #include "terminal.h"
 
-enum { CELL_WIDTH = 480, CELL_HEIGHT = 400, ENLARGED = 3, INK = 0x222222, GREY = 0x777777, FRAME = 0xd55e00 };
+enum {
+    WARNINGS_MAX = 16,
+    CELL_WIDTH = 480,
+    CELL_HEIGHT = 400,
+    ENLARGED = 3,
+    INK = 0x222222,
+    GREY = 0x777777,
+    FRAME = 0xd55e00
+};
 
 // The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide. The text size is proportional to `unit`.
 struct page {
@@ -45,7 +53,8 @@ struct compare {
     double exposure;
     const char *defaults[2 * SHEET_DEFAULTS_MAX]; // arguments that the sheet adds to every picture
     int default_count;
-    bool default_material; // whether one of the defaults is a material
+    bool default_material;        // whether one of the defaults is a material
+    char *warnings[WARNINGS_MAX]; // the warnings that apply to all pictures
 };
 
 // Returns the user's caption of a picture, or the sheet's caption.
@@ -127,6 +136,23 @@ static lam_device *cell_device(const struct compare *c, const struct options *op
     return device;
 }
 
+// Keeps the warnings that apply to all pictures so far. In a row of reflectivities, the environment may be invisible in
+// only some of the pictures.
+static void keep_warnings(struct compare *c, const lam_scene *scene)
+{
+    for (int i = 0; c->done == 0 && i < WARNINGS_MAX && lam_scene_warning(scene, i); i++)
+        c->warnings[i] = strdup(lam_scene_warning(scene, i));
+    for (int k = 0; k < WARNINGS_MAX; k++) {
+        bool found = false;
+        for (int i = 0; c->warnings[k] && lam_scene_warning(scene, i); i++)
+            found |= strcmp(c->warnings[k], lam_scene_warning(scene, i)) == 0;
+        if (!found) {
+            free(c->warnings[k]);
+            c->warnings[k] = NULL;
+        }
+    }
+}
+
 // Draws a cell's picture, magnified by the factor `enlarge`. `more` and `value` are two additional arguments, or NULL.
 static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, const char *more, const char *value,
                       lam_image *image, lam_error *error)
@@ -145,8 +171,8 @@ static bool draw_cell(struct compare *c, const struct cell *cell, int enlarge, c
     struct job job = {.options = &options, .model = c->model, .device = cell_device(c, &options, error)};
     job.times.start = clock_ms();
     bool ok = job.device && job_draw(&job, LAM_RGBA8, &c->progress, error);
-    for (int i = 0; ok && c->done == 0 && !options.report.quiet && lam_scene_warning(job.scene, i); i++)
-        say_warning(lam_scene_warning(job.scene, i));
+    if (ok)
+        keep_warnings(c, job.scene);
     if (ok && job.exposure_fitted && !c->exposure_fitted && !options.report.quiet)
         say_plain("exposure %.4g stops (auto)\n", job.draw.exposure);
     if (ok && job.exposure_fitted) {
@@ -322,7 +348,7 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
     else if (cell->mistake)
         snprintf(line, sizeof line, "mean difference %.4f, at most %.2f", d->mean, d->maximum);
     else
-        join(words, words_of(c, cell, words), line);
+        join(words, c->options->captions.style == CAPTIONS_PLAIN ? 0 : words_of(c, cell, words), line);
     draw_words(c, (struct point){middle, top + 55 * u}, width, line);
 }
 
@@ -406,7 +432,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
     double middle = c->drawing.width / 2.0, width = c->drawing.width - 2.0 * p->gap;
     draw_fitting(&c->drawing, (struct point){middle, 45 * p->unit}, 30 * p->unit, width, INK, title);
     char line[512];
-    join(c->defaults, c->default_count, line);
+    join(c->defaults, c->options->captions.style == CAPTIONS_PLAIN ? 0 : c->default_count, line);
     draw_words(c, (struct point){middle, 75 * p->unit}, width, line);
     for (int i = 0; i < c->sheet.count; i++) {
         const struct cell *cell = &c->sheet.cells[i];
@@ -576,6 +602,11 @@ int run_compare(int operand_count, char **operands, const struct options *option
         ok = c.device && find_defaults(&c, &error) && (!c.sheet.mistakes || choose_mistakes(&c, &error)) &&
              lay_out(&c, path, &error) && draw_sheet(&c, &error);
         progress_end(&c.progress);
+        for (int i = 0; i < WARNINGS_MAX; i++) {
+            if (c.warnings[i] && !options->report.quiet)
+                say_warning(c.warnings[i]);
+            free(c.warnings[i]);
+        }
         ok = ok && drawing_write(&c.drawing, path, &error);
         if (ok && options->report.json)
             print_json(&c, path);

@@ -86,6 +86,15 @@ const struct topic topics[] = {
      "The numbers are "
      "bit-identical to the numbers from which Lambent computes the picture. For the formulas, see `docs/lighting.md`. "
      "`--json` prints the same numbers on one line. `-o figure.svg` draws the numbers as a figure."},
+    {"teaching", "Lectures and exercises", BIT(EXERCISES), TOPIC_NO_TABLE,
+     "`docs/lectures.md` lists the contents of three lectures on lighting, each with a command. `lambent explain MODEL "
+     "X,Y` prints the calculation of a pixel, with the halfway vector h, the winding of the triangle's corners, the "
+     "normals and the plane. `lambent compare` draws sheets for slides (`--captions plain`), and `lambent plot` draws "
+     "curves. `lambent shader --style lecture` prints short shaders, and `--mistake NAME` introduces a mistake.\n"
+     "`lambent exercises --count 20 --seed 7 -o class/` writes exercises: for each exercise, a vertex shader and a "
+     "fragment shader with one mistake, and the program's picture beside the right one. Each mistake is visible in at "
+     "least 2 % of the pixels. `students.html` lists the exercises, and `key.html` names the mistakes. `lambent check "
+     "--class class/` names them too. The pictures need OpenGL."},
     {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
      "the program that wrote the file, the size, the up axis, the numbers of triangles, meshes, parts and objects, and "

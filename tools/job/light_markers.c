@@ -40,14 +40,23 @@ static int glowing(lam_scene *scene, lam_rgb color, lam_error *error)
     return lam_scene_add_material(scene, &m, error);
 }
 
-static bool put(lam_scene *scene, int mesh, int material, lam_mat4 transform, lam_error *error)
+// Adds a marker, and a larger dark one of which only the far side is visible: the outline of markers on a background of
+// the light's colour.
+static bool put(lam_scene *scene, int mesh, int material, int dark, lam_mat4 transform, lam_error *error)
 {
     lam_object object = lam_object_default();
     object.name = "light marker";
     object.mesh = mesh;
     object.material = material;
     object.transform = transform;
-    return mesh >= 0 && material >= 0 && lam_scene_add_object(scene, &object, error) >= 0;
+    if (mesh < 0 || material < 0 || dark < 0 || lam_scene_add_object(scene, &object, error) < 0)
+        return false;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            object.transform.m[row][column] *= 1.3;
+    object.material = dark;
+    object.cull = LAM_CULL_FRONT;
+    return lam_scene_add_object(scene, &object, error) >= 0;
 }
 
 // Returns whether a sphere is outside the picture.
@@ -123,7 +132,9 @@ bool light_markers_add(struct job *job, lam_error *error)
     lam_shape_params few = {.slices = 24, .stacks = 12};
     int ball = ok ? lam_scene_add_shape(scene, "sphere", &few, error) : -1;
     int cone = ok ? lam_scene_add_shape(scene, "cone", &few, error) : -1;
-    ok = ball >= 0 && cone >= 0;
+    lam_material black = {.diffuse = {0, 0, 0, 1}, .illum = -1, .name = "light marker"};
+    int dark = lam_scene_add_material(scene, &black, error);
+    ok = ball >= 0 && cone >= 0 && dark >= 0;
     struct names outside = {0};
     for (int i = 0; ok && i < count; i++) {
         const lam_light *l = &lights[i];
@@ -138,9 +149,9 @@ bool light_markers_add(struct job *job, lam_error *error)
         if (is_outside(job, p, 0.03 * radius) && !(has_cone && !is_outside(job, tip, 0.06 * radius)))
             add_name(&outside, l, i + 1);
         int material = glowing(scene, l->diffuse, error);
-        ok = put(scene, ball, material, placement(p, d, 0.03 * radius, 0.03 * radius), error);
+        ok = put(scene, ball, material, dark, placement(p, d, 0.03 * radius, 0.03 * radius), error);
         if (has_cone)
-            ok = ok && put(scene, cone, material, placement(tip, d, 0.03 * radius, 0.06 * radius), error);
+            ok = ok && put(scene, cone, material, dark, placement(tip, d, 0.03 * radius, 0.06 * radius), error);
     }
     warn_outside(scene, &outside);
     free(lights);

@@ -205,6 +205,68 @@ class Pages(Case):
             self.assertAlmostEqual(a, b, delta=2e-6)
 
 
+class Exercises(Case):
+    def test_exercises(self):
+        """Twenty exercises of a seed: at least twelve mistakes, each visible in 2 % of the pixels and named by the check."""
+        done = self.run_program("exercises", "--count", 20, "--seed", 7, "-o", "class", "--title", "Week <5>")
+        if done.returncode == 3 and b"OpenGL" in done.stderr:
+            self.skipTest("OpenGL is missing")
+        self.assertEqual(done.returncode, 0, done.stderr.decode())
+        listed = dict(line.split() for line in done.stdout.decode().splitlines())
+        self.assertEqual(list(listed), ["exercise-%02d" % i for i in range(1, 21)])
+        self.assertGreaterEqual(len(set(listed.values())), 12)
+        folder = self.folder / "class"
+        students, key = ((folder / name).read_text() for name in ("students.html", "key.html"))
+        self.assertIn("<h1>Week &lt;5&gt;", students)
+        for name, mistake in listed.items():
+            self.assertIn("<b>%s</b>" % mistake, key)
+            self.assertNotIn(mistake, students)
+            self.assertIn(name + ".frag", students)
+            width, height, pixels = read_png((folder / (name + ".png")).read_bytes())
+            different = sum(max(abs(pixels[4 * (y * width + x) + c] - pixels[4 * (y * width + x + 272) + c]) for c in range(3)) > 2
+                            for y in range(40, 296) for x in range(16, 272))
+            self.assertGreaterEqual(different, 0.02 * 256 * 256, (name, mistake))
+        checked = self.run_program("check", "--class", "class", "--csv", "grades.csv")
+        self.assertEqual(checked.returncode, 6)
+        for line in checked.stdout.decode().splitlines()[:20]:
+            self.assertEqual(line.split()[-1], listed[line.split()[0]])
+        # the same seed gives the same exercises, another seed gives others
+        again, other = (self.good("exercises", "--count", 2, "--seed", seed, "-o", "again%d" % seed).stdout.decode() for seed in (7, 8))
+        self.assertEqual(again.splitlines(), ["%s  %s" % row for row in list(listed.items())[:2]])
+        self.assertNotEqual(again, other)
+        self.assertEqual((self.folder / "again7/exercise-01.frag").read_bytes(), (folder / "exercise-01.frag").read_bytes())
+        self.bad(1, "exercises", says="-o class/")
+        self.bad(1, "exercises", "--count", "0", "-o", "c", says="--count")
+        self.given |= {"class", "again7", "again8", "grades.csv"}
+
+    def test_help(self):
+        for word in ("teaching", "exercise", "winding", "halfway"):
+            self.assertRegex(self.good("help", word).stdout.decode(), "teaching|[Ee]xercises", word)
+
+    def test_small_things(self):
+        """A warning of one picture of a sheet, markers of white lights on white, and vector graphics."""
+        for values, warned in (("0,0.5", False), ("0.5,0", False), ("0,0", True)):
+            done = self.good("compare", "sphere", "--environment", "sky", "--across", "reflectivity=" + values, "-s", "32", "-o", "s.png")
+            self.assertEqual(b"environment is invisible" in done.stderr, warned, values)
+        words = ("sphere", "--light", "point:position=1.15/1.05/0.9", "--background", "white", "-s", "192", "-o", "-")
+        (_, _, plain), (_, _, marked) = (read_png(self.good(*words, *more).stdout) for more in ((), ("--show-lights",)))
+        white = {i for i in range(0, len(marked), 4) if plain[i] == 255}
+        self.assertGreater(len([i for i in white if marked[i] < 128]), 5)
+        for words in (("explain", "sphere", "8,8", "-s", "16"), ("plot", "spot"), ("compare", "sphere")):
+            self.bad(3, *words, "-o", "x.pdf", says="for vector graphics, use .svg")
+        self.given |= {"s.png"}
+
+    def test_plain_captions(self):
+        """Without the lines of options, only the letters of captions and titles are left."""
+        inks = []
+        for style in ("full", "plain"):
+            self.good("compare", "sphere", "--across", "shininess=5,50", "-s", "160x120", "--captions", style, "-o", "s.png")
+            width, height, pixels = read_png((self.folder / "s.png").read_bytes())
+            inks.append(sum(max(pixels[4 * width * y:4 * width * (y + 1)]) > min(pixels[4 * width * y:4 * width * (y + 1)]) for y in list(range(40)) + list(range(height - 45, height))))
+        self.assertLess(inks[1], inks[0])
+        self.given |= {"s.png"}
+
+
 class Lectures(Case):
     """docs/lectures.md: every row of the lectures with its command, which is run here, and its picture or numbers."""
 

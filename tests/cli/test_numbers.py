@@ -130,7 +130,7 @@ ROWS = [
     ("docs/check.md", "exponent {}; attenuation 1/(1 + {} d + {} d²)", code("classroom/check/contracts/nyu.json", r'"shininess": (\d+)'),
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, ([\d.]+),'),
      code("classroom/check/contracts/nyu.json", r'"attenuation": \[1, [\d.]+, ([\d.]+)\]')),
-    ("program/options/option_table.c", "c/(c + {}) for a pixel that c triangles cover", OVERDRAW),
+    ("src/core/scene/fields/outputs.c", "c/(c + {}) for a pixel that c triangles cover", OVERDRAW),
     ("include/lambent/device.h", "no channel below {}", LEAST_ID),
     ("docs/opengl.md", "in tiles of {}×{} pixels", *2 * [constant("src/gpu/gl/gl_device.h", "PART_SIZE_MAX")]),
     ("docs/opengl.md", "the teapot ({} triangles)", TEAPOT),

@@ -144,7 +144,7 @@ typedef enum lam_output {
     // Level of detail of the diffuse map, or else of the material's first map; 0: no map. A level below 0 means
     // magnification; without a footprint it is -50. 8-bit code: level / 10.
     LAM_OUTPUT_LOD,
-    // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1, above 1 on ridges.
+    // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
     // The light of the environment: the reflection term of classic materials, and the environment's share of the
     // diffuse and specular terms of physical materials. Black if a surface is not lit.
@@ -218,12 +218,11 @@ typedef enum lam_occlusion {
 } lam_occlusion;
 
 // Ambient occlusion at a small radius, which makes letters, holes and seams visible. The radius is 0.05 of half the
-// diagonal of the scene's box, and at least three cells of the picture. In scenes without textures, ridges become
-// lighter to the same degree as valleys become darker (docs/lighting/occlusion.md).
+// diagonal of the scene's box, and at least three cells of the picture (docs/lighting/occlusion.md).
 typedef enum lam_cavity {
     LAM_CAVITY_AUTO = 0, // ON if LAM_OCCLUSION_AUTO means SCREEN, else OFF
     LAM_CAVITY_OFF,      // no cavity shading
-    LAM_CAVITY_ON,       // dark valleys and light ridges
+    LAM_CAVITY_ON,       // dark valleys
     LAM_CAVITY_COUNT
 } lam_cavity;
 

@@ -501,8 +501,8 @@ struct option option_table[OPTIONS_MAX] = {
      "occlusion requires Phong shading. For the formulas, see `docs/lighting/occlusion.md`.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "Cavity shading makes letters, holes, seams and wrinkles visible. Cavity shading measures valleys and ridges at a "
-     "small radius, and affects the same light as `--ao`. To draw only this effect, use `--show ao --ao off --cavity "
+     "Cavity shading makes letters, holes, seams and wrinkles visible. Cavity shading measures valleys at a small "
+     "radius, and affects the same light as `--ao`. To draw only this effect, use `--show ao --ao off --cavity "
      "on`.",
      .others = "curvature ridges valleys no-cavity"},
     {"specular-aa", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,

@@ -4,8 +4,7 @@
     occlusion.py LAMBENT [MODEL…]       a line for each model, by default all of the folder LAMBENT_MODELS, and for all together
     occlusion.py LAMBENT --write        writes the table of docs/lighting/occlusion.md
 
-Differences (screen − rays) of `--show ao` at the covered pixels of the fitted view, one sample a pixel, at two sizes, since pictures of more than 512² pixels have
-cells of two by two pixels. Pictures are the same on every machine, so these numbers are too."""
+Differences (screen − rays) of `--show ao` in bytes, at the covered pixels of the fitted view, one sample a pixel, at two sizes. Pictures are the same on every machine, so these numbers are too."""
 import array
 import concurrent.futures
 import os
@@ -16,7 +15,7 @@ import tempfile
 import made_part
 import paths
 
-SIZES, RAYS = (256, 640), 64
+SIZES, RAYS = (256, 640), 256
 PAGE = os.path.join(paths.ROOT, "docs", "lighting", "occlusion.md")
 KINDS = ("obj", "stl", "ply", "glb")
 
@@ -48,29 +47,30 @@ def differences(lambent, model, size):
             return None
         rays = channel(lambent, model, folder, size, "--show", "ao", "--ao", "rays", "--ao-samples", str(RAYS))
         screen = channel(lambent, model, folder, size, "--show", "ao", "--ao", "screen")
-        return array.array("f", [s - r for s, r, d in zip(screen, rays, depth) if d > 0])
+        return array.array("f", [255 * (s - r) for s, r, d in zip(screen, rays, depth) if d > 0])
 
 
 def summary(values):
-    """The mean, the 50th, 90th and 99th percentile of the absolute values, and the signed mean."""
-    sizes, count = sorted(map(abs, values)), len(values)
-    return (sum(sizes) / count, sizes[count // 2], sizes[count * 9 // 10], sizes[count * 99 // 100], sum(values) / count)
+    """The root mean square, the mean, and the percentages of pixels that are more than 25 bytes too dark and too bright."""
+    count = len(values)
+    return ((sum(v * v for v in values) / count) ** 0.5, sum(values) / count, 100 * sum(v < -25 for v in values) / count, 100 * sum(v > 25 for v in values) / count)
 
 
 def row(name, s):
-    return "| %s | %.3f | %.3f | %.3f | %.3f | %+.3f |" % (name, *s)
+    return "| %s | %.1f | %+.1f | %.2f %% | %.2f %% |" % (name, *s)
 
 
 def table(lambent, given):
     """Each model has the same weight: the figures for all models are means over the models."""
-    yield "| | mean | p50 | p90 | p99 | bias |"
-    yield "|---|---|---|---|---|---|"
+    yield "| | root mean square | mean | over 25 too dark | over 25 too bright |"
+    yield "|---|---|---|---|---|"
     for size in SIZES:
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             found = list(pool.map(lambda model: differences(lambent, model, size), given))
         rows = sorted(((summary(d), os.path.basename(m)) for d, m in zip(found, given) if d), reverse=True)
-        everything = tuple(sum(s[i] for s, _ in rows) / len(rows) for i in range(5))
-        yield row("%d models at %d²" % (len(rows), size), everything)
+        everything = tuple(sum(s[i] for s, _ in rows) / len(rows) for i in range(4))
+        within = sum(s[0] <= 12 and s[2] <= 1 and s[3] <= 3 for s, _ in rows)
+        yield row("%d models at %d², %d within 12, 1 %% and 3 %%" % (len(rows), size, within), everything)
         for s, name in rows[: 5 if len(given) > 8 else len(given)]:
             yield row("%s, %d²" % (name, size), s)
 

@@ -9,7 +9,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 640, 420, 58, 24, 20, 54
-COLORS = {"none": "#777777", "reinhard": "#1a56a0", "aces": "#c05020", "agx": "#2f8f4e", "khronos-neutral": "#7a3fa0", "contrast": "#b08a00"}
+COLORS = {"none": "#777777", "reinhard": "#1a56a0", "aces": "#c05020", "agx": "#2f8f4e", "khronos-neutral": "#7a3fa0", "contrast": "#b08a00", "soft": "#333333"}
 LOW, HIGH = -7, 5  # stops relative to 0.18
 
 

@@ -144,7 +144,7 @@ typedef enum lam_output {
     // Level of detail of the diffuse map, or else of the material's first map; 0: no map. A level below 0 means
     // magnification; without a footprint it is -50. 8-bit code: level / 10.
     LAM_OUTPUT_LOD,
-    // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1, above 1 on ridges.
+    // The fraction of surrounding light that reaches the point (lam_occlusion, lam_cavity), 0 … 1.
     LAM_OUTPUT_AMBIENT_OCCLUSION,
     // The light of the environment: the reflection term of classic materials, and the environment's share of the
     // diffuse and specular terms of physical materials. Black if a surface is not lit.
@@ -157,7 +157,7 @@ typedef enum lam_output {
 // sources and plots). Tone curves apply to 8-bit pictures; float pictures store the light itself.
 typedef enum lam_tone {
     // KHRONOS_NEUTRAL if the frame shows a physical material, CONTRAST if the studio illuminates a grey curved model or
-    // a terrain, otherwise NONE.
+    // a terrain, SOFT if it illuminates another model, otherwise NONE.
     LAM_TONE_AUTO = 0,
     LAM_TONE_NONE,     // no curve: each channel is clipped at 1
     LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)
@@ -169,6 +169,7 @@ typedef enum lam_tone {
     LAM_TONE_KHRONOS_NEUTRAL,
     // 0.4 (x / 0.4)^2 for each channel: shades of grey differ more than with NONE.
     LAM_TONE_CONTRAST,
+    LAM_TONE_SOFT, // unchanged up to 0.85, compressed towards 1 above, for each channel
     LAM_TONE_COUNT
 } lam_tone;
 
@@ -218,12 +219,11 @@ typedef enum lam_occlusion {
 } lam_occlusion;
 
 // Ambient occlusion at a small radius, which makes letters, holes and seams visible. The radius is 0.05 of half the
-// diagonal of the scene's box, and at least three cells of the picture. In scenes without textures, ridges become
-// lighter to the same degree as valleys become darker (docs/lighting/occlusion.md).
+// diagonal of the scene's box, and at least three cells of the picture (docs/lighting/occlusion.md).
 typedef enum lam_cavity {
     LAM_CAVITY_AUTO = 0, // ON if LAM_OCCLUSION_AUTO means SCREEN, else OFF
     LAM_CAVITY_OFF,      // no cavity shading
-    LAM_CAVITY_ON,       // dark valleys and light ridges
+    LAM_CAVITY_ON,       // dark valleys
     LAM_CAVITY_COUNT
 } lam_cavity;
 
@@ -440,7 +440,8 @@ LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_
 // valid until the scene changes.
 LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light *lights, int capacity);
 
-// Returns params->tone, or LAM_TONE_CONTRAST if that is LAM_TONE_AUTO and the light of params->rig selects CONTRAST. If
+// Returns params->tone, or the curve that the light of params->rig selects if that is LAM_TONE_AUTO: LAM_TONE_CONTRAST,
+// LAM_TONE_SOFT or, without the studio, LAM_TONE_AUTO. If
 // your program adds the lights of lam_scene_rig_lights to the scene itself, call this function before and draw with its
 // curve: the result is the picture that LAM_TONE_AUTO gives with the rig.
 LAM_API lam_tone lam_draw_tone(const lam_scene *scene, const lam_draw_params *params);

@@ -144,13 +144,15 @@ static char reflection_summary[400], output_summary[200];
 
 static const struct choice tone_words[] = {
     {"auto", LAM_TONE_AUTO,
-     "khronos-neutral for physical materials, contrast for light grey scans, figures and terrains, otherwise none"},
+     "khronos-neutral for physical materials, contrast for light grey scans, figures and terrains, soft for other "
+     "models that the studio lights, otherwise none"},
     {"none", LAM_TONE_NONE, "no curve: each channel is clipped at 1"},
     {"reinhard", LAM_TONE_REINHARD, "x / (1 + x) for each channel"},
     {"aces", LAM_TONE_ACES, "film-like contrast (Hill's fit of ACES)"},
     {"agx", LAM_TONE_AGX, "soft contrast; bright colours fade to white"},
     {"khronos-neutral", LAM_TONE_KHRONOS_NEUTRAL, "unchanged colours, compressed highlights"},
     {"contrast", LAM_TONE_CONTRAST, "0.4 (x / 0.4)^2 for each channel"},
+    {"soft", LAM_TONE_SOFT, "light above 0.85 is compressed, for each channel"},
     {NULL, 0, NULL}};
 
 static const struct choice figure_words[] = {{"vectors", FIGURE_VECTORS, "the vectors from the side"},
@@ -340,11 +342,11 @@ struct option option_table[OPTIONS_MAX] = {
      "light unchanged. With any exposure, Lambent does not adjust the light for dark and white models (`--brighten`).",
      .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto",
-     "The tone curve: none, reinhard, aces, agx, khronos-neutral or contrast.",
+     "The tone curve: none, reinhard, aces, agx, khronos-neutral, contrast or soft.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
      "with physical materials, and `contrast` for scans, figures and terrains that are light grey and lit by the "
-     "studio. For all "
-     "other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. Lambent applies no "
+     "studio. For other models that the studio lights, `auto` selects `soft`. For all other pictures, and with "
+     "`--color-mode raw`, `auto` selects `none`, which clips light at 1. Lambent applies no "
      "curve to floating-point pictures. For the formulas, see `docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
@@ -506,8 +508,8 @@ struct option option_table[OPTIONS_MAX] = {
      "occlusion requires Phong shading. For the formulas, see `docs/lighting/occlusion.md`.",
      .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
-     "Cavity shading makes letters, holes, seams and wrinkles visible. Cavity shading measures valleys and ridges at a "
-     "small radius, and affects the same light as `--ao`. To draw only this effect, use `--show ao --ao off --cavity "
+     "Cavity shading makes letters, holes, seams and wrinkles visible. Cavity shading measures valleys at a small "
+     "radius, and affects the same light as `--ao`. To draw only this effect, use `--show ao --ao off --cavity "
      "on`.",
      .others = "curvature ridges valleys no-cavity"},
     {"specular-aa", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,

@@ -4,8 +4,9 @@ import os
 import math
 import re
 import struct
+import unittest
 
-from harness import Case, pixel
+from harness import Case, SHARED_MODELS, pixel
 
 DIFFUSE_ONLY = ("--material", "specular=0,ambient=0")
 
@@ -56,6 +57,20 @@ class Default(Case):
                     self.assertEqual(len(tones), 3)
                     self.assertGreaterEqual(min(tones[1] - tones[0], tones[2] - tones[1]), 20)
                     self.assertLessEqual(tones[2], 245) # darker than white paper
+
+    @unittest.skipUnless(SHARED_MODELS.is_dir(), "needs shared/models")
+    def test_nothing_burns(self):
+        """Seen from any side, at most 1 % of the pixels are plain white although their base colour is not. The default view is as bright as without the soft curve."""
+        for name in ("stairs_wide", "torch_mounted", "table_medium_decorated_A", "keyring", "bed_frame"):
+            model = str(SHARED_MODELS / "obj/kaykit_dungeon" / (name + ".obj"))
+            for view in ([], ["--elevation", 80], ["--elevation", -30], ["--azimuth", 210, "--elevation", 50], ["--azimuth", -60, "--elevation", 5]):
+                words = (model, "-s", "160", "--samples", "1", *view)
+                pictures = [zip(*[iter(self.png(*words, *more)[2])] * 4) for more in ([], ["--show", "base-color"], ["--tone", "none"])]
+                seen = [(p, b, n) for p, b, n in zip(*pictures) if p[3] == 255]
+                burnt = sum(min(p[:3]) == 255 and max(b[:3]) < 235 for p, b, _ in seen)
+                self.assertLessEqual(burnt, 0.01 * len(seen), (name, view))
+                if not view:
+                    self.assertAlmostEqual(sum(sum(p[:3]) for p, _, _ in seen) / len(seen), sum(sum(n[:3]) for _, _, n in seen) / len(seen), delta=9)
 
     def test_form(self):
         """Curved models have no rim light. Models with few triangles and files with animations, whose form may change, have one."""

@@ -1,7 +1,9 @@
 # test_occlusion.py: --ao rays and related options.
+import array
 import json
+import unittest
 
-from harness import Case, pixel
+from harness import Case, SHARED_MODELS, pixel
 
 SCENE = {"lambent": 1, "image": {"size": [48, 48], "samples": 1}, "ambient": [1, 1, 1], "lights": [], "ao": "rays", "ao_radius": 0.5, "ao_samples": 24,
          "objects": [{"shape": "plane", "transform": [["scale", 4, 1, 4]]},
@@ -52,3 +54,26 @@ class Occlusion(Case):
         self.bad(1, self.scene(), "--shading", "flat", says="Phong shading")
         self.bad(2, self.scene("bad.json", ao_samples=2000), says="ao_samples")
         self.bad(3, self.scene(), "--device", "gl", says=("OpenGL",))
+
+    def shares(self, model, *words):
+        """A number for each pixel of `--show ao`, or of another quantity."""
+        self.good(model, "-q", "-s", "640", "--samples", "1", "--show", "ao", *words, "-o", "a.pfm")
+        return array.array("f", (self.folder / "a.pfm").read_bytes().split(b"\n", 3)[3])[::3]
+
+    @unittest.skipUnless(SHARED_MODELS.is_dir(), "needs shared/models")
+    def test_screen_beside_rays(self):
+        for name in ("glb/kenney_city/building-small-a.glb", "glb/kenney_city/pavement-fountain.glb", "ply/trimesh/featuretype.ply", "obj/kaykit_dungeon/chest_gold.obj"):
+            model = str(SHARED_MODELS / name)
+            depth, screen, rays = self.shares(model, "--show", "depth"), self.shares(model, "--ao", "screen"), self.shares(model, "--ao", "rays")
+            apart = [255 * (s - r) for s, r, d in zip(screen, rays, depth) if d > 0]
+            count = len(apart)
+            found = ((sum(a * a for a in apart) / count) ** 0.5, sum(a < -25 for a in apart) / count, sum(a > 25 for a in apart) / count)
+            self.assertTrue(found[0] <= 12 and found[1] <= 0.01 and found[2] <= 0.03, (name, found))
+            self.assertLessEqual(max(self.shares(model)), 1)  # cavity shading lightens nothing
+
+    @unittest.skipUnless(SHARED_MODELS.is_dir(), "needs shared/models")
+    def test_rays_start_in_the_triangle(self):
+        """Smooth normals move the starts of shadow rays, but not of these."""
+        model = str(SHARED_MODELS / "obj/kaykit_dungeon/shelf_small_candles.obj")
+        words = ("-s", "64", "--show", "ao", "--ao", "rays", "--ao-samples", "8")
+        self.assertEqual(self.png(model, *words), self.png(model, *words, "--normals", "facet"))

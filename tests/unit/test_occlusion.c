@@ -106,7 +106,7 @@ static void check_wall(lam_occlusion method)
                 all++;
             }
         exact /= all;
-        if (!(share > exact - 0.03 && share < exact + (rays ? 0.03 : 0.13))) // four samples miss some
+        if (!(share > exact - 0.03 && share < exact + (rays ? 0.03 : 0.06))) // the samples miss some
             fail_msg("%g from the wall: %g, expected %g", d, share, exact);
         checked += share < 0.9;
     }
@@ -396,13 +396,13 @@ TEST(test_screen_beside_rays)
             dark += 1 - (double)shown[1][i];
             count++;
         }
-    if (dark / count < 0.1 || apart / count > 0.035 || fabs(bias / count) > 0.025)
+    if (dark / count < 0.1 || apart / count > 0.025 || fabs(bias / count) > 0.02)
         fail_msg("%g apart, %g too light, of %g", apart / count, bias / count, dark / count);
     free(shown[0]);
     free(shown[1]);
 }
 
-// Cavity shading leaves planes unchanged, darkens the inner edges of a step and lightens the outer ones.
+// Cavity shading leaves planes and outer edges unchanged, and darkens the inner edges of a step.
 TEST(test_cavity)
 {
     AUTO_SCENE scene = lam_scene_make(NULL);
@@ -413,15 +413,15 @@ TEST(test_cavity)
     lam_camera camera = {.eye = {0, 3, 3}, .target = {0, 0.25, 0}, .up = {0, 1, 0}, .ortho_half_height = 1.5};
     lam_draw_params params = {.samples = 1, .occlusion = LAM_OCCLUSION_OFF, .cavity = LAM_CAVITY_ON};
     float *shown = shares(scene, &camera, params);
-    int lighter = 0, darker = 0, even = 0;
+    int darker = 0, even = 0;
     for (int y = 0; y < SIZE; y++) {
         float share = shown[y * SIZE + SIZE / 2];
-        lighter += share > 1.02f;
+        assert_true(share <= 1 + 1e-5f);
         darker += share >= 0 && share < 0.9f;
         even += share >= 1 - 1e-5f && share <= 1 + 1e-5f;
     }
-    if (lighter < 2 || darker < 2 || even < SIZE / 4)
-        fail_msg("%d lighter, %d darker, %d even", lighter, darker, even);
+    if (darker < 2 || even < SIZE / 2)
+        fail_msg("%d darker, %d even", darker, even);
     free(shown);
 }
 

@@ -195,11 +195,9 @@ static void find_printed(struct shader_interface *r)
     static const struct {
         const char *function;
         lam_tone tone;
-    } curves[] = {{"reinhard_tone", LAM_TONE_REINHARD},
-                  {"aces_tone", LAM_TONE_ACES},
-                  {"agx_tone", LAM_TONE_AGX},
-                  {"khronos_neutral_tone", LAM_TONE_KHRONOS_NEUTRAL},
-                  {"contrast_tone", LAM_TONE_CONTRAST}};
+    } curves[] = {{"reinhard_tone", LAM_TONE_REINHARD}, {"aces_tone", LAM_TONE_ACES},
+                  {"agx_tone", LAM_TONE_AGX},           {"khronos_neutral_tone", LAM_TONE_KHRONOS_NEUTRAL},
+                  {"soft_tone", LAM_TONE_SOFT},         {"contrast_tone", LAM_TONE_CONTRAST}};
     const struct declarations *lit = r->vertex_lit ? &r->vertex : &r->fragment;
     for (size_t i = sizeof lobes / sizeof *lobes; r->printed_model == LAM_REFLECTION_AUTO && i-- > 0;) {
         char function[32];

@@ -63,14 +63,14 @@ class Pages(Case):
             self.assertEqual(plain(found[2]), plain(gate + formulas["base"] + "^α") if formulas["base"] else "0", model)
 
     def test_tone_of_shapes(self):
-        """docs/lighting/tone.md names the shapes with the curve contrast, and the shapes without a curve."""
+        """docs/lighting/tone.md names the shapes with the curve contrast, and the shapes with the curve soft."""
         page = " ".join((ROOT / "docs/lighting/tone.md").read_text().split())
         listed = [set(re.findall(r"[\w-]+", re.search(pattern, page)[1])) - {"and"} for pattern in (r"built-in shapes ([^.]*?) with their", r"The shapes ([^.]*?) are examples")]
         shapes = [line.split()[0] for line in self.good("shapes").stdout.decode().splitlines()]
         for shape in shapes:
-            for model, curve in (("blinn-phong", None), ("kajiya-kay", "none")):
+            for model, curve in (("blinn-phong", None), ("kajiya-kay", "soft")):
                 tone = self.explained(shape, "1,1", "-s", 8, "--reflection", model)["tone"]
-                self.assertEqual(tone, curve or ("contrast" if shape in listed[0] else "none"), shape)
+                self.assertEqual(tone, curve or ("contrast" if shape in listed[0] else "soft"), shape)
         self.assertEqual(listed[0] | listed[1], set(shapes))
 
     def test_text(self):
@@ -91,12 +91,12 @@ class Pages(Case):
                 alpha, exposure = total[3], rows["exposure"][0][0]
                 color = [exposure * x / alpha if alpha else 0 for x in total[:3]]
                 if "toned" in rows:
-                    color = [eval(python(rows["toned"][1].split(": ", 1)[1]), {"x": x, "min": min}) for x in color]
+                    color = [eval(python(rows["toned"][1].split(": ", 1)[1]), {"x": x, "min": min, "max": max}) for x in color]
                     self.assertLess(max(abs(a - b) for a, b in zip(color, rows["toned"][0])), 3e-6)
                 back = rows["background"][0]
                 whole = alpha + (1 - alpha) * back[3]
                 color = [(alpha * a + (1 - alpha) * back[3] * b) / whole if whole else 0 for a, b in zip(color, back)]
-                color = [eval(python(rows["encoded"][1].split(": ", 1)[1]), {"x": x, "min": min}) for x in color]
+                color = [eval(python(rows["encoded"][1].split(": ", 1)[1]), {"x": x, "min": min, "max": max}) for x in color]
                 for found, x in zip(rows["bytes"][0], [*color, whole]):
                     self.assertIn(found, (math.floor(255 * x + 0.499), math.floor(255 * x + 0.501)), (words, at, text))
 

@@ -70,6 +70,10 @@ struct raster_kernels {
     void (*depth_of_tile)(const struct raster_frame *raster, const struct tile_samples *samples,
                           const struct tile *tile, struct screen_occlusion *occlusion);
 
+    // Stores the hidden surfaces in a tile for ambient occlusion (struct screen_occlusion).
+    void (*layers_of_tile)(const struct raster_frame *raster, const struct tile *tile,
+                           struct screen_occlusion *occlusion);
+
     // Sums the fragments' colours in their pixels, weighted by samples, and writes the tile to the picture. If the tile
     // has translucent layers, they are blended over these sums. Pixels without fragments are set to
     // target->empty_pixel.

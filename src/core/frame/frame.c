@@ -269,21 +269,6 @@ static void leave_facets(struct frame *frame)
 // lines would appear between the faces.
 #define CONTRAST_CAVITY_RADIUS 0.02
 
-// Returns whether cavity shading lightens ridges. Returns false if a texture colours a drawn surface. Also returns
-// false if a classic material is white, because its ridges would become broad white stripes.
-static bool lightens_ridges(const struct frame *frame)
-{
-    for (int i = 0; i < frame->range_count; i++) {
-        const lam_material *m = frame->materials[frame->ranges[i].front];
-        const lam_mesh *mesh = frame->draws[frame->ranges[i].draw].mesh;
-        bool white = !m->physical && !(mesh && mesh->colors) && m->diffuse.r > 0.9f && m->diffuse.g > 0.9f &&
-                     m->diffuse.b > 0.9f;
-        if (m->maps[LAM_MAP_DIFFUSE] || white)
-            return false;
-    }
-    return true;
-}
-
 // Selects the method of ambient occlusion. Call this function after the lights are set.
 static void set_occlusion(struct frame *frame, const lam_scene *scene, bool physical)
 {
@@ -400,7 +385,6 @@ static void set_tone(struct frame *frame, const lam_scene *scene, bool physical)
     const bool contrast = settings->tone == LAM_TONE_CONTRAST;
     frame->narrow_valleys = contrast && scene_is_fine(scene);
     frame->deep_valleys = frame->narrow_valleys || (!physical && scene_form(scene) == FORM_FLAT);
-    frame->ridges = !contrast && lightens_ridges(frame);
     if (!lam_output_is_light(settings->output))
         settings->tone = LAM_TONE_NONE;
 }

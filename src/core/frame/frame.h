@@ -138,7 +138,6 @@ struct frame {
     float pixel_size;       // size of a pixel in eye units, at distance 1 (in an orthographic view, everywhere)
     float occlusion_radius; // radius of ambient occlusion in eye units; 0 disables it
     float cavity_radius;    // radius of cavity shading in eye units; 0 disables it
-    bool ridges;            // cavity shading lightens ridges
     bool narrow_valleys;    // cavity shading uses a smaller radius
     bool deep_valleys;      // cavity shading makes valleys darker
     bool widens_highlights; // whether highlights of physical materials are widened (lam_specular_aa)

@@ -69,6 +69,20 @@ FN vec3 khronos_neutral_tone(vec3 c)
     return pick3(peak < NEUTRAL_START, base, bright);
 }
 
+// Unchanged up to SOFT_START, and compressed towards 1 above, for each channel, so that strong light does not burn a
+// pale colour to plain white:
+//    1 - (1 - s)^2 / (x + 1 - 2 s)
+#define SOFT_START 0.85f
+
+FN num soft_curve(num x)
+{
+    num above = max_of(x, num_of(SOFT_START));
+    num pressed = 1.0f - (1.0f - SOFT_START) * (1.0f - SOFT_START) / (above + (1.0f - 2.0f * SOFT_START));
+    return pick(x < SOFT_START, x, pressed);
+}
+
+FN vec3 soft_tone(vec3 c) { return vec3_of(soft_curve(c.x), soft_curve(c.y), soft_curve(c.z)); }
+
 // The contrast of programs that display light without encoding it: about the light itself as the encoded value. Each
 // channel c becomes pivot (c / pivot)^2, which leaves the pivot as it is.
 #define CONTRAST_PIVOT 0.4f
@@ -94,7 +108,8 @@ FN vec3 saturate3(vec3 c) { return vec3_of(saturate(c.x), saturate(c.y), saturat
     X(ACES, aces_tone, "aces", "Hill's fit of ACES, docs/lighting/tone.md") \
     X(AGX, agx_tone, "agx", "AgX, docs/lighting/tone.md") \
     X(KHRONOS_NEUTRAL, khronos_neutral_tone, "khronos-neutral", "Khronos PBR Neutral, docs/lighting/tone.md") \
-    X(CONTRAST, contrast_tone, "contrast", "min(0.4 · (x / 0.4)², 1)")
+    X(CONTRAST, contrast_tone, "contrast", "min(0.4 · (x / 0.4)², 1)") \
+    X(SOFT, soft_tone, "soft", "min(x, 1 − 0.0225 / (max(x, 0.85) − 0.7))")
 // clang-format on
 
 // AUTO and NONE clip at 1.

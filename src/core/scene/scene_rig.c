@@ -50,12 +50,27 @@ static double grey_reflectance(const struct lam_scene *scene)
     return largest;
 }
 
-// Returns whether the studio is the only light and suits LAM_TONE_CONTRAST: the scene is a curved model or a terrain,
-// all materials are light grey without textures, and no mesh has colours. `ground`: as in lam_scene_rig_lights.
-static bool suits_contrast(const struct lam_scene *scene, lam_rig rig, bool ground)
+// Returns whether the studio is the only light.
+static bool studio_only(const struct lam_scene *scene, lam_rig rig)
 {
     bool studio = rig == LAM_RIG_STUDIO || (rig == LAM_RIG_AUTO && !scene_lit_by_environment(scene));
-    return studio && !ground && !scene->lights.count && grey_reflectance(scene) > 0 && scene_form(scene) != FORM_FLAT;
+    return studio && !scene->lights.count;
+}
+
+// Returns whether a scene that only the studio lights suits LAM_TONE_CONTRAST: the scene is a curved model or a terrain,
+// all materials are light grey without textures, and no mesh has colours. `ground`: as in lam_scene_rig_lights.
+static bool suits_contrast(const struct lam_scene *scene, bool ground)
+{
+    return !ground && grey_reflectance(scene) > 0 && scene_form(scene) != FORM_FLAT;
+}
+
+// Returns whether light colours all surfaces: no material is unlit, so that no colour must stay as it is.
+static bool all_lit(const struct lam_scene *scene)
+{
+    bool lit = true;
+    for (int i = 0; i < scene->materials.count; i++)
+        lit &= !lam_scene_material(scene, i)->unlit;
+    return lit;
 }
 
 static lam_rgb grey(double value) { return (lam_rgb){(float)value, (float)value, (float)value}; }
@@ -153,8 +168,11 @@ lam_tone lam_draw_tone(const lam_scene *scene, const lam_draw_params *params)
 {
     const lam_reflection_info *model =
         params->reflection == LAM_REFLECTION_AUTO ? NULL : lam_reflection_describe(params->reflection);
+    if (params->tone || params->color == LAM_COLOR_RAW || !scene || !studio_only(scene, params->rig) ||
+        (model && (model->microfacet || params->reflection == LAM_REFLECTION_NONE)))
+        return params->tone;
     // threads are bright far from the light's mirror direction, so the curve would make most of a solid white
-    bool contrast = (!model || !(model->microfacet || model->tangents)) && params->color != LAM_COLOR_RAW && scene &&
-                    suits_contrast(scene, params->rig, params->ground);
-    return params->tone || !contrast ? params->tone : LAM_TONE_CONTRAST;
+    if (suits_contrast(scene, params->ground) && !(model && model->tangents))
+        return LAM_TONE_CONTRAST;
+    return all_lit(scene) ? LAM_TONE_SOFT : LAM_TONE_AUTO;
 }

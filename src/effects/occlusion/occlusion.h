@@ -28,19 +28,21 @@ struct screen_occlusion {
     float pixel_size;    // size of a pixel in eye units, at distance 1 (in an orthographic view, everywhere)
     float radius;        // radius of occlusion in eye units; 0 disables occlusion at this radius
     float cavity_radius; // radius of cavity shading (lam_cavity)
-    bool ridges;         // whether cavity shading lightens ridges
-    bool deepens;        // whether cavity shading darkens valleys with the sixth power instead of the third
+    bool deepens;        // whether cavity shading darkens valleys with the third power of their light
     // The distance of the visible surface in front of the eye at each pixel, or SCREEN_EMPTY: one plane for each pixel
     // of a cell (screen_pixel). The caller fills `depth`; screen_occlusion_start writes SCREEN_EMPTY around the
     // picture.
     float *depth;
+    // For each cell, the signed distances of the nearest SCREEN_LAYERS surfaces at its first pixel, nearest first: back
+    // faces are negative. The caller fills them. SCREEN_EMPTY: no further surface.
+    float *layers;
     float *cell_depth; // for each cell, the depth of the first pixel that shows a surface
     // The slope of each cell's surface, computed together with the occlusion: the change of the distance from one cell
     // to the next.
     float *slope_x, *slope_y;
-    float *noisy, *smoothed; // before the filter, and after its first pass
+    float *noisy, *smoothed; // before and after the filter
     // The result, in the order of `depth` (with step 2, in the memory of `depth`): 1 if all surrounding light arrives,
-    // 0 if none does, above 1 on ridges.
+    // 0 if none does.
     float *unoccluded;
 };
 
@@ -49,6 +51,7 @@ struct screen_occlusion {
 
 enum {
     SCREEN_FINE = 768 * 768,
+    SCREEN_LAYERS = 3,
     OCCLUSION_ROWS = 16, // rows per task
 };
 

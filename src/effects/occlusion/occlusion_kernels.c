@@ -5,18 +5,20 @@
 #include "occlusion_pattern.h"
 #include "prelude_c.h"
 
-enum { STEPS = 4, ROTATIONS = 16 };
+enum { STEPS = 12, CAVITY_STEPS = 4, SECTORS = 30, ROTATIONS = 16 };
 
 // The minimum radius of cavity shading in cells, which keeps it visible in small pictures.
 #define CAVITY_CELLS 3.0f
-// Ridges are narrow lines and need a larger radius; otherwise they contain too few samples and break into dashes.
-#define RIDGE_CELLS 10.0f
-// The gain of surrounding light at the sharpest ridge.
-#define RIDGE_GAIN 0.7f
+// The thickness of a surface without a back, as a share of the radius.
+#define SHEET 0.5f
+
+// Samples lower than this share of their distance from the point block less than half a byte.
+#define LOW 0.05f
 
 // The positions of a slice's samples, as fractions of the radius: closer together near the point, where most occluders
-// are.
-static const float step_share[STEPS] = {0.1f, 0.25f, 0.45f, 0.7f};
+// are. Cavity shading uses every third.
+static const float step_share[STEPS] = {0.012f, 0.054f, 0.111f, 0.178f, 0.253f, 0.335f,
+                                        0.424f, 0.518f, 0.617f, 0.721f, 0.829f, 0.942f};
 
 // The rotation of each pixel of the 4 x 4 pattern, in sixteenths of half a turn, and the shift of its steps. Neighbours
 // differ greatly (Bayer's matrix and its transpose).
@@ -32,7 +34,7 @@ static const float cosines[ROTATIONS] = {
 
 // A row of the pattern for LANES cells, which may begin at any of its four columns.
 struct pattern_row {
-    float cosine[LANES + 3], sine[LANES + 3], share[STEPS][LANES + 3];
+    float cosine[LANES + 3], sine[LANES + 3], share[STEPS][LANES + 3], shift[LANES + 3], length[LANES + 3];
 };
 
 static void fill_pattern_row(struct pattern_row *row, int y)
@@ -41,9 +43,20 @@ static void fill_pattern_row(struct pattern_row *row, int y)
         int place = (x & 3) + 4 * (y & 3), rotation = rotation_of[place];
         row->cosine[x] = cosines[rotation];
         row->sine[x] = cosines[rotation < 8 ? 8 - rotation : rotation - 8];
+        row->shift[x] = ((float)rotation_of[(place * 5 + 3) & 15] + 0.5f) / 16.0f;
+        row->length[x] = 1.0f - OCCLUSION_FADING * ((float)rotation_of[(place * 3 + 7) & 15] + 0.5f) / 16.0f;
         for (int i = 0; i < STEPS; i++)
-            row->share[i][x] = step_share[i] * (1.0f + 0.55f * jitter_of[place]);
+            row->share[i][x] = step_share[i] * (1.0f + 0.22f * jitter_of[place]);
     }
+}
+
+LANE_FN inum bits_set(inum bits)
+{
+    bits = bits - ((bits >> 1) & 0x55555555);
+    bits = (bits & 0x33333333) + ((bits >> 2) & 0x33333333);
+    bits = (bits + (bits >> 4)) & 0x0f0f0f0f;
+    bits = bits + (bits >> 8);
+    return (bits + (bits >> 16)) & 63;
 }
 
 // Returns the angle of a cosine in -1...1, within 7e-5 (Abramowitz and Stegun, 4.4.45).
@@ -81,55 +94,6 @@ LANE_FN vec3 screen_normal(const struct screen_occlusion *o, num column, num row
     return unit3(cross3(below, right));
 }
 
-// The samples of a slice: steps of LANES cells, in cells along the longer axis of its direction.
-struct slice {
-    num column, row, step_x, step_y;
-    num share[STEPS]; // fraction of the step
-    num radius;       // eye units
-};
-
-// The share of light that one side occludes, and the side's depth below the surface's plane: sin² of the elevation.
-struct side {
-    num taken, fallen;
-};
-
-// Returns the share of one side's light that its samples occlude, as if the surface were seen from straight above. With
-// the elevation e over the surface's plane, the share is sin² e up to the zenith and 2 − sin² e beyond the zenith (0 …
-// 2), times the weight of the sample's distance. `up` is the normal divided by the length of its projection to the
-// slice, and `along` is the direction to that side in both planes. Elevations are relative to the plane and not to the
-// view direction, because samples are at whole cells, slightly beside the slice. The elevation of samples on the plane
-// itself is then 0.
-LANE_FN struct side side_of(const struct screen_occlusion *o, vec3 p, vec3 up, vec3 along, const struct slice *slice,
-                            float side, bool ridges)
-{
-    num most = num_of(0.0f), fallen = num_of(0.0f), band = 1.0f / (OCCLUSION_FADING * slice->radius);
-    float cell = (float)o->step;
-    float middle_x = 0.5f * (float)(o->width - 1), middle_y = 0.5f * (float)(o->height - 1);
-    num last_column = num_of((float)(o->grid_width - 1)), last_row = num_of((float)(o->grid_height - 1));
-    for (int i = 0; i < STEPS; i++) {
-        num share = side * slice->share[i];
-        inum x = int_of(min_of(positive(slice->column + slice->step_x * share), last_column));
-        inum y = int_of(min_of(positive(slice->row + slice->step_y * share), last_row));
-        num depth = gather_float(o->cell_depth, y * o->stride + x);
-        num scale = o->orthographic ? num_of(o->pixel_size) : depth * o->pixel_size;
-        vec3 d = vec3_of((cell * num_of_int(x) - middle_x) * scale - p.x,
-                         (middle_y - cell * num_of_int(y)) * scale - p.y, -depth - p.z);
-        // An error of a thousandth of the distance is acceptable. Without a surface, the weight is 0.
-        num square = dot3(d, d), inverse = rsqrt_near(square);
-        num weight = saturate((slice->radius - square * inverse) * band);
-        num height = dot3(d, up) * inverse, below = min_of(height, num_of(0.0f));
-        if (ridges)
-            fallen = max_of(fallen, min_of(below * below, num_of(1.0f)) * weight);
-        num sine = positive(height), taken = min_of(sine * sine, num_of(1.0f));
-        // Samples beyond the zenith occlude less if they are low over the plane, because they may be the plane itself
-        // beside the slice.
-        num cosine = min_of(side * dot3(d, along) * inverse, num_of(0.0f));
-        taken = taken + 2.0f * (cosine * cosine) * min_of(4.0f * taken, num_of(1.0f));
-        most = max_of(most, taken * weight);
-    }
-    return (struct side){most, fallen};
-}
-
 // Returns the light of a slice up to the horizon at angle h from the view vector; c and s are the cosine and the sine
 // of h. The light is the integral of the cosine to the normal at angle n, weighted by the distance between slices,
 // times 4. h and n have the same sign convention.
@@ -137,19 +101,6 @@ LANE_FN num slice_light(num h, num c, num s, num cos_n, num sin_n)
 {
     num cos_both = (2.0f * (c * c) - 1.0f) * cos_n + 2.0f * (s * c) * sin_n; // cos(2 h - n)
     return cos_n + 2.0f * (h * sin_n) - cos_both;
-}
-
-// The elevation that blocks a given share of a side's light (side_taken), and its angle from the zenith.
-struct horizon {
-    num sine, cosine, zenith;
-};
-
-LANE_FN struct horizon horizon_of(num taken)
-{
-    num rest = 1.0f - taken, size = min_of(absolute(rest), num_of(1.0f));
-    num cosine = square_root(size);
-    cosine = pick(rest < 0.0f, -cosine, cosine);
-    return (struct horizon){square_root(1.0f - size), cosine, 1.57079633f - angle_of(cosine)};
 }
 
 // LANES cells from column x: their surfaces, and their angles to the plane of each cell's slice.
@@ -171,8 +122,22 @@ LANE_FN struct cell_surface cell_surface_at(const struct screen_occlusion *o, co
     vec3 v = o->orthographic ? vec3_of(num_of(0.0f), num_of(0.0f), num_of(1.0f)) : unit3(negate3(c.p));
     float cell = (float)o->step * o->pixel_size;
     c.cell = o->orthographic ? num_of(cell) : depth * cell;
+    // On a surface that the eye sees at a grazing angle, the slices along the tilt receive most of the light: the angles
+    // between the slices are squeezed towards the tilt, so that each slice has the same weight.
+    num facing = min_of(positive(dot3(n, v)), num_of(1.0f)), tilt_x = n.x - v.x * facing, tilt_y = v.y * facing - n.y;
+    num tilt = tilt_x * tilt_x + tilt_y * tilt_y, tilt_inverse = rsqrt_near(tilt);
+    tilt_x = tilt_x * tilt_inverse;
+    tilt_y = tilt_y * tilt_inverse;
+    num slant = square_root(1.0f - facing * facing);
+    num squeeze = square_root(facing / max_of(facing + angle_of(facing) * slant, num_of(1.0e-6f)));
     c.cosine = num_load(pattern->cosine + (x & 3));
     c.sine = num_load(pattern->sine + (x & 3));
+    num parallel = (c.cosine * tilt_x + c.sine * tilt_y) * (1.0f - squeeze);
+    c.cosine = c.cosine * squeeze + tilt_x * parallel;
+    c.sine = c.sine * squeeze + tilt_y * parallel;
+    num unit = rsqrt(c.cosine * c.cosine + c.sine * c.sine);
+    c.cosine = c.cosine * unit;
+    c.sine = c.sine * unit;
     // The slice's plane contains v and `way`, which points to the right or down in the picture.
     vec3 way = vec3_of(c.cosine, -c.sine, num_of(0.0f));
     vec3 beside = unit3(sub3(way, scale3(v, dot3(way, v)))), axis = cross3(beside, v);
@@ -188,36 +153,116 @@ LANE_FN struct cell_surface cell_surface_at(const struct screen_occlusion *o, co
     return c;
 }
 
-// Returns the share of the surrounding light that surfaces within `radius` do not block, for LANES cells from column x;
-// with `ridges`, ridges are lightened by `gain`.
-LANE_FN num unoccluded_at(const struct screen_occlusion *o, const struct pattern_row *pattern, int x, int y,
-                          const struct cell_surface *c, num radius, bool ridges, num gain)
+// --- the sectors of a slice that the surfaces of all layers block (Therrien, Levesque and Gilet,
+// "Screen Space Indirect Lighting with Visibility Bitmask", 2023)
+
+// A sector's share of the light is the same for all sectors: the integral of the cosine to the normal, weighted by the
+// distance between slices. Sectors are numbered from the horizon behind to the horizon ahead.
+struct sectors {
+    num middle, scale; // the number at the view vector, and sectors per unit of slice_light
+    num shift;         // rounds up as many numbers as it rounds down, on average over the pattern
+};
+
+LANE_FN struct sectors sectors_of(const struct cell_surface *c, num shift)
 {
-    num reach =
-        min_of(radius / c->cell, num_of((float)(o->grid_width > o->grid_height ? o->grid_width : o->grid_height)));
-    struct slice slice = {num_of_int(lane_numbers() + x) + 0.5f,
-                          num_of((float)y) + 0.5f,
-                          c->cosine * reach,
-                          c->sine * reach,
-                          {num_of(0.0f)},
-                          radius};
-    num longer = max_of(max_of(absolute(slice.step_x), absolute(slice.step_y)), num_of(1.0e-6f));
-    num one_cell = 1.0f / longer;
-    for (int i = 0; i < STEPS; i++) // at least one cell further than the previous step
-        slice.share[i] = max_of(num_load(pattern->share[i] + (x & 3)), (float)(i + 1) * one_cell);
-    struct side sides[2] = {side_of(o, c->p, c->up, c->along, &slice, 1.0f, ridges),
-                            side_of(o, c->p, c->up, c->along, &slice, -1.0f, ridges)};
-    struct horizon ahead = horizon_of(sides[0].taken), behind = horizon_of(sides[1].taken);
-    // The horizons are rotated into the slice, in which the surface's plane is at angle_n + pi/2 ahead and angle_n -
-    // pi/2 behind.
-    num light_ahead = slice_light(c->angle_n + ahead.zenith, ahead.sine * c->cos_n - ahead.cosine * c->sin_n,
-                                  ahead.sine * c->sin_n + ahead.cosine * c->cos_n, c->cos_n, c->sin_n);
-    num light_behind = slice_light(c->angle_n - behind.zenith, behind.sine * c->cos_n + behind.cosine * c->sin_n,
-                                   behind.sine * c->sin_n - behind.cosine * c->cos_n, c->cos_n, c->sin_n);
-    num light = c->length * (light_ahead + light_behind);
-    num all = c->length * (4.0f * (c->cos_n + c->angle_n * c->sin_n));
-    num share = pick(all > 0.0f, saturate(light / all), num_of(1.0f));
-    return ridges ? share * (1.0f + 0.5f * gain * (sides[0].fallen + sides[1].fallen)) : share;
+    num scale = (float)SECTORS / (4.0f * (c->cos_n + c->angle_n * c->sin_n));
+    num behind = 2.0f * c->cos_n + (2.0f * c->angle_n - 3.14159265f) * c->sin_n;
+    return (struct sectors){scale * behind, scale, shift};
+}
+
+// Returns the number of the sector of a point at d from the cell's surface, ahead (side 1) or behind (side -1). Points
+// below the surface's plane are at the horizon.
+LANE_FN inum sector_of(const struct cell_surface *c, const struct sectors *sectors, vec3 d, float side)
+{
+    num inverse = rsqrt_near(dot3(d, d));
+    num sine = min_of(positive(dot3(d, c->up) * inverse), num_of(1.0f));
+    num cosine = square_root(1.0f - sine * sine), zenith = angle_of(sine);
+    mask over = both(sine > 0.0f, side * dot3(d, c->along) < 0.0f); // beyond the zenith
+    cosine = pick(over, -cosine, cosine);
+    num n = side * c->angle_n, sin_n = side * c->sin_n, h = n + pick(over, -zenith, zenith);
+    num light = slice_light(h, sine * c->cos_n - cosine * sin_n, sine * sin_n + cosine * c->cos_n, c->cos_n, sin_n);
+    num number = sectors->middle + side * sectors->scale * pick(h > 0.0f, light, num_of(0.0f)) + sectors->shift;
+    return int_of(min_of(positive(number), num_of((float)SECTORS)));
+}
+
+// The surfaces behind a sample, as seen from a cell: the direction to the sample at distance 1 (or in an orthographic
+// view the sample at distance 0), the distances between which surfaces are inside the radius, the thickness of surfaces
+// without a back, and the least height that matters.
+struct column {
+    num x, y, nearest, farthest, thickness, low;
+    inum at; // the position in a layer
+};
+
+LANE_FN vec3 from_cell(const struct screen_occlusion *o, const struct cell_surface *c, const struct column *s,
+                       num distance)
+{
+    num scale = o->orthographic ? num_of(1.0f) : distance;
+    return sub3(vec3_of(s->x * scale, s->y * scale, -distance), c->p);
+}
+
+// Returns a bit for each sector that the column's surfaces block. Between a front and the following back, a body is
+// solid. A surface without a back, and the surfaces around an eye inside a body (`hollow`), have a thickness.
+LANE_FN inum blocked_by(const struct screen_occlusion *o, const struct cell_surface *c, const struct sectors *sectors,
+                        const struct column *s, mask hollow, float side)
+{
+    inum blocked = inum_of(0), one = inum_of(1);
+    num here = gather_float(o->layers, s->at);
+    // The first surface is the highest over the cell's plane.
+    num nearest = max_of(absolute(here), s->nearest);
+    mask over = both(nearest<s->farthest, dot3(from_cell(o, c, s, nearest), c->up)> s->low);
+    if (!any_lane(over))
+        return blocked;
+    mask inside = num_of(1.0f) < 0.0f; // between a front and its back
+    for (int k = 1; k <= SCREEN_LAYERS; k++) {
+        num next = k < SCREEN_LAYERS ? gather_float(o->layers + (size_t)k * o->plane, s->at) : num_of(SCREEN_EMPTY);
+        mask solid = both(negate(hollow), both(here > 0.0f, next < 0.0f));
+        num start = absolute(here), end = pick(solid, -next, start + s->thickness);
+        mask used = both(both(over, negate(inside)), both(start<s->farthest, end> s->nearest));
+        if (any_lane(used)) {
+            inum a = sector_of(c, sectors, from_cell(o, c, s, max_of(start, s->nearest)), side);
+            inum b = sector_of(c, sectors, from_cell(o, c, s, min_of(end, s->farthest)), side);
+            inum bits = (one << imax_of(a, b)) - (one << imin_of(a, b));
+            blocked = blocked | ipick(used, bits, inum_of(0));
+        }
+        if (!any_lane(absolute(next) < s->farthest))
+            break;
+        inside = solid;
+        here = next;
+    }
+    return blocked;
+}
+
+// Returns the share of the surrounding light that surfaces within the radius do not block. Every `stride`th step is used.
+LANE_FN num unblocked_at(const struct screen_occlusion *o, const struct pattern_row *pattern, int x, int y,
+                         const struct cell_surface *c, num depth, num radius, int stride)
+{
+    int at = x & 3, longest = o->grid_width > o->grid_height ? o->grid_width : o->grid_height;
+    num length = num_load(pattern->length + at) * radius;
+    num reach = min_of(length / c->cell, num_of((float)longest)), step_x = c->cosine * reach, step_y = c->sine * reach;
+    num one_cell = 1.0f / max_of(max_of(absolute(step_x), absolute(step_y)), num_of(1.0e-6f)), share = num_of(0.0f);
+    num column = num_of_int(lane_numbers() + x), row = num_of((float)y), cell = num_of((float)o->step);
+    num last_column = num_of((float)(o->grid_width - 1)), last_row = num_of((float)(o->grid_height - 1));
+    struct sectors sectors = sectors_of(c, num_load(pattern->shift + at));
+    mask hollow = num_load(o->layers + (size_t)y * (size_t)o->stride + (size_t)x) < 0.0f;
+    inum blocked = inum_of(0);
+    for (int i = stride / 2; i < STEPS; i += stride) {
+        share = max_of(num_load(pattern->share[i] + at), share + one_cell); // at least one cell further
+        for (float side = 1.0f; side >= -1.0f; side -= 2.0f) {
+            inum to_x = int_of(min_of(positive(column + 0.5f + side * step_x * share), last_column));
+            inum to_y = int_of(min_of(positive(row + 0.5f + side * step_y * share), last_row));
+            num across = (num_of_int(to_x) - column) * c->cell, down = (num_of_int(to_y) - row) * c->cell;
+            num square = length * length - (across * across + down * down), half = square_root(positive(square));
+            struct column s = {(cell * num_of_int(to_x) - 0.5f * (float)(o->width - 1)) * o->pixel_size,
+                               (0.5f * (float)(o->height - 1) - cell * num_of_int(to_y)) * o->pixel_size,
+                               depth - half,
+                               depth + half,
+                               SHEET * radius,
+                               LOW * share * length,
+                               to_y * o->stride + to_x};
+            blocked = blocked | blocked_by(o, c, &sectors, &s, hollow, side);
+        }
+    }
+    return 1.0f - num_of_int(bits_set(blocked)) * (1.0f / (float)SECTORS);
 }
 
 // Combines the light at both radii.
@@ -227,15 +272,11 @@ LANE_FN num light_from_around(const struct screen_occlusion *o, const struct pat
     struct cell_surface c = cell_surface_at(o, pattern, x, y, depth, across, down);
     num share = num_of(1.0f);
     if (o->radius > 0)
-        share = unoccluded_at(o, pattern, x, y, &c, num_of(o->radius), false, num_of(0.0f));
+        share = unblocked_at(o, pattern, x, y, &c, depth, num_of(o->radius), 1);
     if (o->cavity_radius > 0) {
-        num radius = num_of(o->cavity_radius), cells = radius / c.cell;
-        num gain = (o->ridges ? RIDGE_GAIN : 0) * saturate((cells - CAVITY_CELLS) / (RIDGE_CELLS - CAVITY_CELLS));
-        num cavity = unoccluded_at(o, pattern, x, y, &c, max_of(radius, CAVITY_CELLS * c.cell), true, gain);
-        num valley = min_of(cavity, num_of(1.0f));
-        share = share * (cavity * cavity * valley);
-        if (o->deepens)
-            share = share * (valley * valley * valley);
+        num radius = max_of(num_of(o->cavity_radius), CAVITY_CELLS * c.cell);
+        num valley = unblocked_at(o, pattern, x, y, &c, depth, radius, STEPS / CAVITY_STEPS);
+        share = share * (o->deepens ? valley * valley * valley : valley);
     }
     return share;
 }
@@ -286,66 +327,39 @@ static void occlude_rows(const struct screen_occlusion *o, int first, int end)
     }
 }
 
-// --- the filter: five cells across, then down; the outer cells have half weight, so that each position of the pattern
-// has the same total weight
+// --- the filter: five by five cells; the outer cells have half weight, so that each position of the pattern has the
+// same total weight. Neighbours are weighted by how closely their depths match the surface, continued with its slopes.
 
-// Adds a neighbour. Its weight depends on how closely its depth matches the surface, continued with this slope.
-LANE_FN void add_neighbour(num *sum, num *weights, num value, num depth, num here, num slope, float offset,
-                           num tolerance)
-{
-    float part = offset == 2.0f || offset == -2.0f ? 0.5f : 1.0f;
-    num deviation = absolute(depth - (here + slope * offset));
-    // In a scene as large as SCREEN_EMPTY, a pixel without a surface may appear to be on this surface.
-    num weight = pick(depth < SCREEN_EMPTY, part * saturate(2.0f - deviation * tolerance), num_of(0.0f));
-    *sum = *sum + weight * value;
-    *weights = *weights + weight;
-}
-
-// Returns the inverse of the distance from the surface at which a neighbour's weight is one half.
-LANE_FN num filter_tolerance(const struct screen_occlusion *o, num depth, num slope)
+static void smooth_rows(const struct screen_occlusion *o, int first, int end)
 {
     float cell = (float)o->step * o->pixel_size;
-    return 1.0f / (2.0f * (o->orthographic ? num_of(cell) : depth * cell) + absolute(slope));
-}
-
-static void smooth_rows_across(const struct screen_occlusion *o, int first, int end)
-{
     for (int y = first; y < end; y++) {
         size_t row = row_at(o, y);
-        const float *depth = o->cell_depth + row, *noisy = o->noisy + row;
         for (int x = 0; x < o->grid_width; x += LANES) {
-            num here = num_load(depth + x), value = num_load(noisy + x);
+            num here = num_load(o->cell_depth + row + x), value = num_load(o->noisy + row + x);
             if (any_lane(here < SCREEN_EMPTY)) {
-                num slope = num_load(o->slope_x + row + x), tolerance = filter_tolerance(o, here, slope);
-                num sum = value, weights = num_of(1.0f);
-                for (int offset = -2; offset <= 2; offset++)
-                    if (offset != 0)
-                        add_neighbour(&sum, &weights, num_load(noisy + x + offset), num_load(depth + x + offset), here,
-                                      slope, (float)offset, tolerance);
-                value = sum / weights;
+                num across = num_load(o->slope_x + row + x), down = num_load(o->slope_y + row + x);
+                // the inverse of the deviation at which a neighbour's weight is one half
+                num inverse = 1.0f / (0.8f * (o->orthographic ? num_of(cell) : here * cell) +
+                                      0.5f * max_of(absolute(across), absolute(down)));
+                num sum = num_of(0.0f), weights = num_of(0.0f);
+                for (int dy = -2; dy <= 2; dy++) {
+                    size_t at = row_at(o, y + dy) + (size_t)x;
+                    num middle = here + down * (float)dy;
+                    for (int dx = -2; dx <= 2; dx++) {
+                        float part = (dx * dx == 4 ? 0.5f : 1.0f) * (dy * dy == 4 ? 0.5f : 1.0f);
+                        num depth = num_load(o->cell_depth + at + dx);
+                        num deviation = absolute(depth - (middle + across * (float)dx)) * inverse;
+                        // In a scene as large as SCREEN_EMPTY, a pixel without a surface may appear to be on this
+                        // surface.
+                        num weight = pick(depth < SCREEN_EMPTY, part * saturate(2.0f - deviation), num_of(0.0f));
+                        sum = sum + weight * num_load(o->noisy + at + dx);
+                        weights = weights + weight;
+                    }
+                }
+                value = pick(weights > 0.0f, sum / weights, value);
             }
             num_store(o->smoothed + row + x, value);
-        }
-    }
-}
-
-static void smooth_rows_down(const struct screen_occlusion *o, int first, int end)
-{
-    for (int y = first; y < end; y++) {
-        size_t row = row_at(o, y);
-        for (int x = 0; x < o->grid_width; x += LANES) {
-            num here = num_load(o->cell_depth + row + x), value = num_load(o->smoothed + row + x);
-            if (any_lane(here < SCREEN_EMPTY)) {
-                num slope = num_load(o->slope_y + row + x), tolerance = filter_tolerance(o, here, slope);
-                num sum = value, weights = num_of(1.0f);
-                for (int offset = -2; offset <= 2; offset++)
-                    if (offset != 0)
-                        add_neighbour(&sum, &weights, num_load(o->smoothed + row_at(o, y + offset) + x),
-                                      num_load(o->cell_depth + row_at(o, y + offset) + x), here, slope, (float)offset,
-                                      tolerance);
-                value = sum / weights;
-            }
-            num_store(o->noisy + row + x, value);
         }
     }
 }
@@ -365,7 +379,7 @@ LANE_FN num beside_surfaces(const struct screen_occlusion *o, int x, int y)
         for (int across = -1; across <= 1; across++) {
             size_t row = row_at(o, y + down);
             mask shown = num_load(o->cell_depth + row + x + across) < SCREEN_EMPTY;
-            sum = sum + pick(shown, num_load(o->noisy + row + x + across), num_of(0.0f));
+            sum = sum + pick(shown, num_load(o->smoothed + row + x + across), num_of(0.0f));
             count = count + pick(shown, num_of(1.0f), num_of(0.0f));
         }
     return pick(count > 0.0f, sum / max_of(count, num_of(1.0f)), num_of(1.0f));
@@ -381,7 +395,7 @@ LANE_FN struct cell_lanes cells_at(const struct screen_occlusion *o, size_t at)
 {
     struct cell_lanes c = {num_load(o->cell_depth + at), num_load(o->slope_x + at),
                            num_load(o->slope_y + at),    num_of(0.0f),
-                           num_load(o->noisy + at),      num_load(o->cell_depth + at) < SCREEN_EMPTY};
+                           num_load(o->smoothed + at),   num_load(o->cell_depth + at) < SCREEN_EMPTY};
     c.slopes = absolute(c.across) + absolute(c.down);
     return c;
 }
@@ -453,7 +467,7 @@ static void pixel_rows(const struct screen_occlusion *o, int first, int end)
             if (pixels > 1 && !all_lanes(none))
                 pixels_between(o, at, here, y + 1 == o->grid_height, value);
             else
-                value[0] = num_load(o->noisy + at);
+                value[0] = num_load(o->smoothed + at);
             for (int i = 0; i < pixels; i++) {
                 value[i] = all_lanes(none) ? beside : pick(here[i] < SCREEN_EMPTY, value[i], beside);
                 num_store(o->unoccluded + (size_t)i * o->plane + at, value[i]);
@@ -461,5 +475,4 @@ static void pixel_rows(const struct screen_occlusion *o, int first, int end)
         }
 }
 
-const struct occlusion_kernels FOR_ISA(occlusion_kernels) = {cell_rows, occlude_rows, smooth_rows_across,
-                                                             smooth_rows_down, pixel_rows};
+const struct occlusion_kernels FOR_ISA(occlusion_kernels) = {cell_rows, occlude_rows, smooth_rows, pixel_rows};

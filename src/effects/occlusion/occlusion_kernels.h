@@ -6,13 +6,12 @@
 #include "occlusion.h"
 
 // The steps for the rows of cells from `first` to `end` − 1:
-// the depths of the cells (with step 2), their occlusion, the two passes of the filter, and the pixels of the cells.
+// the depths of the cells (with step 2), their occlusion, the filter, and the pixels of the cells.
 // Each step processes all rows before the next step begins.
 struct occlusion_kernels {
     void (*cell_rows)(const struct screen_occlusion *occlusion, int first, int end);
     void (*occlude_rows)(const struct screen_occlusion *occlusion, int first, int end);
-    void (*smooth_rows_across)(const struct screen_occlusion *occlusion, int first, int end);
-    void (*smooth_rows_down)(const struct screen_occlusion *occlusion, int first, int end);
+    void (*smooth_rows)(const struct screen_occlusion *occlusion, int first, int end);
     void (*pixel_rows)(const struct screen_occlusion *occlusion, int first, int end);
 };
 

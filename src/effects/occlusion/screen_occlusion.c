@@ -50,14 +50,15 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
     int across = (frame->width + step - 1) / step, down = (frame->height + step - 1) / step;
     int stride = (across + LANES_MAX - 1) / LANES_MAX * LANES_MAX + 2 * LANES_MAX;
     size_t plane = (size_t)stride * (size_t)down, pixels = (size_t)(step * step) * plane;
+    size_t layers = SCREEN_LAYERS * plane;
     float *planes[CELL_PLANES] = {0};
     // With step 1, the last plane stores the result, which is read until the picture is complete.
     int own = place_planes(planes, step > 1 ? CELL_PLANES : CELL_PLANES - 1, plane * sizeof(float), lent, lent_count);
-    if (!buffer_reserve(storage, (pixels + (size_t)own * plane) * sizeof(float), call, error))
+    if (!buffer_reserve(storage, (pixels + layers + (size_t)own * plane) * sizeof(float), call, error))
         return false;
-    float *depth = storage->data, *at = depth + pixels;
-    struct emptying emptying = {depth, pixels, call};
-    pool_run(pool, (pixels + CHUNK - 1) / CHUNK, empty_chunk, &emptying);
+    float *depth = storage->data, *at = depth + pixels + layers;
+    struct emptying emptying = {depth, pixels + layers, call};
+    pool_run(pool, (pixels + layers + CHUNK - 1) / CHUNK, empty_chunk, &emptying);
     if (!call_should_continue(call))
         return call_error(call, error);
     for (int k = 0; k < CELL_PLANES; k++) {
@@ -77,7 +78,6 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                                            .pixel_size = frame->pixel_size,
                                            .radius = frame->occlusion_radius,
                                            .cavity_radius = frame->cavity_radius,
-                                           .ridges = frame->ridges,
                                            .deepens = frame->deep_valleys,
                                            .slope_x = planes[0],
                                            .slope_y = planes[1],
@@ -85,6 +85,7 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                                            .smoothed = planes[3],
                                            .cell_depth = step > 1 ? planes[4] : depth,
                                            .depth = depth,
+                                           .layers = depth + pixels,
                                            .unoccluded = step > 1 ? depth : planes[4]};
     return true;
 }
@@ -138,7 +139,6 @@ void screen_occlusion_find(struct screen_occlusion *occlusion, int lanes, struct
     if (occlusion->step > 1)
         pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->cell_rows, call});
     pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->occlude_rows, call});
-    pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->smooth_rows_across, call});
-    pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->smooth_rows_down, call});
+    pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->smooth_rows, call});
     pool_run(pool, chunks, run_rows, &(struct pass){occlusion, kernels->pixel_rows, call});
 }

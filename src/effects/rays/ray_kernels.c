@@ -54,7 +54,8 @@ static void turned_axes(const struct occlusion_pattern *pattern, uint32_t turn, 
     }
 }
 
-// Returns the fraction of a point's rays that are not blocked. `longest` is the length of the longest ray, `turn` is
+// Returns the fraction of a point's rays that are not blocked. The rays start in the triangle's plane, like their
+// hemisphere, not at the smooth surface above it (ray_starts.c), which would miss surfaces nearby. `longest` is the length of the longest ray, `turn` is
 // the rotation of the pattern, and `shift` (0…1) shifts the lengths of the rays.
 static float unoccluded_by_rays(struct light_rays *rays, const struct ray_starts *starts, int at, const double n[3],
                                 double longest, uint32_t turn, double shift)
@@ -66,7 +67,7 @@ static float unoccluded_by_rays(struct light_rays *rays, const struct ray_starts
     turned_axes(pattern, turn, n, u, v);
     for (int part = 0; part < LANES; part += DLANES)
         for (int i = 0; i < 3; i++) {
-            dnum_store(ray.origin[i] + part, dnum_of(starts->origin[i][at]));
+            dnum_store(ray.origin[i] + part, dnum_of(starts->point[i][at]));
             dnum_store(ray.point[i] + part, dnum_of(starts->point[i][at]));
         }
     inum_store(ray.own, inum_of(starts->own[at]));

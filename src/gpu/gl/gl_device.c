@@ -49,7 +49,9 @@ static void choices_of(const struct gl_frame *f, const struct frame_draw_range *
     c->version = f->device->context.es ? GLSL_300_ES : GLSL_330;
     c->storage = f->storage;
     c->encoding = GLSL_PREMULTIPLIED;
-    c->layer = !f->layered ? GLSL_NO_LAYERS : range_blends(f->frame, range) ? GLSL_PEELS : GLSL_WRITES_DEPTH_IDS;
+    c->layer = !f->layered                                          ? GLSL_NO_LAYERS
+               : f->surface_layers || range_blends(f->frame, range) ? GLSL_PEELS
+                                                                    : GLSL_WRITES_DEPTH_IDS;
     c->transmits = c->layer == GLSL_PEELS && f->frame->transmits;
     c->products = true;
     c->occlusion = f->occlusion && (!range->translucent || ground);
@@ -282,31 +284,45 @@ static bool draw_frame(struct gl_frame *f, lam_error *error)
     return draw_parts(f, error) && check_errors(f, error);
 }
 
-// Draws the distances of the frame's opaque surfaces, and computes the ambient occlusion from these distances.
-static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusion, lam_error *error)
+// Draws the distances of the frame's opaque surfaces: of the visible ones, or the signed distances of the nearest
+// `layers` surfaces, one in each channel.
+static bool draw_distances(struct gl_frame *f, int layers, lam_image *image, struct buffer *pixels, lam_error *error)
 {
     struct frame distances = *f->frame; // a copy that shares the frame's arrays
     distances.settings.output = LAM_OUTPUT_DEPTH;
     distances.settings.occlusion = LAM_OCCLUSION_OFF;
     distances.translucent = distances.masked = distances.environment_lights = distances.settings.shadows = false;
-    struct buffer pixels = {0};
+    distances.transmits = false;
     size_t stride = (size_t)distances.width * 4 * sizeof(float);
-    if (!buffer_reserve(&pixels, stride * (size_t)distances.height, f->call, error))
+    if (!buffer_reserve(pixels, stride * (size_t)distances.height, f->call, error))
         return false;
-    lam_image image = {.width = distances.width,
-                       .height = distances.height,
-                       .format = LAM_RGBA32F,
-                       .stride = stride,
-                       .pixels = pixels.data};
+    *image = (lam_image){.width = distances.width,
+                         .height = distances.height,
+                         .format = LAM_RGBA32F,
+                         .stride = stride,
+                         .pixels = pixels->data};
     struct gl_frame g = {.device = f->device,
                          .gl = f->gl,
                          .frame = &distances,
                          .call = f->call,
-                         .image = &image,
+                         .image = image,
                          .stage = LAM_STAGE_FRAGMENT,
+                         .layered = layers > 0,
+                         .surface_layers = layers,
                          .only_opaque = true};
-    bool ok = draw_frame(&g, error) && occlusion_find(f, &image, occlusion, error);
-    buffer_release(&pixels, f->call);
+    return draw_frame(&g, error);
+}
+
+// Computes the ambient occlusion from the distances of the frame's opaque surfaces.
+static bool draw_occlusion(struct gl_frame *f, struct screen_occlusion *occlusion, lam_error *error)
+{
+    struct buffer pixels[2] = {0};
+    lam_image distances, layers;
+    bool ok = draw_distances(f, 0, &distances, &pixels[0], error) &&
+              draw_distances(f, SCREEN_LAYERS, &layers, &pixels[1], error) &&
+              occlusion_find(f, &distances, &layers, occlusion, error);
+    buffer_release(&pixels[0], f->call);
+    buffer_release(&pixels[1], f->call);
     f->occlusion = occlusion;
     return ok;
 }

@@ -286,8 +286,9 @@ struct gl_frame {
     enum glsl_storage storage;
     const struct environment_light *environment_light; // the environment's light on physical materials, or NULL
     bool layered;                                      // whether translucent surfaces are drawn by depth peeling
-    bool only_opaque;                                  // translucent and masked surfaces are omitted
-    const struct screen_occlusion *occlusion;          // may be NULL
+    int surface_layers; // if above 0, the picture shows the distances of this many surfaces behind each pixel
+    bool only_opaque;   // translucent and masked surfaces are omitted
+    const struct screen_occlusion *occlusion; // may be NULL
     lam_stage stage;
     size_t material_stride; // distance between the products of consecutive materials, in bytes or texels
     // The current part of the picture, and the sample's offset from the pixel's centre (in pixels, with y downwards).
@@ -389,9 +390,10 @@ static inline enum texture_unit gl_occlusion_unit(const struct gl_program *progr
     return program->choices.layer == GLSL_PEELS ? UNIT_GROUND_OCCLUSION : UNIT_OCCLUSION;
 }
 // Computes the ambient occlusion of the frame's pixels. `distances` is a float picture of the distances to the opaque
-// surfaces (LAM_OUTPUT_DEPTH). The device owns the rows.
-bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
-                    lam_error *error);
+// surfaces (LAM_OUTPUT_DEPTH), and the channels of `layers` are struct screen_occlusion's layers. The device owns the
+// rows.
+bool occlusion_find(struct gl_frame *f, const lam_image *distances, const lam_image *layers,
+                    struct screen_occlusion *occlusion, lam_error *error);
 // Uploads the occlusion of the current part of the picture.
 bool occlusion_send(struct gl_frame *f, lam_error *error);
 

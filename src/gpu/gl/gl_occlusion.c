@@ -5,18 +5,29 @@
 
 #include "fail.h"
 
-bool occlusion_find(struct gl_frame *f, const lam_image *distances, struct screen_occlusion *occlusion,
-                    lam_error *error)
+static const float *float_row(const lam_image *image, int y)
+{
+    return (const float *)((const char *)image->pixels + (size_t)y * image->stride);
+}
+
+bool occlusion_find(struct gl_frame *f, const lam_image *distances, const lam_image *layers,
+                    struct screen_occlusion *occlusion, lam_error *error)
 {
     if (!screen_occlusion_start(occlusion, f->frame, NULL, 0, &f->device->occlusion, NULL, f->call, error))
         return false;
     for (int y = 0; y < occlusion->height; y++) {
-        const float *row = (const float *)((const char *)distances->pixels + (size_t)y * distances->stride);
+        const float *row = float_row(distances, y);
         for (int x = 0; x < occlusion->width; x++)
             occlusion->depth[screen_pixel(occlusion, x, y)] = row[4 * x + 3] > 0 ? row[4 * x]
                                                               : f->frame->ground.kind
                                                                   ? screen_ground_depth(f->frame, x, y)
                                                                   : SCREEN_EMPTY;
+    }
+    for (int y = 0; y < occlusion->height; y += occlusion->step) {
+        const float *row = float_row(layers, y);
+        for (int x = 0; x < occlusion->width; x += occlusion->step)
+            for (int k = 0; k < SCREEN_LAYERS && row[4 * x + k] != 0; k++)
+                occlusion->layers[(size_t)k * occlusion->plane + screen_pixel(occlusion, x, y)] = row[4 * x + k];
     }
     screen_occlusion_find(occlusion, 16, NULL, f->call);
     return call_should_continue(f->call) || call_error(f->call, error);

@@ -120,7 +120,7 @@ static void issue_draw_call(struct gl_frame *f, const struct gl_draw_call *call)
 
 static bool is_layer(const struct gl_frame *f, const struct gl_draw_call *call)
 {
-    return f->layered && range_blends(f->frame, call->range);
+    return f->layered && (f->surface_layers || range_blends(f->frame, call->range));
 }
 
 // Issues the draw calls of the translucent layers or, if `layers` is false, of all other surfaces. With BLENDING_ADD,
@@ -236,11 +236,47 @@ static bool draw_layers(struct gl_frame *f, lam_error *error)
     return true;
 }
 
+static void use_sample(struct gl_frame *f, const struct sample_pattern *pattern, int number)
+{
+    int s = pattern->by_distance[number];
+    f->sample = number;
+    f->sample_x = (float)pattern->x[s] * 0.0625f;
+    f->sample_y = (float)pattern->y[s] * 0.0625f;
+}
+
+// Peels the opaque surfaces at the sample that is nearest to the centre. Each layer goes to its own channel.
+static bool draw_surface_layers(struct gl_frame *f, lam_error *error)
+{
+    struct gl_device *device = f->device;
+    struct gl_targets *t = &device->targets;
+    clear_target(f, &t->sum, DEPTH_ID_NEAREST);
+    clear_target(f, &t->sample, DEPTH_ID_NEAREST);    // no surface hides the layers
+    clear_target(f, &t->layers[1], DEPTH_ID_NEAREST); // the depth id before the first layer
+    for (int layer = 0; layer < f->surface_layers; layer++) {
+        if (!call_should_continue(f->call))
+            return call_error(f->call, error);
+        const struct gl_target *target = &t->layers[layer % 2];
+        clear_target(f, target, DEPTH_ID_FARTHEST);
+        gl_use_texture(device, UNIT_NEARER_DEPTH_IDS, GL_TEXTURE_2D, t->layers[1 - layer % 2].depth_id);
+        gl_use_texture(device, UNIT_OPAQUE_DEPTH_IDS, GL_TEXTURE_2D, t->sample.depth_id);
+        draw_all(f, true, BLENDING_NEAREST);
+        f->gl->ColorMask(layer == 0, layer == 1, layer == 2, layer == 0);
+        copy_target(f, target, &t->sum, BLENDING_ADD, 1);
+        f->gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    }
+    gl_use_framebuffer(device, t->sum.framebuffer);
+    return true;
+}
+
 bool passes_draw(struct gl_frame *f, lam_error *error)
 {
     struct gl_targets *t = &f->device->targets;
     const struct sample_pattern *pattern = sample_pattern(f->frame->settings.samples);
     gl_use_viewport(f->device, f->width, f->height);
+    if (f->surface_layers) {
+        use_sample(f, pattern, 0);
+        return draw_surface_layers(f, error);
+    }
     const struct gl_target *result = f->layered ? &t->sum : &t->sample;
     bool several = pattern->count > 1;
     // Whether a pixel has the value of its covered sample nearest to the centre, instead of a mean.
@@ -249,12 +285,9 @@ bool passes_draw(struct gl_frame *f, lam_error *error)
     if (several)
         clear_target(f, &t->picture, DEPTH_ID_NEAREST);
     for (int i = 0; i < pattern->count; i++) {
-        int s = pattern->by_distance[i];
-        f->sample = i;
+        use_sample(f, pattern, i);
         if (!call_should_continue(f->call))
             return call_error(f->call, error);
-        f->sample_x = (float)pattern->x[s] * 0.0625f;
-        f->sample_y = (float)pattern->y[s] * 0.0625f;
         clear_target(f, &t->sample, DEPTH_ID_NEAREST);
         draw_all(f, false, output == LAM_OUTPUT_OVERDRAW ? BLENDING_ADD : BLENDING_NEAREST);
         if (f->layered && !draw_layers(f, error))

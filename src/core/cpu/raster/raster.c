@@ -37,6 +37,7 @@ const struct raster_kernels FOR_ISA(raster_kernels) = {
     .save_fragments = save_fragments,
     .load_fragments = load_fragments,
     .depth_of_tile = depth_of_tile,
+    .layers_of_tile = layers_of_tile,
     .resolve = resolve,
     .resolve_empty = resolve_empty,
 };

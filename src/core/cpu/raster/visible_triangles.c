@@ -98,8 +98,10 @@ static void search_tile(void *user, size_t index, int number)
     uint64_t start = now_ns();
     struct tile tile = tile_number(cpu, index);
     cpu->kernels->raster->cover_tile(&cpu->raster, &thread->samples, &tile);
-    if (cpu->shade.occlusion)
+    if (cpu->shade.occlusion) {
         cpu->kernels->raster->depth_of_tile(&cpu->raster, &thread->samples, &tile, &cpu->occlusion);
+        cpu->kernels->raster->layers_of_tile(&cpu->raster, &tile, &cpu->occlusion);
+    }
     thread->pixels_covered +=
         cpu->kernels->raster->visibility_resolve(cpu->raster.pattern, &thread->samples, &thread->fragments, &tile);
     struct fragment_store *fragment_store = &cpu->fragment_stores[index];
@@ -186,6 +188,7 @@ static void measure_tile(void *user, size_t index, int number)
     struct tile tile = tile_number(cpu, index);
     cpu->kernels->raster->cover_tile(&cpu->raster, &thread->samples, &tile);
     cpu->kernels->raster->depth_of_tile(&cpu->raster, &thread->samples, &tile, &cpu->occlusion);
+    cpu->kernels->raster->layers_of_tile(&cpu->raster, &tile, &cpu->occlusion);
     thread->coverage_ns += now_ns() - start;
 }
 

@@ -50,8 +50,7 @@ WORDS(occlusion_words,
       {"rays", LAM_OCCLUSION_RAYS,
        "traced from each point, so surfaces that the camera does not see also occlude; slower, and only on the CPU"})
 WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto` and computed in screen space"},
-      {"off", LAM_CAVITY_OFF, "no cavity shading"},
-      {"on", LAM_CAVITY_ON, "valleys are darker; ridges of models without textures are lighter"})
+      {"off", LAM_CAVITY_OFF, "no cavity shading"}, {"on", LAM_CAVITY_ON, "valleys are darker"})
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the model is lit by the studio or by an environment"},
       {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
       {"on", LAM_SPECULAR_AA_ON, "the variance of the normals within each pixel increases the roughness"})
@@ -125,7 +124,7 @@ static const lam_setting rows[] = {
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",
-     .summary = "Darken small valleys and lighten ridges: auto, off or on."},
+     .summary = "Darken small valleys: auto, off or on."},
     {"specular_aa", MEMBER(WORD, specular_aa), WORDS_OF(specular_aa_words), .expected = "lam_specular_aa",
      .summary = "Reduce glitter on bumpy physical materials: auto, off or on."},
     {"brighten", MEMBER(WORD, brighten), WORDS_OF(brighten_words), .expected = "lam_brighten",

@@ -60,6 +60,9 @@ void main()
     }
     if (output_depth) {
         float depth = -eye_position.z; // in front of the eye
+        if (peels && !gl_FrontFacing) {
+            depth = -depth;
+        }
         pixel = vec4(depth, depth, depth, 1.0);
     } else if (output_facing) {
         float side = gl_FrontFacing ? 1.0 : -1.0;

@@ -146,7 +146,7 @@ def section(program, contract, meaning):
     for lecture, course, title, _, _ in LECTURES:
         if course == name:
             yield "The course's own program, %s (%s)." % (title, files("lectures/" + lecture))
-            yield from reported(program, "lectures/" + lecture)
+            yield from reported(program, "lectures/" + lecture, " --contract " + name)
 
 
 def reported(program, name, options=""):

@@ -259,6 +259,13 @@ static const uint64_t matrices_and_zero = BIT(SEMANTIC_MODEL_VIEW) | BIT(SEMANTI
                                           BIT(SEMANTIC_MODEL) | BIT(SEMANTIC_VIEW) | BIT(SEMANTIC_VIEW_PROJECTION) |
                                           BIT(SEMANTIC_ZERO) | BIT(SEMANTIC_ONE) | BIT(SEMANTIC_EYE_POSITION);
 
+// Returns whether a name is probably a misspelt name of the contract.
+static bool is_misspelt(const struct contract *contract, const char *name)
+{
+    const char *near = contract_nearest(contract, name);
+    return near && lam_word_distance(name, near) > 0;
+}
+
 // Returns whether the shaders use the names of the contract. A verdict needs a value for every input. Misspelt names
 // are mistakes, which the report lists. Names that differ from the contract's names only in case and underscores belong
 // to another course.
@@ -279,8 +286,7 @@ static bool suits_contract(const struct run *r)
     if (drawn->state != DRAWN_PICTURES)
         return true;
     for (int i = 0; i < drawn->unknown_count; i++)
-        misspelt +=
-            contract_is_misspelt(interface->contract, &interface->vertex, &interface->fragment, drawn->unknown[i]);
+        misspelt += is_misspelt(interface->contract, drawn->unknown[i]);
     bool lit = r->params->contract || !r->texts->vertex ||
                ((interface->declared | interface->constants) & ~matrices_and_zero) != 0 ||
                interface->defaults.has_direction;
@@ -292,12 +298,12 @@ static bool fail_unknown(struct run *r, const char *reason, lam_error *error)
 {
     const struct shader_interface *interface = &r->interface;
     char names[300] = "", types[160] = "";
-    const char *unknown[MAX_UNKNOWN_NAMES];
-    for (int i = 0; i < r->drawn.unknown_count; i++)
-        unknown[i] = r->drawn.unknown[i];
-    if (interface->contract)
-        contract_describe_unknown(interface->contract, &interface->vertex, &interface->fragment, unknown,
-                                  r->drawn.unknown_count, names, sizeof names);
+    size_t at = 0;
+    for (int i = 0; interface->contract && i < r->drawn.unknown_count && at + 120 < sizeof names; i++) {
+        const char *near = contract_nearest(interface->contract, r->drawn.unknown[i]);
+        at += (size_t)snprintf(names + at, sizeof names - at, "%s'%.40s'%s%.40s%s", i ? ", " : "", r->drawn.unknown[i],
+                               near ? " (there: " : "", near ? near : "", near ? ")" : "");
+    }
     if (r->drawn.types_count)
         snprintf(types, sizeof types, "%s%.120s", names[0] ? "; " : "", r->drawn.types[0]);
     const char *nearest = interface->contract && (names[0] || types[0]) ? interface->contract->name : NULL;
@@ -360,14 +366,16 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     r->inferred = lam_check_contract_read(text, strlen(text), "inferred contract", error);
     free(text);
     forget_scenes(r);
+    if (!r->inferred && reading->reason[0])
+        return fail(error, LAM_BAD_ARGUMENT, "no verdict: %s", reading->reason);
     if (!r->inferred || !prepare(r, &r->inferred->contract, &scenes, error) || !draw(r, scenes, error))
         return false;
     r->report->scenes_wanted = __builtin_popcount(scenes);
     return r->report->verdict != LAM_CHECK_PASSES || check_conclude(r, reading, outcome, scenes, true, error);
 }
 
-// Returns whether a syntax error is the only message that matters: most names are not in the contract, which is a guess.
-static bool has_only_slip(const struct run *r)
+// Returns whether most names are not in the contract, which is a guess.
+static bool is_far_guess(const struct run *r)
 {
     const struct declarations *sides[] = {&r->interface.vertex, &r->interface.fragment};
     int unknown = 0, known = 0;
@@ -375,8 +383,7 @@ static bool has_only_slip(const struct run *r)
         for (int i = 0; i < sides[s]->count; i++)
             if (sides[s]->items[i].kind == DECLARED_UNIFORM)
                 *(contract_find(r->interface.contract, sides[s]->items[i].name, false, NULL) ? &known : &unknown) += 1;
-    return !r->params->contract && unknown > known &&
-           (strstr(r->drawn.log, "syntax error") || strstr(r->drawn.fragment_log, "syntax error"));
+    return !r->params->contract && unknown > known;
 }
 
 // Compares the shaders with the requested contract, or with the contract whose names the shaders use.
@@ -384,9 +391,9 @@ static bool run_contract(struct run *r, const struct contract *contract, unsigne
 {
     const lam_check_params *p = r->params;
     for (int i = 0; i < r->drawn.unknown_count && r->drawn.state == DRAWN_PICTURES; i++)
-        if (!contract_is_misspelt(contract, &r->interface.vertex, &r->interface.fragment, r->drawn.unknown[i]))
+        if (!is_misspelt(contract, r->drawn.unknown[i]))
             return fail_unknown(r, "an input has no value", error);
-    if (!has_only_slip(r))
+    if (!is_far_guess(r))
         diagnostics_add_names(&r->diagnostics, &r->drawn, &r->interface, p);
     r->report->scenes_wanted = __builtin_popcount(scenes);
     if (r->report->verdict != LAM_CHECK_PASSES)
@@ -429,13 +436,14 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
     if (ok && contract)
         ok = prepare(&r, contract, &scenes, error) && draw(&r, scenes, error);
     if (ok && contract && (params->contract || suits_contract(&r)))
-        ok = run_contract(&r, contract, scenes, error) &&
-             (params->contract || contract->printed || report->verdict != LAM_CHECK_DIFFERS || !params->vertex ||
-              check_doubt(&r, contract, scenes, error));
+        ok = run_contract(&r, contract, scenes, error) && (contract->printed || report->verdict != LAM_CHECK_DIFFERS ||
+                                                           !params->vertex || check_doubt(&r, contract, scenes, error));
     else
         ok = ok && run_inferred(&r, contract, error);
     if (!ok && is_cut(&r))
         fail_cut(&r, error); // this is the cause of any other error
+    for (int s = 0; ok && s < 2 && report->verdict <= LAM_CHECK_REFUSED; s++)
+        compiler_hints_for_unused(&r.diagnostics, &r.sources.own.sides[s], s ? own.fragment_name : own.vertex_name);
     if (ok) {
         report->contract = arena_string(r.arena, r.interface.contract->name);
         report->contract_text = arena_string(r.arena, r.interface.contract->text);

@@ -16,8 +16,6 @@ static const uint64_t default_max_pictures = 10000;
 // If the names suggested the contract, the shader is evaluated too (check_doubt), and a long search is not worth its time.
 static const uint64_t max_pictures_of_guess = 2500;
 static const double max_dark = 2.0 / 255; // the largest value in a picture that is treated as black
-// the report lists the found mistakes if at most this share of the difference remains unexplained
-static const double max_left = 0.25, max_left_by_several = 0.1;
 
 // --- the pictures
 
@@ -239,11 +237,9 @@ static const char *also_text(struct run *r, const struct found_fault *found)
 static void report_findings(struct run *r, const struct fault_search *s)
 {
     lam_check_report *report = r->report;
-    if (s->count && !s->certain &&
-        s->found[s->count - 1].after > (s->count > 1 ? max_left_by_several : max_left) * s->before)
-        return; // the remaining difference is too large to report mistakes
-    if (s->count == 1 && !s->certain && s->found[0].row->whole_term)
-        return; // many mistakes nearly remove a term
+    for (int i = 0; i < s->count && s->count > 1 && !r->params->contract; i++)
+        if (s->found[i].row->whole_term)
+            return; // the names only suggested the contract, whose terms the shader may not need
     report->findings = arena_alloc_zeroed(r->arena, MAX_FOUND_FAULTS * sizeof *report->findings);
     for (int i = 0; report->findings && i < s->count; i++) {
         char explanation[400], correction[400];

@@ -140,52 +140,11 @@ static bool find_factor(struct run *r, double *factor)
     return *factor > 0.02 && !is_near(*factor, 1) && left < 1e-4 * sum;
 }
 
-static bool is_any(const char *word, const char *const *list, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (list[i] && strcmp(list[i], word) == 0)
-            return true;
-    return false;
-}
-
-// Reports the first line of the vertex shader that multiplies the normal by the projection.
-static void find_projected_normal(struct run *r)
-{
-    enum { MAX_CLIP = 12 };
-    const struct shader_interface *in = &r->interface;
-    const struct declarations *d = &in->vertex;
-    const char *clip[MAX_CLIP] = {"gl_ProjectionMatrix", "gl_ModelViewProjectionMatrix",
-                                  contract_name_used(in->contract, SEMANTIC_PROJECTION, d, &in->fragment),
-                                  contract_name_used(in->contract, SEMANTIC_VIEW_PROJECTION, d, &in->fragment),
-                                  contract_name_used(in->contract, SEMANTIC_MODEL_VIEW_PROJECTION, d, &in->fragment)};
-    const char *normal[] = {"gl_Normal", contract_name_used(in->contract, SEMANTIC_NORMAL, d, &in->fragment)};
-    int clip_count = 5;
-    for (int begin = 0, end; begin < d->word_count; begin = end + 1) {
-        bool projected = false, lit = false;
-        const char *assigned = NULL;
-        for (end = begin; end < d->word_count && !strchr(";{}", d->words[end].text[0]); end++) {
-            const char *word = d->words[end].text;
-            assigned = end > begin && strcmp(word, "=") == 0 && !assigned ? d->words[end - 1].text : assigned;
-            projected = projected || (d->words[end].depth > 0 && is_any(word, clip, clip_count));
-            lit = lit || is_any(word, normal, 2);
-        }
-        if (projected && lit) {
-            diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, r->params->vertex_name, d->words[begin].line,
-                            "the normal is multiplied by the projection, which does not preserve angles; use the "
-                            "normal matrix (normal-clip-space)");
-            return;
-        }
-        if (projected && assigned && clip_count < MAX_CLIP && strcmp(d->words[begin].text, "mat4") == 0)
-            clip[clip_count++] = assigned;
-    }
-}
-
 void check_describe(struct run *r)
 {
     const char *sentence = NULL;
     double factor = 0;
     int fewest = r->scene_count, worst = 0, failed = 0;
-    find_projected_normal(r);
     for (size_t k = 0; k < sizeof properties / sizeof *properties; k++) {
         int with = count_with(r, properties[k].has);
         if (with > 0 && with < fewest) {

@@ -127,10 +127,9 @@ static bool leave_out_turns(struct run *r, lam_device *device, struct scene_comp
     return ok;
 }
 
-// A possible expectation: bits of enum expectation, and the values of numbers.
+// A possible expectation: bits of enum expectation.
 struct candidate {
     unsigned expectation;
-    struct contract_defaults numbers;
     double mean; // mean difference
     bool fits;
 };
@@ -139,7 +138,6 @@ struct candidate {
 static bool try_candidate(struct run *r, lam_device *device, int scene_count, struct candidate *c, lam_error *error)
 {
     r->expectation = c->expectation;
-    r->interface.defaults = c->numbers;
     c->mean = 0;
     c->fits = true;
     for (int i = 0; i < scene_count; i++) {
@@ -160,119 +158,18 @@ static bool try_candidate(struct run *r, lam_device *device, int scene_count, st
     return true;
 }
 
-// The exercise may use a number instead of a name. If it is not clear which number in the source is meant, all numbers
-// are tried on the first scene, which shows every term. `best` receives the values for which the shader is correct. If
-// no values are correct, the shader contains a mistake, and the closest values prove little. In that case the
-// contract's number is kept if the source contains this number or contains no other number. No number in the source is
-// used twice.
-enum { MAX_OPEN = 4, MAX_TRIES = 512 };
-static const double same_pictures = 1e-5; // mean difference
-
-struct open_number {
-    enum uniform_semantic semantic;
-    double values[MAX_NUMBERS][3];
-    int count, own; // 1 + the index of the contract's own value; 0 means that the source does not contain this value
-};
-
-// Finds the numbers whose values are not known, and counts the combinations of possible values.
-static int find_open(struct shader_interface *interface, struct open_number open[MAX_OPEN], int *count)
-{
-    enum uniform_semantic semantics[SEMANTIC_COUNT];
-    const struct contract_defaults own = interface->defaults;
-    const uint64_t hash = shader_constants_hash(interface);
-    int found = shader_constants_open(interface, semantics), tries = 1;
-    *count = found < MAX_OPEN ? found : MAX_OPEN;
-    for (int i = 0; i < *count; i++) {
-        open[i].semantic = semantics[i];
-        open[i].count = shader_constants_values(interface, semantics[i], open[i].values);
-        open[i].own = 0;
-        tries *= open[i].count + 1; // the search also tries the contract's own value
-        for (int k = 0; k < open[i].count; k++) {
-            shader_constants_set(interface, semantics[i], open[i].values[k]);
-            if (shader_constants_hash(interface) == hash)
-                open[i].own = k + 1;
-            interface->defaults = own;
-        }
-    }
-    return tries;
-}
-
-// Returns whether `b` uses the same number in the source as `a`. Both lists contain the source's numbers, or its
-// vectors, in order.
-static bool is_taken(const struct open_number *a, int value_a, const struct open_number *b, int value_b)
-{
-    return value_a && value_b && a->count == b->count && value_a == value_b &&
-           memcmp(a->values[value_a - 1], b->values[value_b - 1], sizeof *a->values) == 0;
-}
-
-// Sets the numbers of a combination. Returns whether a shader that contains a mistake is likely to use this
-// combination.
-static bool set_numbers(struct shader_interface *interface, const struct open_number *open, int count, int combination)
-{
-    bool likely = true;
-    int values[MAX_OPEN], own_count = 0, text_count = 0;
-    for (int i = 0; i < count; i++) {
-        values[i] = combination % (open[i].count + 1);
-        combination /= open[i].count + 1;
-        if (open[i].own && values[i] == 0)
-            values[i] = open[i].own;
-        likely = likely && (!open[i].own || values[i] == open[i].own);
-        own_count += values[i] == 0;
-        text_count = open[i].count > text_count ? open[i].count : text_count;
-        for (int k = 0; k < i; k++)
-            likely = likely && !is_taken(&open[k], values[k], &open[i], values[i]);
-        if (values[i])
-            shader_constants_set(interface, open[i].semantic, open[i].values[values[i] - 1]);
-    }
-    return likely && own_count <= (count > text_count ? count - text_count : 0);
-}
-
-static bool fit_numbers(struct run *r, lam_device *device, const unsigned *choices, int choice_count,
-                        struct candidate *best, lam_error *error)
-{
-    struct open_number open[MAX_OPEN];
-    const struct contract_defaults own = r->interface.defaults;
-    int count, tries = find_open(&r->interface, open, &count);
-    struct candidate right = {.fits = false}, nearest = {.mean = 1e9};
-    if (tries == 1 || tries * choice_count > MAX_TRIES)
-        return true;
-    for (int k = 0; k < tries * choice_count && !(right.fits && right.mean < same_pictures); k++) {
-        r->interface.defaults = own;
-        bool likely = set_numbers(&r->interface, open, count, k / choice_count);
-        struct candidate c = {.expectation = choices[k % choice_count], .numbers = r->interface.defaults};
-        if (!try_candidate(r, device, 1, &c, error))
-            return false;
-        if (c.fits && (!right.fits || c.mean < right.mean)) // a highlight may be small in the first scene
-            right = c;
-        if (likely && c.mean < nearest.mean)
-            nearest = c;
-    }
-    struct candidate *chosen = right.fits ? &right : &nearest;
-    if (!try_candidate(r, device, r->scene_count, chosen, error))
-        return false;
-    if (chosen->fits || chosen->mean < best->mean)
-        *best = *chosen;
-    return true;
-}
-
 bool check_draw_references(struct run *r, lam_error *error)
 {
     unsigned choices[MAX_EXPECTATIONS];
     int count = expectations_of(&r->interface, r->params->terms, choices);
     lam_device *device = lam_device_cpu(NULL, error);
     struct candidate best = {.mean = 1e9};
-    bool ok = device, numbers = false;
+    bool ok = device;
     for (int i = 0; ok && !best.fits && i < count; i++) {
-        struct candidate c = {.expectation = choices[i], .numbers = r->interface.defaults};
+        struct candidate c = {.expectation = choices[i]};
         ok = try_candidate(r, device, r->scene_count, &c, error);
         if (ok && (c.fits || c.mean < best.mean))
             best = c;
-    }
-    if (ok && !best.fits) {
-        double before = best.mean;
-        r->interface.defaults = best.numbers;
-        ok = fit_numbers(r, device, choices, count, &best, error);
-        numbers = best.mean < before;
     }
     if (ok && !best.fits) // the last combination may not be the best
         ok = try_candidate(r, device, r->scene_count, &best, error);
@@ -283,10 +180,5 @@ bool check_draw_references(struct run *r, lam_error *error)
     expectation_describe(r->expectation, &r->interface, r->params->terms, text, sizeof text);
     if (ok && text[0] && r->interface.printed_model != LAM_REFLECTION_NONE)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "%s", text);
-    if (ok && numbers)
-        diagnostics_add(
-            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-            "lambent takes the numbers of the exercise, such as the strength of the ambient light, from the shader's "
-            "text, and uses the numbers that fit best");
     return ok;
 }

@@ -36,18 +36,20 @@ static const struct {
              {READ_NORMAL, false, SEMANTIC_NORMAL}};
 enum { PAIRS = sizeof pairs / sizeof *pairs };
 
-// Makes the roles that a contract states, written as "name=role" or "name=role/space".
-static bool state_roles(struct run *r, const struct contract *contract, const char **out)
+// Makes the roles that a contract or an engine states, written as "name=role" or "name=role/space".
+static bool state_roles(struct run *r, const struct contract *contract, const struct contract *engine, const char **out)
 {
     int count = 0;
     for (const char *const *s = r->params->roles; s && *s && count + 1 < MAX_STATED; s++)
         out[count++] = *s;
-    for (const struct contract_name *n = contract ? contract->names : NULL; n && n->name; n++)
+    // An engine fixes only the names that its prefix declares.
+    const struct contract *from = contract ? contract : engine;
+    for (const struct contract_name *n = from ? from->names : NULL; n && n->name; n++)
         for (int i = 0; i < PAIRS && count + 1 < MAX_STATED; i++) {
             char text[160];
             bool spaced = role_of(n->semantic)->uses & ROLE_IN_SPACE && n->semantic != SEMANTIC_NORMAL_MATRIX;
             int space = n->space == LAM_FRAME_WORLD ? 0 : n->space == LAM_FRAME_CAMERA ? 1 : 2;
-            if (pairs[i].semantic != n->semantic ||
+            if (pairs[i].semantic != n->semantic || (!contract && !strstr(engine->prefix_vertex, n->name)) ||
                 (n->semantic == SEMANTIC_NORMAL_MATRIX && (pairs[i].role == READ_NORMAL_WORLD) != (space == 0)))
                 continue;
             snprintf(text, sizeof text, "%.90s=%s%s%s%s", n->name, pairs[i].opposite ? "-" : "",
@@ -128,6 +130,16 @@ static void report_form(struct run *r, const struct reading *q)
     if (text[0])
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0, "the check read the inputs as follows: %s",
                         text);
+    if (q->one_way)
+        diagnostics_add(
+            &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
+            "the verdict holds if the uniforms of type bool are %s; with the other value, the colours are no sum "
+            "of an ambient, a diffuse and a specular term",
+            q->variant == 1 ? "false" : "true");
+    if (q->form.general)
+        hint(r, "the shader is no sum of an ambient, a diffuse and a specular term: the cosines of its vectors are "
+                "right, but "
+                "the check has not compared how the shader combines them");
     if (q->form.exponent > 0 && !q->form.gate)
         hint(r,
              "the highlight remains on surfaces that face away from the light (n.l <= 0); the check accepts this form");
@@ -175,11 +187,17 @@ bool check_read(struct run *r, const struct contract *contract, const struct con
     const char **stated = arena_array(r->arena, MAX_STATED, sizeof *stated);
     struct reading *q = arena_alloc_zeroed(r->arena, sizeof *q);
     char why[300] = "";
-    if (!stated || !q || !state_roles(r, contract, stated))
+    if (!stated || !q || !state_roles(r, contract, engine, stated))
         return fail_memory(error, sizeof *q);
     q->arena = r->arena;
     q->stated = stated;
     *outcome = reading_find(q, &sides[0], &sides[1]);
+    if (*outcome == READING_NONE && !q->reason[0] && q->nearest_count) {
+        q->repair_count = repair_find(q);
+        *outcome = q->repair_count ? READING_MISTAKEN : repair_accepts(q) ? READING_RIGHT : READING_NONE;
+        if (*outcome == READING_NONE)
+            reading_restore(q, &q->nearest[0]);
+    }
     *out = q;
     if (text && !(*text = contract_of(q, sides, engine, why, sizeof why)))
         return fail_memory(error, 1);
@@ -195,7 +213,7 @@ static const struct fault *row_of(const char *id)
 }
 
 static void report_repair(struct run *r, const struct repair *mistake, const char *const *also, int also_count,
-                          double before)
+                          double before, double whole)
 {
     const struct fault *row = row_of(mistake->mistake);
     char text[400] = "", other[200] = "";
@@ -209,14 +227,15 @@ static void report_repair(struct run *r, const struct repair *mistake, const cha
                                .also = also_count ? arena_string(r->arena, other) : NULL,
                                .certain = true,
                                .mean_before = before,
-                               .share = 1};
+                               .mean_after = mistake->after,
+                               .share = whole > 0 ? 1 - mistake->after / whole : 1};
     if (mistake->write[0])
         snprintf(text, sizeof text, "%.150s  // line %d, instead of %.150s", mistake->write, mistake->at,
                  mistake->line);
     else if (mistake->line[0])
         snprintf(text, sizeof text, "// line %d: mend %.200s", mistake->at, mistake->line);
-    else
-        snprintf(text, sizeof text, "// compute these vectors in the fragment shader, from the interpolated point");
+    else if (row)
+        fault_text(row->correction, &r->interface, r->frame, r->reflection, text, sizeof text);
     out->correction = arena_string(r->arena, text);
     if (mistake->at)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT,
@@ -258,21 +277,14 @@ static bool draw_mended(struct run *r, const struct declarations *sides, const s
     return ok;
 }
 
-// Names the mistakes of a shader that no reading explains. *named is false if none is found.
-static bool name_mistakes(struct run *r, struct reading *q, unsigned scenes, bool writes, bool *named, lam_error *error)
+// Reports the mistakes of a shader that is right after repairs.
+static bool report_mistakes(struct run *r, struct reading *q, unsigned scenes, bool writes, lam_error *error)
 {
-    struct repair repairs[MAX_REPAIR_STEPS];
-    const char *also[MAX_REPAIRS];
-    int also_count;
-    const struct declarations *sides[] = {q->sides[0].text, q->sides[1].text};
-    const struct declarations both[] = {*sides[0], *sides[1]};
-    const int count = repair_find(q, repairs, also, &also_count);
+    const struct declarations both[] = {*q->sides[0].text, *q->sides[1].text};
+    const int count = q->repair_count;
     bool drawn = false;
-    *named = count > 0;
-    if (!count)
-        return true;
     if ((r->report->scene_count == 0 && !check_make_scenes(r, scenes, error)) ||
-        !draw_mended(r, both, repairs, count, scenes, &drawn, error))
+        !draw_mended(r, both, q->repairs, count, scenes, &drawn, error))
         return false;
     if (drawn)
         check_measure(r, writes);
@@ -280,24 +292,41 @@ static bool name_mistakes(struct run *r, struct reading *q, unsigned scenes, boo
         forget_pictures(r);
     r->report->verdict = LAM_CHECK_DIFFERS;
     r->report->findings = arena_alloc_zeroed(r->arena, MAX_REPAIR_STEPS * sizeof *r->report->findings);
-    if (!r->report->findings)
-        return fail_memory(error, 1);
-    for (int i = 0; i < count; i++)
-        report_repair(r, &repairs[i], also, i ? 0 : also_count, q->nearest[0].mean);
-    return true;
+    for (int i = 0; r->report->findings && i < count; i++) {
+        bool again = false; // the same mistake in another line
+        for (int k = 0; k < count; k++)
+            again = again || (k < i && strcmp(q->repairs[k].mistake, q->repairs[i].mistake) == 0) ||
+                    (strcmp(q->repairs[i].mistake, "normal-not-unit") == 0 &&
+                     strcmp(q->repairs[k].mistake, "normal-never-unit") == 0);
+        if (!again)
+            report_repair(r, &q->repairs[i], q->also, i ? 0 : q->also_count, i ? q->repairs[i - 1].after : q->mean,
+                          q->mean);
+    }
+    return r->report->findings || fail_memory(error, 1);
+}
+
+// Reports a form that a stated contract forbids. Returns false on error; *fails is false if there is none.
+static bool report_demand(struct run *r, const struct reading *q, const struct contract *contract, bool *fails,
+                          lam_error *error)
+{
+    const bool no_gate = contract->demands & DEMAND_GATE && q->form.exponent > 0 && !q->form.gate,
+               late = contract->demands & DEMAND_UNIT_NORMALS && q->form.late_normal;
+    const struct repair form = {.mistake = no_gate ? "no-gate" : "normal-unit-late"};
+    *fails = no_gate || late;
+    r->report->findings = *fails ? arena_alloc_zeroed(r->arena, sizeof *r->report->findings) : NULL;
+    if (r->report->findings)
+        report_repair(r, &form, NULL, 0, r->report->mean, r->report->mean);
+    return r->report->findings || !*fails || fail_memory(error, 1);
 }
 
 bool check_conclude(struct run *r, struct reading *q, enum reading_outcome outcome, unsigned scenes, bool writes,
                     lam_error *error)
 {
     double missing;
-    bool named = false;
     if (outcome == READING_AGAINST)
         return fail_against(q, error);
-    if (outcome == READING_NONE && !q->reason[0] && !name_mistakes(r, q, scenes, writes, &named, error))
-        return false;
-    if (named)
-        return true;
+    if (outcome == READING_MISTAKEN)
+        return report_mistakes(r, q, scenes, writes, error);
     if (outcome == READING_NONE)
         return fail(
             error, LAM_BAD_ARGUMENT, "no verdict: %s%s",
@@ -330,21 +359,24 @@ bool check_conclude(struct run *r, struct reading *q, enum reading_outcome outco
 bool check_doubt(struct run *r, const struct contract *contract, unsigned scenes, lam_error *error)
 {
     lam_check_report *report = r->report;
-    const bool certain = report->finding_count && report->findings[0].certain;
     struct reading *q;
     enum reading_outcome outcome;
+    const bool stated = r->params->contract, strict = stated && !contract->constants[0].name;
     double clear = 1;
     for (int i = 0; i < r->scene_count; i++) {
         double share = check_missing_share(&r->scenes[i], false);
         clear = share < clear ? share : clear;
     }
-    if (r->interface.physical || clear > 0.9)
+    if (r->interface.physical || clear > 0.9 || (report->finding_count && (stated || !r->drawn.unknown_count)))
         return true;
-    if (!check_read(r, NULL, contract->prefix_fragment ? contract : NULL, &q, &outcome, NULL, error))
+    if (!check_read(r, stated ? contract : NULL, contract->prefix_fragment ? contract : NULL, &q, &outcome, NULL,
+                    error))
         return false;
-    const bool explained = certain || (report->finding_count && outcome == READING_NONE);
-    if (explained && outcome != READING_AGAINST && !r->drawn.unknown_count)
+    if ((strict && outcome == READING_RIGHT) || (stated && outcome == READING_NONE))
         return true;
+    bool named = false;
+    if (stated && outcome == READING_RIGHT && (!report_demand(r, q, contract, &named, error) || named))
+        return named;
     for (int i = 0; i < report->scene_count; i++)
         report->scenes[i].looks_like = NULL;
     report->finding_count = 0;

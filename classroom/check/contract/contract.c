@@ -1,6 +1,5 @@
 // contract.c: looks up names in a contract, and recognises the contract of a pair of shaders.
 #include "contract.h"
-#include "name_similarity.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -177,6 +176,21 @@ const struct contract_varying *contract_varying(const struct contract *contract,
         if (in_word_list(v->names, name))
             return v;
     return NULL;
+}
+
+const char *name_nearest(const char *name, const char *const *words, int count)
+{
+    const char *nearest = NULL;
+    int limit = (int)strlen(name) / 3 + 1;
+    for (int i = 0; i < count; i++) {
+        int alike = words[i] && strncmp(words[i], name, 5) == 0 ? 2 : 0; // letters at the beginning
+        int distance = words[i] && strcmp(words[i], name) != 0 ? lam_word_distance(name, words[i]) - alike : limit;
+        if (distance < limit) {
+            limit = distance;
+            nearest = words[i];
+        }
+    }
+    return nearest;
 }
 
 const char *contract_nearest(const struct contract *contract, const char *name)

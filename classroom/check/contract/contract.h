@@ -274,6 +274,10 @@ const struct contract_name *contract_find(const struct contract *contract, const
 // Returns the row of a varying's name, or NULL if the name is unknown.
 const struct contract_varying *contract_varying(const struct contract *contract, const char *name);
 
+// Returns the nearest of `words` that is not `name` itself, by lam_word_distance. Returns NULL if the distance exceeds a third
+// of the name's length. Entries of `words` may be NULL.
+const char *name_nearest(const char *name, const char *const *words, int count);
+
 // Returns the name in the contract that is most similar to an unknown name, or NULL if no name is similar.
 const char *contract_nearest(const struct contract *contract, const char *name);
 

@@ -7,7 +7,6 @@
 #include <strings.h>
 
 #include "fail.h"
-#include "name_similarity.h"
 #include "spelling.h"
 
 #define COUNT(list) (int)(sizeof(list) / sizeof *(list))
@@ -118,13 +117,30 @@ static bool hint_young_function(struct diagnostics *diagnostics, const struct de
     return false;
 }
 
-// Returns the declared name that the author probably meant by the undeclared `name` at word `at`, or NULL.
+static bool is_identifier(const struct declarations *d, int i)
+{
+    static const char *const words[] = {"return",  "else",      "do",        "in",      "out",  "inout",
+                                        "uniform", "attribute", "const",     "varying", "flat", "highp",
+                                        "lowp",    "mediump",   "precision", "struct"};
+    return i >= 0 && word_is_name(d->words[i].text) && !in_list(d->words[i].text, words, COUNT(words));
+}
+
+// Returns the name that the author probably meant by the undeclared `name` at word `at`: a variable or, before a
+// parenthesis, a function that is declared above. Returns NULL if there is none.
 static const char *nearest_declared(const struct declarations *d, const char *name, int at)
 {
-    bool called = at + 1 < d->word_count && strcmp(d->words[at + 1].text, "(") == 0;
-    struct visible_names visible;
-    visible_names_at(d, at, called, &visible);
-    const char *near = name_nearest(name, visible.names, visible.count);
+    enum { MAX_NAMES = 256 };
+    const char *names[MAX_NAMES], *near;
+    const bool called = word_is(d, at + 1, "(");
+    int count = 0, begin = at < d->word_count ? at : d->word_count - 1;
+    while (begin > 0 && !strchr(";{}", d->words[begin].text[0]))
+        begin--;
+    for (int i = 1; i < begin && count < MAX_NAMES; i++) {
+        const bool typed = is_identifier(d, i - 1) || word_is(d, i - 1, "}") || word_is(d, i - 1, ",");
+        if (typed && is_identifier(d, i) && word_is(d, i + 1, "(") == called)
+            names[count++] = d->words[i].text;
+    }
+    near = name_nearest(name, names, count);
     return near || !called ? near : name_nearest(name, functions, COUNT(functions));
 }
 
@@ -346,6 +362,15 @@ void compiler_hints_for_text(struct diagnostics *diagnostics, const struct decla
     hint_types(diagnostics, d, file);
     hint_version(diagnostics, d, file, vertex);
     hint_globals(diagnostics, d, file);
+}
+
+void compiler_hints_for_unused(struct diagnostics *diagnostics, const struct declarations *d, const char *file)
+{
+    for (int i = 0; i < d->count; i++)
+        if (d->items[i].kind == DECLARED_UNIFORM && !d->items[i].in_block && !strpbrk(d->items[i].name, ".[") &&
+            !declarations_uses(d, d->items[i].name))
+            diagnostics_add(diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, file, d->items[i].line,
+                            "the shader declares the uniform '%.60s', but does not use it", d->items[i].name);
 }
 
 bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,

@@ -32,6 +32,9 @@ void compiler_hints_for_message(struct diagnostics *diagnostics, const struct de
 void compiler_hints_for_text(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
                              bool vertex);
 
+// Adds a hint for each uniform that a shader declares but does not use.
+void compiler_hints_for_unused(struct diagnostics *diagnostics, const struct declarations *d, const char *file);
+
 // Adds hints about the outputs of a fragment shader that compiles. `output` is the output's name in the course, or
 // NULL. Returns false if no output of the shader is floating-point, because a picture cannot store other outputs.
 bool compiler_hints_for_output(struct diagnostics *diagnostics, const struct declarations *d, const char *file,
@@ -50,22 +53,6 @@ void diagnostics_add_refusal(struct diagnostics *diagnostics, const struct draw_
 // Reports unknown names and mismatched types, whether or not the shaders compile.
 void diagnostics_add_names(struct diagnostics *diagnostics, const struct draw_result *result,
                            const struct shader_interface *interface, const lam_check_params *params);
-
-// --- finds the names that are declared and in scope at a position in a shader.
-
-enum { MAX_VISIBLE_NAMES = 256 };
-
-struct visible_names {
-    // Names of inner scopes follow names of outer scopes. If there are too many names, the innermost names are kept.
-    const char *names[MAX_VISIBLE_NAMES];
-    int depths[MAX_VISIBLE_NAMES]; // the nesting depth of braces; 0 is global
-    int count;
-};
-
-// Finds the names of the variables that the statement at word `at` can use. With `functions`, finds the names of the
-// shader's own functions instead. A variable that the statement declares is not included, because its scope begins
-// after the statement.
-void visible_names_at(const struct declarations *d, int at, bool functions, struct visible_names *out);
 
 // --- measures the difference between the shader's picture of a scene and another picture.
 

@@ -124,5 +124,6 @@ const struct glsl_symbol *glsl_symbol(const struct glsl_program *p, const char *
 int glsl_builtin(const char *name);
 struct glsl_type glsl_builtin_type(int function, const struct glsl_type *arguments, int count);
 const char *glsl_builtin_name(int function);
+bool glsl_is_dot(const struct glsl_program *p, int node); // whether a node is a call of dot()
 
 #endif

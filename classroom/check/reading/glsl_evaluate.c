@@ -54,6 +54,11 @@ int glsl_builtin(const char *name)
 
 const char *glsl_builtin_name(int function) { return builtins[function]; }
 
+bool glsl_is_dot(const struct glsl_program *p, int node)
+{
+    return p->nodes[node].kind == GLSL_BUILTIN && p->nodes[node].number == F_dot;
+}
+
 struct glsl_type glsl_builtin_type(int f, const struct glsl_type *a, int count)
 {
     struct glsl_type t = count ? a[0] : (struct glsl_type){GLSL_FLOAT, 1, 4, 0, 0};

@@ -548,6 +548,8 @@ static void names(struct glsl_program *p, struct glsl_type base, struct glsl_sym
         struct glsl_symbol *s = declare(p, name, t, kind.storage);
         s->flat = kind.flat;
         s->constant = kind.constant;
+        if (value < 0 && block >= 0 && t.base != GLSL_SAMPLER) // drivers set such variables to 0
+            value = add(p, GLSL_CONSTANT, 0, t, begin);
         if (value < 0)
             continue;
         int target = add(p, GLSL_VARIABLE, 0, t, begin);

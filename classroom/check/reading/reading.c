@@ -8,6 +8,7 @@
 
 enum { STEPS_PER_RUN = 400000 };
 static const double max_residual = 1e-5; // the largest difference from the sum, as a fraction of the largest colour
+static const double not_run = -1e33;     // the value of an expression that is not evaluated
 static const double min_factor = 1e-3;   // a smaller factor of a term is no evidence of lighting
 
 const char *const reading_role_names[READ_ROLES] = {"factor",
@@ -286,6 +287,121 @@ static int columns(const struct reading *r, const struct reading_sample *s, cons
     return count;
 }
 
+// --- the cosines
+
+enum { COSINES = 4 * (6 * READ_LIGHTS + 1) };
+
+// Computes the cosines of right vectors at the point or at the last vertex, and returns their number.
+static int cosines(const struct reading *r, const struct reading_sample *s, bool vertex, double out[COSINES])
+{
+    double n[3], l[3], v[3], h[3], p[3];
+    int count = 0;
+    weighted(s, s->points, p);
+    memcpy(p, vertex ? s->points[2] : p, sizeof p);
+    for (int form = 0; form < 4; form++) {
+        const struct reading_form f = {.infinite_viewer = form & 1};
+        weighted(s, form & 2 ? s->longs : s->units, n);
+        memcpy(n, vertex ? s->units[2] : n, sizeof n);
+        unit3(n);
+        view(s, &f, p, v);
+        for (int light = 0; light < (r->light_count ? r->light_count : 1); light++) {
+            way(r, s, light, p, l);
+            for (int i = 0; i < 3; i++)
+                h[i] = l[i] + v[i];
+            unit3(h);
+            const double nl = dot3(n, l), nv = dot3(n, v), lv = dot3(l, v);
+            const double right[] = {nl, nv, dot3(n, h), 2 * nl * nv - lv, lv, dot3(l, h)};
+            memcpy(out + count, right, sizeof right);
+            count += sizeof right / sizeof *right;
+        }
+    }
+    out[count++] = 1;
+    return count;
+}
+
+static bool is_small(double x) { return x < 1e-8 && x > -1e-8; }
+
+static bool is_near(const double *a, const double *b)
+{
+    for (int i = 0; i < 3; i++)
+        if (!is_small(a[i] - b[i]))
+            return false;
+    return true;
+}
+
+// Returns whether the arguments of dot() are the right normal and a fixed axis, such as the axis of a hemisphere.
+static bool is_of_axis(const struct reading *r, const struct glsl_program *p, int node)
+{
+    const int first = p->nodes[node].first, second = p->nodes[first].next;
+    for (int space = 0; space < 3; space++)
+        for (int k = 0; k < 2; k++) {
+            const struct glsl_node *a = &p->nodes[k ? second : first], *b = &p->nodes[k ? first : second];
+            bool fixed = b->kind == GLSL_CONSTRUCT || b->kind == GLSL_GIVEN ||
+                         (b->kind == GLSL_VARIABLE && b->number == GLSL_UNIFORM);
+            if (fixed && is_near(p->memory + a->at, r->right[space][RIGHT_NORMAL]))
+                return true;
+        }
+    return false;
+}
+
+// Makes two samples that differ in their normals, which face the first light.
+static bool make_pair(const struct reading *r, const struct reading_sample *s, struct reading_sample pair[2])
+{
+    int found = 0;
+    for (int t = 0; t < READ_TURNS && found < 2; t++) {
+        double l[3], p[3];
+        weighted(s, s->points, p);
+        way(r, s, 0, p, l);
+        if (dot3(s[t].units[2], l) <= 0.3 || dot3(s[t].units[0], l) <= 0 || dot3(s[t].units[1], l) <= 0)
+            continue;
+        pair[found] = found ? pair[0] : s[t];
+        memcpy(pair[found].normals, s[t].normals, sizeof s->normals);
+        memcpy(pair[found].longs, s[t].longs, sizeof s->longs);
+        memcpy(pair[found++].units, s[t].units, sizeof s->units);
+    }
+    return found == 2;
+}
+
+int reading_count_wrong(struct reading *r, bool known)
+{
+    double right[2][2][COSINES];
+    int wrong = 0, count = 0;
+    bool matters = known;
+    if (!known && !make_pair(r, r->samples + READ_TURNS, r->pair))
+        return READ_MANY;
+    for (int k = known; k < 2; k++) {
+        for (int side = 0; side < 2; side++)
+            for (int i = 0; i < r->sides[side].node_count; i++)
+                if (glsl_is_dot(&r->sides[side], i))
+                    r->sides[side].memory[r->sides[side].nodes[i].at] = not_run;
+        if (!reading_evaluate(r, &r->pair[k]))
+            return READ_MANY;
+        for (int side = 0; side < 2; side++) {
+            struct glsl_program *p = &r->sides[side];
+            reading_set_right(r, &r->pair[k], side ? 3 : 2);
+            count = cosines(r, &r->pair[k], side == 0, right[k][side]);
+            for (int i = 0; i < p->node_count; i++) {
+                struct reading_dot *dot = &r->dots[side][i];
+                const double x = glsl_is_dot(p, i) ? p->memory[p->nodes[i].at] : not_run, before = dot->value;
+                bool same = false, along = false; // equal or proportional to a right cosine
+                dot->value = x;
+                dot->ran = dot->ran || x != not_run;
+                if (k && !known)
+                    dot->depends = x != before && x != not_run;
+                matters = matters || (k && dot->depends);
+                for (int c = 0; c < count && k && dot->depends && x != not_run; c++) {
+                    same = same || is_small(x - right[1][side][c]);
+                    along = along || (!known && is_small(x * right[0][side][c] - before * right[1][side][c]));
+                }
+                if (k && dot->depends && x != not_run && !same && !is_of_axis(r, p, i))
+                    wrong += along ? 1 : 2;
+                wrong += k && dot->ran && x == not_run && glsl_is_dot(p, i);
+            }
+        }
+    }
+    return matters || memcmp(r->pair[0].color, r->pair[1].color, sizeof r->pair->color) ? wrong : READ_MANY;
+}
+
 // --- the fit
 
 // Solves the normal equations; a column that adds nothing gets the factor 0.
@@ -305,7 +421,10 @@ static void solve(double a[READ_COLUMNS][READ_COLUMNS + 3], int n)
     }
 }
 
-static double color_of(const struct reading_form *f, double x) { return f->decoded && x > 0 ? math_pow(x, 2.2) : x; }
+static double color_of(const struct reading_form *f, double x)
+{
+    return f->gamma > 0 && x > 0 ? math_pow(x, f->gamma) : x;
+}
 
 // Tests the samples of one point. *lit receives the lights whose diffuse term is
 // visible.
@@ -313,7 +432,7 @@ static bool test_point(struct reading *r, int point, const struct reading_form *
 {
     static _Thread_local double a[READ_COLUMNS][READ_COLUMNS + 3], c[READ_TURNS][READ_COLUMNS];
     struct reading_sample *s = r->samples + point * READ_TURNS;
-    const int n = columns(r, s, f, c[0]), turns = 8 + 2 * n < READ_TURNS ? 8 + 2 * n : READ_TURNS;
+    const int n = columns(r, s, f, c[0]), turns = 12 + 3 * n < READ_TURNS ? 12 + 3 * n : READ_TURNS;
     double largest = 0;
     r->steps -= turns * 12 * n + n * n * n / 8; // the time of the fit, in steps of the evaluation
     r->spent = r->spent || r->steps < 0;
@@ -351,7 +470,7 @@ static bool test_point(struct reading *r, int point, const struct reading_form *
         for (int i = 0; i < 3; i++) {
             factors[k][i] = a[k][k] > 0 ? a[k][n + i] / a[k][k] : 0;
             bool specular = f->exponent > 0 && k % 2 == 0;
-            negative = negative || (k && factors[k][i] < -1e-4 * largest);
+            negative = negative || (k && factors[k][i] * math_sqrt(a[k][k] > 0 ? a[k][k] : 0) < -1e-4 * largest);
             if (k && factors[k][i] > min_factor * largest && !specular)
                 *lit |= 1u << (k - 1) / (f->exponent > 0 ? 2 : 1) / (f->vertex ? 3 : 1);
             *shines = *shines || (k && specular && factors[k][i] > min_factor * largest);
@@ -418,7 +537,7 @@ static int exponents(const struct reading *r, double out[6])
                 continue;
             found = true;
             double x = p->memory[p->nodes[p->nodes[n->first].next].at];
-            bool known = count == 6 || !(x > 0) || x == 1 / 2.2;
+            bool known = count == 6 || !(x > 0) || n->type.rows >= 3;
             for (int k = 0; k < count; k++)
                 known = known || out[k] == x;
             if (!known)
@@ -427,6 +546,20 @@ static int exponents(const struct reading *r, double out[6])
     for (int i = 0; i < 6 && !found; i++)
         out[count++] = without[i];
     return count;
+}
+
+// Finds the exponent that encodes the colour: pow(color, vec3(1.0 / 2.2)). Returns its inverse, or 0.
+static double encoding(const struct reading *r)
+{
+    const struct glsl_program *p = &r->sides[1];
+    for (int i = 0; i < p->node_count; i++) {
+        const struct glsl_node *n = &p->nodes[i];
+        if (n->kind == GLSL_BUILTIN && n->type.rows >= 3 && strcmp(glsl_builtin_name(n->number), "pow") == 0) {
+            double x = p->memory[p->nodes[p->nodes[n->first].next].at];
+            return x > 0 ? 1 / x : 0;
+        }
+    }
+    return declarations_uses(p->text, "2.2") ? 2.2 : 0;
 }
 
 static bool has_role(const struct reading *r, int role)
@@ -447,7 +580,8 @@ bool reading_test_forms(struct reading *r, bool wrong)
     if (!reading_evaluate(r, &r->samples[0]))
         return false;
     const struct declarations *fragment = r->sides[1].text;
-    const bool decodes = declarations_uses(fragment, "2.2"), has_eye = has_role(r, READ_EYE);
+    const double gamma = encoding(r);
+    const bool has_eye = has_role(r, READ_EYE);
     const bool lit_later = declarations_uses(fragment, "dot") || declarations_uses(fragment, "normalize");
     int count = 1 + exponents(r, powers + 1);
     for (int k = 0; k < count; k++)
@@ -458,11 +592,11 @@ bool reading_test_forms(struct reading *r, bool wrong)
                                          .gate = !(bits & 4),
                                          .late_normal = bits & 8,
                                          .infinite_viewer = bits & 16,
-                                         .decoded = bits & 32,
+                                         .gamma = bits & 32 ? gamma : 0,
                                          .early = (uint8_t)early,
                                          .exponent = powers[k]};
                 if ((k == 0 && (bits & 22 || r->needs_highlight)) || (f.infinite_viewer && has_eye) ||
-                    (!f.vertex && !lit_later) || (f.vertex && (f.late_normal || wrong)) || (f.decoded && !decodes) ||
+                    (!f.vertex && !lit_later) || (f.vertex && (f.late_normal || wrong)) || (bits & 32 && gamma <= 0) ||
                     (f.vertex && r->light_count > 4))
                     continue;
                 if (reading_test(r, &f)) {

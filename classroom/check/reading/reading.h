@@ -40,8 +40,9 @@ enum {
     READ_TURNS = 64,
     READ_COLUMNS = 52,
     READ_NUMBERS = 64,
-    READ_FIRST = 4,
-    READ_NEAREST = 12
+    READ_NEAREST = 24,
+    READ_CHEAP = 4,
+    READ_MANY = 100
 };
 enum reading_space { READ_WORLD_SPACE, READ_EYE_SPACE, READ_OBJECT_SPACE };
 
@@ -66,9 +67,11 @@ struct reading_leaf {
 
 // Forms that are all correct, and, from READ_EARLY on, forms that are mistakes.
 struct reading_form {
-    bool phong, gate, late_normal, vertex, infinite_viewer, decoded;
+    bool phong, gate, late_normal, vertex, infinite_viewer;
+    bool general;    // no sum of terms: only the cosines are right
     uint8_t early;   // bits: l, v, and h or r are normalized at the vertices and interpolated
     double exponent; // 0: no highlight
+    double gamma;    // decodes the colour; 0: the colour is linear
 };
 
 struct reading_sample {
@@ -82,6 +85,17 @@ struct reading_sample {
 // A vector that a test may use instead of a part of the source: the right point, normal, direction to the eye, or
 // direction to the first light, in one of the spaces, with its fourth component.
 enum reading_right { RIGHT_POINT, RIGHT_NORMAL, RIGHT_EYE, RIGHT_LIGHT, RIGHT_VECTORS };
+
+// A mistake: the part of the source that is wrong, and the text that mends it.
+struct repair {
+    const char *mistake;        // the id of a known mistake (fault.h)
+    char line[300], write[300]; // the statement as it stands, and as it should stand; "" if the text is not known
+    int side, at;               // the stage, and the line
+    int first, end;             // the words that `text` replaces
+    double after;               // the mean residual that remains after this change and the changes before it
+    char text[200];             // "" if the replacement is not GLSL
+};
+enum { MAX_REPAIRS = 3, MAX_REPAIR_STEPS = 6 };
 
 struct reading {
     struct glsl_program *sides; // vertex and fragment
@@ -100,31 +114,49 @@ struct reading {
     int variant;                   // of the values of numbers without a role
     double *numbers[READ_NUMBERS]; // the addresses of these numbers
     int number_count;
+    double *switches[READ_NUMBERS]; // the addresses of uniforms of type bool
+    int switch_count;
+    bool one_way; // the shader is right with one value of the switches, but not with the other
+    struct reading_dot {
+        double value;
+        bool ran, depends;             // in any reading; on the normal
+    } *dots[2];                        // for each node of a stage
+    struct reading_sample *pair;       // two samples with different normals
     double worst;                      // the largest residual of the last test
     double right[3][RIGHT_VECTORS][4]; // by space; set before each run of a stage
-    // The likeliest readings under which the shader is wrong: their choices, and the mean residual of the best form.
+    // The likeliest readings, in the order in which they are tested: the first that contradict no name, and then readings
+    // with few wrong cosines. `mean` is the mean residual of the best form.
     struct reading_state {
         uint8_t chosen[READ_LEAVES],
-            roles[READ_LEAVES]; // `roles`: of the first choice, for the matrices of gl_Position
-        bool rows;
+            roles[READ_LEAVES];    // `roles`: of the first choice, for the matrices of gl_Position
+        bool rows, against, cheap; // cheap: one of the first
+        int wrong;
         double mean;
     } nearest[READ_NEAREST];
-    int nearest_count;
+    int nearest_count, cheap_count;
     double mean; // the mean residual of the best form of the last reading_test_forms
     double strength[READ_POINTS][READ_LIGHTS],
-        distance[READ_POINTS][READ_LIGHTS]; // of the diffuse terms of the last test
-    bool needs_highlight; // only forms with a highlight are right: the search for mistakes must not remove it
+        distance[READ_POINTS][READ_LIGHTS];  // of the diffuse terms of the last test
+    struct repair repairs[MAX_REPAIR_STEPS]; // must be made together
+    int repair_count, also_count;
+    const char *also[MAX_REPAIRS]; // other mistakes that explain the colours
+    bool needs_highlight;          // only forms with a highlight are right: the search for mistakes must not remove it
 };
 
-enum reading_outcome { READING_NONE, READING_RIGHT, READING_AGAINST };
+// READING_AGAINST: right only under a reading that contradicts a clear name. READING_MISTAKEN: right after repairs.
+enum reading_outcome { READING_NONE, READING_RIGHT, READING_AGAINST, READING_MISTAKEN };
 
-// Finds the cheapest reading under which the shader is right. READING_AGAINST: only one that contradicts a clear name.
+// Finds the cheapest reading under which the shader is right.
 enum reading_outcome reading_find(struct reading *r, const struct declarations *vertex,
                                   const struct declarations *fragment);
 
 // Tests the current reading with one form, or with every correct form and, if `wrong`, every wrong form.
 bool reading_test(struct reading *r, const struct reading_form *form);
 bool reading_test_forms(struct reading *r, bool wrong);
+
+// Adds 2 for each call of dot() that depends on the normal but is not the cosine of right vectors, 1 if it is proportional to
+// such a cosine, and 1 for each call that only other readings run. READ_MANY: the normal does not matter. With `known`, takes the dependence from the last call without `known`.
+int reading_count_wrong(struct reading *r, bool known);
 
 // Evaluates the shader at a sample. Returns false if the point is discarded or the evaluation failed.
 bool reading_evaluate(struct reading *r, struct reading_sample *s);
@@ -135,20 +167,12 @@ void reading_set_right(struct reading *r, const struct reading_sample *s, int k)
 // Restores one of the nearest readings.
 void reading_restore(struct reading *r, const struct reading_state *state);
 
-// A mistake: the part of the source that is wrong, and the text that mends it.
-struct repair {
-    const char *mistake;        // the id of a known mistake (fault.h)
-    char line[300], write[300]; // the statement as it stands, and as it should stand; "" if the text is not known
-    int side, at;               // the stage, and the line
-    int first, end;             // the words that `text` replaces
-    char text[200];             // "" if the replacement is not GLSL
-};
-enum { MAX_REPAIRS = 3, MAX_REPAIR_STEPS = 2 };
+// Finds changes of the source after which the shader is right under one of the nearest readings, which it restores, and
+// stores them in the reading. Returns the number of changes, or 0 if none are found.
+int repair_find(struct reading *r);
 
-// Finds changes of the source after which the shader is right under one of the nearest readings. `out` receives the
-// changes that must be made together; `also` receives other mistakes that explain the colours, with `also_count`.
-// Returns the number of changes, or 0 if none are found.
-int repair_find(struct reading *r, struct repair out[MAX_REPAIR_STEPS], const char *also[MAX_REPAIRS], int *also_count);
+// Returns whether all cosines are right in a shader that computes steps, rims, ramps or shifted cosines.
+bool repair_accepts(struct reading *r);
 
 // Returns a stage's source with its repairs, allocated with malloc, or NULL if memory runs out.
 char *repair_text(const struct declarations *text, const struct repair *repairs, int count, int side);

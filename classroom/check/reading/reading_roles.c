@@ -11,7 +11,8 @@
 #include "reference_scene.h"
 
 enum { MAX_SUM = 12, MAX_CHAINS = 8 };
-static const int64_t max_steps = 90000000;
+static const int64_t max_steps = 30000000,
+                     test_steps = 20000000; // of the search, and of the tests of the likeliest readings
 static const double dark = 0.5; // if no reading leaves a smaller residual, the numbers probably hide the light
 
 // --- samples
@@ -70,8 +71,8 @@ static lam_vec3 normal_to_world(const double *m, lam_vec3 n)
 }
 
 // Makes one sample of a point. The eye has the same distance and depth in every sample of the point.
-static void make_turn(struct reading_sample *s, struct reference_scene *scene, const lam_vec3 corners[3],
-                      uint32_t *state)
+static void make_turn(struct reading_sample *s, struct reference_scene *scene, const lam_vec3 corners[3], bool lit,
+                      int side, uint32_t *state)
 {
     struct reference_matrices m;
     lam_vec3 center = v3(0, 0, 0), world, n, eye, away;
@@ -79,10 +80,18 @@ static void make_turn(struct reading_sample *s, struct reference_scene *scene, c
         center = v3_add(center, v3_scale(corners[k], s->weights[k]));
     reference_matrices(scene, &m);
     world = mat4_point(&m.model, center);
+    const lam_vec3 l = v3_unit(v3_sub(v3(s->lights[0][0], s->lights[0][1], s->lights[0][2]), world));
+    lam_vec3 up;
+    double grazing;
     do {
         n = around(state);
+        up = v3_unit(normal_to_world(s->matrices[READ_NORMAL_WORLD], n));
         eye = around(state);
-    } while (v3_dot(v3_unit(normal_to_world(s->matrices[READ_NORMAL_WORLD], n)), eye) < 0.2);
+        grazing = v3_dot(up, l) * side;
+        // Near the horizon: with side −1, a highlight without light; with side 1, the highlight of a reversed vector.
+        if (side && grazing > 0.02 && grazing < 0.3)
+            eye = v3_unit(v3_add(v3_scale(v3_sub(l, v3_scale(up, 2 * v3_dot(up, l))), side), v3_scale(up, 0.45)));
+    } while (v3_dot(up, eye) < 0.2 || (lit && v3_dot(up, l) < 0.1) || (side && (grazing <= 0.02 || grazing >= 0.3)));
     away = v3_unit(v3_cross(eye, around(state)));
     scene->eye = v3_add(world, v3_scale(eye, 3));
     scene->target = v3_add(world, v3_scale(away, 0.9));
@@ -90,7 +99,7 @@ static void make_turn(struct reading_sample *s, struct reference_scene *scene, c
     put(s->eye, scene->eye);
     put(s->eye_axis, v3_sub(scene->eye, scene->target));
     for (int k = 0; k < 3; k++) {
-        lam_vec3 normal = v3_unit(v3_add(n, v3_scale(around(state), 0.35)));
+        lam_vec3 normal = v3_unit(v3_add(n, v3_scale(around(state), side ? 0.04 : 0.35)));
         lam_vec3 longer = normal_to_world(s->matrices[READ_NORMAL_WORLD], normal);
         put(s->positions[k], corners[k]);
         put(s->points[k], mat4_point(&m.model, corners[k]));
@@ -130,7 +139,7 @@ static bool make_samples(struct reading *r)
             }
             memcpy(s->lights, first->lights, sizeof s->lights);
             memcpy(s->axes, first->axes, sizeof s->axes);
-            make_turn(s, &scene, corners, &state);
+            make_turn(s, &scene, corners, t % 6 < 3, t % 6 == 5 ? -1 : t % 6 == 4, &state);
         }
     }
     return r->samples != NULL;
@@ -228,7 +237,9 @@ static bool add_input(struct reading *r, int side, const char *name, struct glsl
     for (int e = 0; e < (count ? count : 1); e++)
         for (int i = 0; i < size * (count && step == size ? 1 : elements); i++) {
             double *to = &p->memory[at + e * (count ? step : 0) + i];
-            *to = whole ? 2 : truth ? 1 : i % 4 == 3 && t.rows == 4 ? 1 : number_of(r, path, i);
+            if (truth && r->switch_count < READ_NUMBERS)
+                r->switches[r->switch_count++] = to;
+            *to = whole ? 2 : truth ? r->variant != 1 : i % 4 == 3 && t.rows == 4 ? 1 : number_of(r, path, i);
             if (t.base == GLSL_FLOAT && t.rows == 1 && r->number_count < READ_NUMBERS)
                 r->numbers[r->number_count++] = to;
         }
@@ -330,11 +341,11 @@ static unsigned effect(struct reading *r, struct reading_leaf *leaf, int compone
     copy_vectors(r, old, false);
     for (int i = 0; i < r->number_count; i++)
         numbers[i] = *r->numbers[i];
-    for (int k = 0; k < samples; k++) {
+    for (int k = 0; k < samples && !(changed & 6); k++) {
         struct reading_sample *s = r->samples + (k % READ_POINTS) * READ_TURNS + k % READ_TURNS;
         double before[7] = {0}, kept[2][16];
-        for (int i = 0; i < r->number_count; i++) // every third sample is inside of all cones
-            *r->numbers[i] = k % 3 == 2 ? -1 + 0.05 * numbers[i] : numbers[i];
+        for (int i = 0; i < r->number_count; i++) // many samples are inside of all cones, by cosines or by angles
+            *r->numbers[i] = k % 3 == 2 ? -1 + 0.05 * numbers[i] : k % 6 == 1 ? 90 + numbers[i] : numbers[i];
         // Vectors without a role get various values, so that some samples are in the cone of a spot light.
         for (int i = 0; i < r->leaf_count && k; i++)
             for (int c = 0; c < 3 && !r->leaves[i].attribute && r->leaves[i].type.columns == 1; c++) {
@@ -533,7 +544,7 @@ static bool number_lights(struct reading *r)
                 (r->leaves[k].choices[r->leaves[k].chosen].role == READ_LIGHT ||
                  r->leaves[k].choices[r->leaves[k].chosen].role == READ_TO_LIGHT))
                 return false;
-        leaf->light = r->light_count;
+        leaf->light = r->light_count % READ_LIGHTS;
         r->light_count += leaf->count ? leaf->count : 1;
     }
     for (int i = 0; i < r->leaf_count; i++)
@@ -542,52 +553,65 @@ static bool number_lights(struct reading *r)
                 r->leaves[k].geometric && r->leaves[k].choices[r->leaves[k].chosen].role == READ_LIGHT &&
                 (r->leaves[i].owner == r->leaves[k].owner))
                 r->leaves[i].light = r->leaves[k].light;
+    r->light_count = r->light_count < READ_LIGHTS ? r->light_count : READ_LIGHTS; // further lights repeat the first
     bool vectors = false;
     for (int i = 0; i < r->leaf_count; i++)
         vectors = vectors || (r->leaves[i].geometric && r->leaves[i].node < 0);
-    return eyes <= 1 && r->light_count <= READ_LIGHTS && (r->light_count || (!axes && !vectors));
+    return eyes <= 1 && (r->light_count || (!axes && !vectors));
 }
 
-// Keeps the reading if it is one of the nearest.
-static void keep_nearest(struct reading *r)
+// Returns whether a reading is less likely than another.
+static bool is_worse(const struct reading_state *a, const struct reading_state *b)
 {
-    // The first readings are the cheapest ones. Others must have smaller residuals than those that are kept.
+    return a->against != b->against ? a->against
+           : a->cheap != b->cheap   ? b->cheap
+           : a->wrong != b->wrong   ? a->wrong > b->wrong
+                                    : a->mean > b->mean;
+}
+
+// Keeps the reading if it is one of the likeliest.
+static void keep(struct reading *r, bool against, int wrong)
+{
+    struct reading_state *list = r->nearest, mine = {.rows = r->rows, .against = against, .wrong = wrong, .mean = 1};
     int at = r->nearest_count;
-    if (at == READ_NEAREST && r->nearest[--at].mean <= r->mean)
+    mine.cheap = !against && wrong < READ_MANY && r->cheap_count < READ_CHEAP;
+    r->cheap_count += mine.cheap;
+    while (at > 0 && is_worse(&list[at - 1], &mine))
+        at--;
+    if (at == READ_NEAREST)
         return;
-    r->nearest_count = at + 1;
-    for (; at > READ_FIRST && r->nearest[at - 1].mean > r->mean; at--)
-        r->nearest[at] = r->nearest[at - 1];
-    struct reading_state *state = &r->nearest[at];
-    state->rows = r->rows;
-    state->mean = r->mean;
+    r->nearest_count += r->nearest_count < READ_NEAREST;
+    for (int i = r->nearest_count - 1; i > at; i--)
+        list[i] = list[i - 1];
+    list[at] = mine;
     for (int i = 0; i < r->leaf_count; i++) {
-        state->chosen[i] = (uint8_t)r->leaves[i].chosen;
-        state->roles[i] = r->leaves[i].choices[0].role;
+        list[at].chosen[i] = (uint8_t)r->leaves[i].chosen;
+        list[at].roles[i] = r->leaves[i].choices[0].role;
     }
 }
 
-// Tries every combination of choices whose ranks add up to `sum`.
-static bool search(struct reading *r, int leaf, int sum, bool against)
+// Keeps the likeliest combinations of choices whose ranks add up to `sum`. Returns true if one of them is right and
+// contradicts no name.
+static bool search(struct reading *r, int leaf, int sum)
 {
     while (leaf < r->leaf_count && r->leaves[leaf].choice_count < 2)
         leaf++;
     if (leaf >= r->leaf_count) {
-        bool contradicts = false;
+        bool against = false;
         for (int i = 0; i < r->leaf_count; i++)
-            contradicts = contradicts || r->leaves[i].choices[r->leaves[i].chosen].against;
-        if (sum || contradicts != against || !number_lights(r))
+            against = against || r->leaves[i].choices[r->leaves[i].chosen].against;
+        if (sum || !number_lights(r))
             return false;
-        if (reading_test_forms(r, false))
+        const int wrong = reading_count_wrong(r, false);
+        if (wrong == 0 && !against && reading_test_forms(r, false))
             return true;
-        if (!against)
-            keep_nearest(r);
+        keep(r, against, wrong);
         return false;
     }
     struct reading_leaf *l = &r->leaves[leaf];
     for (int i = 0; i < l->choice_count && i <= sum && !r->spent; i++) {
         l->chosen = i;
-        if (search(r, leaf + 1, sum - i, against))
+        if (search(r, leaf + 1, sum - i))
             return true;
     }
     l->chosen = 0;
@@ -604,17 +628,35 @@ void reading_restore(struct reading *r, const struct reading_state *state)
     number_lights(r);
 }
 
-static bool search_chains(struct reading *r, const struct chain *chains, int count, bool against)
+// Searches all readings, cheapest first, and tests the likeliest.
+static enum reading_outcome search_chains(struct reading *r, const struct chain *chains, int count)
 {
     for (int sum = 0; sum < MAX_SUM && !r->spent; sum++)
         for (int k = 0; k < count && !r->spent; k++) {
             r->rows = chains[k].rows;
             for (int i = 0; i < chains[k].count; i++)
                 r->leaves[chains[k].leaves[i]].choices[0].role = (uint8_t)chains[k].roles[i];
-            if (search(r, 0, sum, against))
-                return true;
+            if (search(r, 0, sum))
+                return READING_RIGHT;
         }
-    return false;
+    r->steps = r->steps > test_steps ? r->steps : test_steps;
+    r->spent = false;
+    for (int i = 0; i < r->nearest_count && !r->spent; i++) {
+        reading_restore(r, &r->nearest[i]);
+        if (reading_test_forms(r, false))
+            return r->nearest[i].against ? READING_AGAINST : READING_RIGHT;
+        r->nearest[i].mean = r->mean;
+    }
+    while (r->nearest_count && r->nearest[r->nearest_count - 1].against)
+        r->nearest_count--;
+    for (int i = 1; i < r->nearest_count; i++) { // sorts them by their means
+        const struct reading_state state = r->nearest[i];
+        int at = i;
+        for (; at > 0 && is_worse(&r->nearest[at - 1], &state); at--)
+            r->nearest[at] = r->nearest[at - 1];
+        r->nearest[at] = state;
+    }
+    return READING_NONE;
 }
 
 static void list_attributes(struct reading *r)
@@ -623,7 +665,7 @@ static void list_attributes(struct reading *r)
         for (int i = 0; i < r->leaf_count; i++) {
             struct reading_leaf *leaf = &r->leaves[i];
             if (!leaf->attribute || leaf->choices[0].role == READ_POSITION || leaf->choice_count ||
-                has(leaf->name, normal_words) != (preferred == 1) || (effect(r, leaf, 0, 20) & 7) == 0)
+                has(leaf->name, normal_words) != (preferred == 1) || (effect(r, leaf, 0, 90) & 7) == 0)
                 continue;
             bool first = true;
             for (int k = 0; k < r->leaf_count; k++)
@@ -667,7 +709,7 @@ static enum reading_outcome find_variant(struct reading *r, const struct declara
                                          const struct declarations *fragment)
 {
     struct chain chains[MAX_CHAINS];
-    r->leaf_count = r->number_count = r->nearest_count = 0;
+    r->leaf_count = r->number_count = r->nearest_count = r->cheap_count = r->switch_count = 0;
     if (!prepare(r, vertex, fragment))
         return READING_NONE;
     int matrices = 0;
@@ -694,7 +736,7 @@ static enum reading_outcome find_variant(struct reading *r, const struct declara
     list_attributes(r);
     for (int i = 0; i < r->leaf_count; i++) {
         struct reading_leaf *leaf = &r->leaves[i];
-        unsigned changed = leaf->attribute || leaf->type.columns > 1 ? 0 : effect(r, leaf, 0, 36);
+        unsigned changed = leaf->attribute || leaf->type.columns > 1 ? 0 : effect(r, leaf, 0, 90);
         find_owner(r, leaf);
         leaf->geometric = changed & 6;
         for (int side = 1; side >= 0 && leaf->geometric; side--)
@@ -704,9 +746,12 @@ static enum reading_outcome find_variant(struct reading *r, const struct declara
     for (int i = 0; i < r->leaf_count; i++)
         if (r->leaves[i].geometric)
             list_vector(r, &r->leaves[i]);
-    if (search_chains(r, chains, count, false))
-        return READING_RIGHT;
-    return search_chains(r, chains, count, true) ? READING_AGAINST : READING_NONE;
+    for (int side = 0; side < 2; side++)
+        if (!(r->dots[side] = arena_alloc_zeroed(r->arena, (size_t)r->sides[side].node_capacity * sizeof **r->dots)))
+            return READING_NONE;
+    if (!(r->pair = arena_alloc_zeroed(r->arena, 2 * sizeof *r->pair)))
+        return READING_NONE;
+    return search_chains(r, chains, count);
 }
 
 enum reading_outcome reading_find(struct reading *r, const struct declarations *vertex,
@@ -715,8 +760,10 @@ enum reading_outcome reading_find(struct reading *r, const struct declarations *
     enum reading_outcome outcome = READING_NONE;
     int best = 0, last = 0;
     double mean = 2;
-    r->steps = max_steps;
-    for (int v = 0; v < 3 && outcome == READING_NONE && !r->reason[0] && !r->spent && mean > dark; v++) {
+    for (int v = 0; v < 3 && outcome == READING_NONE && !r->reason[0] && (mean > dark || (v == 1 && r->switch_count));
+         v++) {
+        r->steps = v ? max_steps / 3 : max_steps;
+        r->spent = false;
         r->variant = last = v;
         outcome = find_variant(r, vertex, fragment);
         for (int i = 0; i < r->nearest_count; i++)
@@ -724,6 +771,13 @@ enum reading_outcome reading_find(struct reading *r, const struct declarations *
                 best = v;
                 mean = r->nearest[i].mean;
             }
+    }
+    if (outcome == READING_RIGHT && r->switch_count) { // takes the other branches
+        const struct reading_form form = r->form;
+        for (int i = 0; i < r->switch_count; i++)
+            *r->switches[i] = !*r->switches[i];
+        r->one_way = !reading_test_forms(r, false);
+        r->form = form;
     }
     if (outcome == READING_NONE && best != last && !r->reason[0]) { // the mistakes are searched with the best values
         r->steps = max_steps;

@@ -27,11 +27,12 @@ enum change {
     CHANGE_LIGHT,
     CHANGES
 };
-enum { MAX_BEAM = 5, SPACES = 3 };
+enum { MAX_BEAM = 4, MAX_EARLY = 3, SPACES = 3 };
+enum { PARENT_NORMALIZE = 1, PARENT_MAX };
 static const int64_t repair_steps = 60000000;
 
 struct tried {
-    int side, node, change, space, state;
+    int side, node, change, space, wrong;
     struct glsl_node before;
     double mean;
 };
@@ -43,7 +44,7 @@ enum { ON_NORMAL = 1, ON_POINT = 2, ON_EYE = 4, ON_LIGHT = 8 };
 // Finds what the values of the nodes depend on, by comparing the memory after evaluations.
 static bool find_dependence(struct reading *r, uint8_t *out[2])
 {
-    struct reading_sample *base = r->samples + 3, changed;
+    struct reading_sample *base = &r->pair[0], changed;
     double *before[2];
     for (int side = 0; side < 2; side++) {
         before[side] = arena_array(r->arena, (size_t)r->sides[side].used, sizeof(double));
@@ -58,12 +59,12 @@ static bool find_dependence(struct reading *r, uint8_t *out[2])
         changed = *base;
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < 3; i++) {
-                changed.normals[k][i] = bit == 0 ? base->normals[k][(i + 1) % 3] : base->normals[k][i];
+                changed.normals[k][i] = r->pair[bit == 0].normals[k][i];
                 changed.positions[k][i] += bit == 1 ? 0.1 * (i + 1) : 0;
             }
         for (int i = 0; i < 3 && bit == 2; i++) {
             changed.eye[i] = base->eye[i] + 0.3 * (i + 1);
-            memcpy(changed.matrices, r->samples[9].matrices, sizeof changed.matrices);
+            memcpy(changed.matrices, r->samples[READ_TURNS + 9].matrices, sizeof changed.matrices);
         }
         for (int i = 0; i < 3 * READ_LIGHTS && bit == 3; i++)
             changed.lights[i / 3][i % 3] += 0.2 * (i % 3 + 1);
@@ -71,9 +72,11 @@ static bool find_dependence(struct reading *r, uint8_t *out[2])
         for (int side = 0; side < 2; side++)
             for (int i = 0; i < r->sides[side].node_count; i++) {
                 const struct glsl_node *n = &r->sides[side].nodes[i];
-                for (int c = 0; c < glsl_width(n->type) && n->kind <= GLSL_GIVEN; c++)
-                    if (r->sides[side].memory[n->at + c] != before[side][n->at + c])
+                for (int c = 0; c < glsl_width(n->type) && n->kind <= GLSL_GIVEN; c++) {
+                    double d = r->sides[side].memory[n->at + c] - before[side][n->at + c];
+                    if (!(d < 1e-10 && d > -1e-10)) // more than a rounding error
                         out[side][i] |= (uint8_t)(1u << bit);
+                }
             }
     }
     return true;
@@ -117,9 +120,9 @@ static bool suits(const struct glsl_program *p, int node, int change, const uint
     const bool place = depends & (ON_POINT | ON_LIGHT), seen = place || depends & ON_EYE;
     // clang-format off
     switch (change) {
-    case CHANGE_UNIT: return vector && n->type.rows == 3 && !is_call(p, node, "normalize") && parent != 1;
+    case CHANGE_UNIT: return vector && n->type.rows == 3 && !is_call(p, node, "normalize") && parent != PARENT_NORMALIZE;
     case CHANGE_SIGN: return vector && n->kind != GLSL_UNARY;
-    case CHANGE_CLAMP: return number && depends & ON_NORMAL && !is_call(p, node, "max") && parent != 2 && !is_shifted(p, node);
+    case CHANGE_CLAMP: return number && depends & ON_NORMAL && !is_call(p, node, "max") && parent != PARENT_MAX && !is_shifted(p, node);
     case CHANGE_ABS: return is_call(p, node, "abs") && number;
     case CHANGE_PLUS: return n->kind == GLSL_BINARY && n->op == '+' && vector && depends & (ON_POINT | ON_NORMAL);
     case CHANGE_LEFT:
@@ -211,6 +214,14 @@ static void undo(struct reading *r, const struct tried *t, const int nodes[2], c
 }
 
 // --- names
+
+static const char *named(const struct reading *r, int role)
+{
+    for (int i = 0; i < r->leaf_count; i++)
+        if (!r->leaves[i].attribute && r->leaves[i].choices[r->leaves[i].chosen].role == role)
+            return r->leaves[i].name;
+    return NULL;
+}
 
 static double cosine(const double *a, const double *b)
 {
@@ -316,7 +327,7 @@ static bool is_mean(const struct reading *r, const double *x)
 static const char *name_of(struct reading *r, struct tried *t)
 {
     struct glsl_program *p = &r->sides[t->side];
-    struct reading_sample *s = r->samples + 5;
+    struct reading_sample *s = &r->pair[0];
     double x[4] = {0};
     char which = 0;
     if (!reading_evaluate(r, s)) // the value without the change
@@ -362,10 +373,10 @@ static const char *name_of(struct reading *r, struct tried *t)
     case CHANGE_POINT:
         return name_point(t, x, s);
     case CHANGE_EYE:
-        return which == 'n'                         ? "n.r-for-v.r"
-               : along(x, s->eye_axis)              ? "viewer-infinite"
-               : along(x, r->right[0][RIGHT_POINT]) ? "eye-at-origin"
-                                                    : NULL;
+        return which == 'n'                                                                        ? "n.r-for-v.r"
+               : along(x, s->eye_axis)                                                             ? "viewer-infinite"
+               : along(x, r->right[0][RIGHT_POINT]) && (named(r, READ_VIEW) || named(r, READ_EYE)) ? "eye-at-origin"
+                                                                                                   : NULL;
     default:
         return along(x, s->lights[0]) ? "point-as-direction" : NULL;
     }
@@ -393,21 +404,12 @@ static void copy_words(const struct glsl_program *p, int from, int to, char *out
     }
 }
 
-static const char *matrix_named(const struct reading *r, int role)
-{
-    for (int i = 0; i < r->leaf_count; i++)
-        if (!r->leaves[i].attribute && r->leaves[i].choices[r->leaves[i].chosen].role == role)
-            return r->leaves[i].name;
-    return NULL;
-}
-
 static void replacement(const struct reading *r, const struct tried *t, const char *old, char *out, size_t capacity)
 {
     const struct glsl_program *p = &r->sides[t->side];
     const struct glsl_node *n = &p->nodes[t->node];
-    const char *normal = NULL,
-               *matrix = matrix_named(r, t->space == READ_EYE_SPACE ? READ_NORMAL_EYE : READ_NORMAL_WORLD),
-               *model = matrix_named(r, t->space == READ_EYE_SPACE ? READ_MODEL_VIEW : READ_MODEL);
+    const char *normal = NULL, *matrix = named(r, t->space == READ_EYE_SPACE ? READ_NORMAL_EYE : READ_NORMAL_WORLD),
+               *model = named(r, t->space == READ_EYE_SPACE ? READ_MODEL_VIEW : READ_MODEL);
     out[0] = 0;
     for (int i = 0; i < r->leaf_count; i++)
         if (r->leaves[i].attribute && r->leaves[i].choices[r->leaves[i].chosen].role == READ_NORMAL)
@@ -470,108 +472,224 @@ static void describe(const struct reading *r, const struct tried *t, const char 
 
 // --- the search
 
-static int pass(struct reading *r, uint8_t *const depends[2], int state_from, int state_to, struct tried beam[MAX_BEAM],
-                struct repair *out, const char *also[MAX_REPAIRS], int *also_count)
+// Whether a change leaves all cosines as they are.
+static bool is_neutral(int change) { return change >= CHANGE_CLAMP && change <= CHANGE_RIGHT && change != CHANGE_PLUS; }
+
+struct search {
+    struct reading *r;
+    uint8_t *depends[2];
+};
+
+static void mark_parents(const struct glsl_program *p, uint8_t *parents)
 {
-    int found = 0, beam_count = 0;
-    for (int k = state_from; k < state_to && !found; k++)
-        for (int change = 0; change < CHANGES; change++)
-            for (int side = 0; side < 2; side++) {
-                const int count = r->sides[side].node_count;
-                uint8_t *parents = arena_alloc_zeroed(r->arena, (size_t)count + 1); // 1: normalize, 2: max
-                for (int i = 0; i < count && parents; i++)
-                    for (int c = r->sides[side].nodes[i].first; c >= 0; c = r->sides[side].nodes[c].next)
-                        parents[c] = is_call(&r->sides[side], i, "normalize") ? 1
-                                     : is_call(&r->sides[side], i, "max")     ? 2
-                                                                              : 0;
-                for (int node = 0; node < count && parents && !r->spent; node++)
-                    for (int space = 0;
-                         space < (change >= CHANGE_NORMAL ? 2 : 1) &&
-                         suits(&r->sides[side], node, change, depends[side], parents[node]) && found < MAX_REPAIRS;
-                         space++) {
-                        const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
-                                  used[2] = {r->sides[0].used, r->sides[1].used};
-                        struct tried t = {.side = side, .node = node, .change = change, .space = space, .state = k};
-                        if (r->sides[side].node_count + 4 > r->sides[side].node_capacity)
-                            return found;
-                        reading_restore(r, &r->nearest[k]);
-                        apply(r, &t);
-                        bool right = reading_test_forms(r, false);
-                        t.mean = r->mean;
-                        undo(r, &t, nodes, used);
-                        if (right) {
-                            const char *mistake = name_of(r, &t);
-                            bool known = !mistake || (found && strcmp(out->mistake, mistake) == 0);
-                            for (int i = 0; i < *also_count; i++)
-                                known = known || strcmp(also[i], mistake) == 0;
-                            if (!mistake || (found && known))
-                                continue;
-                            if (!found)
-                                describe(r, &t, mistake, out);
-                            else if (*also_count < MAX_REPAIRS)
-                                also[(*also_count)++] = mistake;
-                            found++;
-                        } else if (beam && !found && t.mean < 0.7 * r->nearest[k].mean) {
-                            int at = beam_count < MAX_BEAM ? beam_count++ : MAX_BEAM - 1;
-                            if (at == MAX_BEAM - 1 && beam_count == MAX_BEAM && beam[at].mean > 0 &&
-                                beam[at].mean <= t.mean)
-                                continue;
-                            for (; at > 0 && beam[at - 1].mean > t.mean; at--)
-                                beam[at] = beam[at - 1];
-                            beam[at] = t;
-                        }
-                    }
+    for (int i = 0; i < p->node_count; i++)
+        for (int c = p->nodes[i].first; c >= 0; c = p->nodes[c].next)
+            parents[c] = is_call(p, i, "normalize") ? PARENT_NORMALIZE : is_call(p, i, "max") ? PARENT_MAX : 0;
+}
+
+// Keeps a change that makes the shader right. Returns whether it has a name of its own.
+static bool keep_right(struct search *s, struct tried *t, int depth, bool found)
+{
+    struct reading *r = s->r;
+    const char *mistake = name_of(r, t);
+    bool known = !mistake || (found && strcmp(r->repairs[depth].mistake, mistake) == 0);
+    for (int i = 0; i < r->also_count; i++)
+        known = known || strcmp(r->also[i], mistake) == 0;
+    if (known)
+        return false;
+    if (!found)
+        describe(r, t, mistake, &r->repairs[depth]);
+    else if (r->also_count < MAX_REPAIRS)
+        r->also[r->also_count++] = mistake;
+    return true;
+}
+
+// Tries each change alone. A change is tested if fewer cosines are wrong after it. Returns the number of right changes;
+// `best` receives the others that help most.
+static int try_each(struct search *s, int wrong, int depth, struct tried best[MAX_BEAM], int *best_count)
+{
+    struct reading *r = s->r;
+    int found = 0;
+    double color[3];
+    reading_count_wrong(r, true);
+    memcpy(color, r->pair[1].color, sizeof color);
+    for (int change = 0; change < CHANGES; change++)
+        for (int side = 0; side < 2; side++) {
+            const int count = r->sides[side].node_count;
+            uint8_t *parents = arena_alloc_zeroed(r->arena, (size_t)count + 8);
+            if (!parents || count + 8 > r->sides[side].node_capacity)
+                return found;
+            mark_parents(&r->sides[side], parents);
+            for (int i = 0; i < count * 2 && !r->spent && found < MAX_REPAIRS; i++) {
+                struct tried t = {.side = side, .node = i / 2, .change = change, .space = i % 2};
+                const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
+                          used[2] = {r->sides[0].used, r->sides[1].used};
+                if ((t.space && change < CHANGE_NORMAL) ||
+                    !suits(&r->sides[side], t.node, change, s->depends[side], parents[t.node]))
+                    continue;
+                apply(r, &t);
+                t.wrong = reading_count_wrong(r, true);
+                // If no cosine is wrong, or can become wrong, the colour must change.
+                const bool same = memcmp(color, r->pair[1].color, sizeof color) == 0, helps = t.wrong < wrong,
+                           may = t.wrong <= wrong && (is_neutral(change) || (!wrong && !same)),
+                           right = (helps || may) && reading_test_forms(r, false);
+                t.mean = r->mean;
+                undo(r, &t, nodes, used);
+                if (right)
+                    found += keep_right(s, &t, depth, found);
+                if (right || !helps || found)
+                    continue;
+                int at = *best_count;
+                while (at > 0 && best[at - 1].wrong > t.wrong)
+                    at--;
+                if (at == MAX_BEAM)
+                    continue;
+                *best_count += *best_count < MAX_BEAM;
+                memmove(best + at + 1, best + at, (size_t)(*best_count - 1 - at) * sizeof *best);
+                best[at] = t;
             }
+        }
     return found;
 }
 
-int repair_find(struct reading *r, struct repair out[MAX_REPAIR_STEPS], const char *also[MAX_REPAIRS], int *also_count)
+// Finds changes that are right together, greedily. Returns their number.
+static int descend(struct search *s, int wrong, int depth)
 {
-    uint8_t *depends[2];
-    struct tried beam[MAX_BEAM] = {{0}};
-    *also_count = 0;
-    r->steps = repair_steps;
-    r->spent = false;
-    r->needs_highlight = declarations_uses(r->sides[0].text, "pow") || declarations_uses(r->sides[1].text, "pow");
-    for (int k = 0; k < r->nearest_count; k++) {
-        reading_restore(r, &r->nearest[k]);
-        if (reading_test_forms(r, true)) {
-            const char *name = name_form(&r->form);
-            out[0] = (struct repair){.mistake = name};
-            if (name)
-                return 1;
-        }
-    }
-    if (!r->nearest_count)
-        return 0;
-    reading_restore(r, &r->nearest[0]);
-    if (!find_dependence(r, depends))
-        return 0;
-    if (pass(r, depends, 0, r->nearest_count, beam, &out[0], also, also_count))
-        return 1;
-    for (int i = 0; i < MAX_BEAM && beam[i].mean > 0; i++) {
+    struct reading *r = s->r;
+    struct tried best[MAX_BEAM];
+    int best_count = 0;
+    if (try_each(s, wrong, depth, best, &best_count))
+        return depth + 1;
+    for (int i = 0; i < best_count && depth + 1 < MAX_REPAIR_STEPS && i < (depth ? 1 : MAX_BEAM) && !r->spent; i++) {
         const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
                   used[2] = {r->sides[0].used, r->sides[1].used};
-        const struct reading_state kept = r->nearest[beam[i].state];
-        reading_restore(r, &kept);
-        const char *mistake = name_of(r, &beam[i]);
+        const char *mistake = name_of(r, &best[i]);
         if (!mistake)
             continue;
-        describe(r, &beam[i], mistake, &out[1]);
-        apply(r, &beam[i]);
-        int found = 0;
-        if (reading_test_forms(r, true) && name_form(&r->form)) {
-            out[0] = (struct repair){.mistake = name_form(&r->form)};
-            found = 1;
+        describe(r, &best[i], mistake, &r->repairs[depth]);
+        r->repairs[depth].after = best[i].mean;
+        apply(r, &best[i]);
+        int found;
+        if (best[i].wrong && depth < 2 && reading_test_forms(r, true) && name_form(&r->form)) {
+            r->repairs[depth + 1] = (struct repair){.mistake = name_form(&r->form)};
+            found = depth + 2;
         } else
-            found = pass(r, depends, beam[i].state, beam[i].state + 1, NULL, &out[0], also, also_count);
-        undo(r, &beam[i], nodes, used);
+            found = descend(s, best[i].wrong, depth + 1);
+        undo(r, &best[i], nodes, used);
         if (found) {
-            *also_count = 0;
-            return 2;
+            r->also_count = 0;
+            return found;
         }
     }
     return 0;
+}
+
+int repair_find(struct reading *r)
+{
+    struct search s = {.r = r};
+    struct repair *out = r->repairs;
+    r->also_count = 0;
+    r->steps = repair_steps;
+    r->spent = false;
+    r->needs_highlight = declarations_uses(r->sides[0].text, "pow") || declarations_uses(r->sides[1].text, "pow");
+    memset(out, 0, sizeof r->repairs);
+    for (int k = 0; k < r->nearest_count && k < MAX_EARLY; k++) {
+        reading_restore(r, &r->nearest[k]);
+        if (r->nearest[k].wrong && reading_test_forms(r, true) && name_form(&r->form)) {
+            out[0] = (struct repair){.mistake = name_form(&r->form)};
+            r->mean = r->nearest[k].mean;
+            return 1;
+        }
+    }
+    for (int deep = 0; deep < 2; deep++) // first one change of any reading, then several changes of the likeliest
+        for (int k = 0; k < r->nearest_count && k < (deep ? MAX_EARLY : READ_NEAREST) && !r->spent; k++) {
+            struct tried best[MAX_BEAM];
+            int best_count = 0;
+            reading_restore(r, &r->nearest[k]);
+            if (reading_count_wrong(r, false) == READ_MANY || !find_dependence(r, s.depends))
+                continue;
+            const int wrong = reading_count_wrong(r, true);
+            int found = deep ? descend(&s, wrong, 0) : try_each(&s, wrong, 0, best, &best_count);
+            r->mean = r->nearest[k].mean;
+            if (found)
+                return deep ? found : 1;
+        }
+    return 0;
+}
+
+// --- shaders that are no sums of terms
+
+// Returns whether the shader computes steps, rims, ramps or shifted cosines: functions of a cosine that no sum of terms
+// contains.
+static bool is_stylized(const struct reading *r, uint8_t *const depends[2])
+{
+    static const char *const functions[] = {"floor", "ceil", "step",    "smoothstep",
+                                            "fract", "exp",  "texture", "texture2D"};
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < r->sides[side].node_count; i++) {
+            const struct glsl_program *p = &r->sides[side];
+            const struct glsl_node *n = &p->nodes[i];
+            bool on_normal = false, constant = false;
+            for (int c = n->kind < GLSL_BLOCK ? n->first : -1; c >= 0; c = p->nodes[c].next) {
+                on_normal = on_normal || (depends[side][c] & ON_NORMAL && glsl_width(p->nodes[c].type) == 1);
+                constant = constant || (p->nodes[c].kind == GLSL_CONSTANT && p->memory[p->nodes[c].at] != 0);
+            }
+            for (size_t f = 0; f < sizeof functions / sizeof *functions; f++)
+                if (is_call(p, i, functions[f]) && depends[side][n->first] & ON_NORMAL)
+                    return true;
+            if (n->kind == GLSL_BINARY && n->op == '/' && depends[side][n->first] & ON_NORMAL &&
+                depends[side][p->nodes[n->first].next] & ON_NORMAL) // a tone curve
+                return true;
+            if (n->kind == GLSL_BINARY && on_normal && constant && (strchr("-<>", n->op) || glsl_is_dot(p, n->first)))
+                return true;
+            if (glsl_is_dot(p, i) && depends[side][i] & ON_NORMAL && is_shifted(p, i))
+                return true;
+        }
+    return false;
+}
+
+// Returns whether negative values of a cosine have no effect.
+static bool is_clamped(struct reading *r, int side, int node)
+{
+    struct tried t = {.side = side, .node = node, .change = CHANGE_CLAMP};
+    const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
+              used[2] = {r->sides[0].used, r->sides[1].used};
+    double before[3];
+    bool same = true;
+    for (int k = 0; k < READ_TURNS && same; k++) {
+        struct reading_sample *s = r->samples + (k % READ_POINTS) * READ_TURNS + k;
+        if (!reading_evaluate(r, s))
+            continue;
+        memcpy(before, s->color, sizeof before);
+        apply(r, &t);
+        same = reading_evaluate(r, s) && memcmp(before, s->color, sizeof before) == 0;
+        undo(r, &t, nodes, used);
+    }
+    return same;
+}
+
+bool repair_accepts(struct reading *r)
+{
+    uint8_t *depends[2];
+    for (int k = 0; k < r->nearest_count; k++) {
+        bool right = true, lit = false;
+        reading_restore(r, &r->nearest[k]);
+        if (r->nearest[k].wrong || reading_count_wrong(r, false) || !find_dependence(r, depends) ||
+            (!is_stylized(r, depends) && r->light_count < 5 && r->nearest[k].mean > 1e-7))
+            continue;
+        for (int side = 0; side < 2; side++)
+            for (int i = 0; i < r->sides[side].node_count && right; i++)
+                if (r->dots[side][i].depends) {
+                    bool on_light = depends[side][i] & ON_LIGHT, on_eye = depends[side][i] & ON_EYE;
+                    lit = lit || on_light;
+                    right = !on_light || on_eye || is_shifted(&r->sides[side], i) || is_clamped(r, side, i);
+                }
+        if (right && lit) {
+            r->form = (struct reading_form){.general = true, .gate = true};
+            return true;
+        }
+    }
+    return false;
 }
 
 // --- the mended source

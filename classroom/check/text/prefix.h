@@ -59,23 +59,12 @@ char *fixed_state_rewrite(const char *text, const char *other, bool *ok);
 // Returns whether a name is part of the fixed-function state, or of a struct in this state: gl_LightSource[].position.
 bool fixed_state_has(const char *name);
 
-// --- finds the contract whose names a program uses, and describes names that do not match the contract.
+// --- finds the contract whose names a program uses.
 
 // Finds the contract that matches the names in the shaders best. *out is NULL if no contract contains any of them.
 // Returns false on failure (LAM_LIMIT).
 bool contract_recognise(lam_check_contract *const *contracts, int count, struct program_texts *texts,
                         const struct contract **out, lam_error *error);
-
-// If no contract fits a program, lists the program's names that are missing in `contract`, the nearest contract.
-// `unknown` contains the names that the driver reports.
-void contract_describe_unknown(const struct contract *contract, const struct declarations *vertex,
-                               const struct declarations *fragment, const char *const *unknown, int count, char *out,
-                               size_t capacity);
-
-// Returns whether an unknown name is probably misspelt, that is, whether the contract contains a similar name of the
-// same type that no shader declares.
-bool contract_is_misspelt(const struct contract *contract, const struct declarations *vertex,
-                          const struct declarations *fragment, const char *name);
 
 // --- makes a contract from the roles that a reading found (reading.h).
 

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "name_similarity.h"
-
 // Returns points for a declared name: a name of the contract scores more than an accepted synonym, and a name with a
 // different type scores slightly less.
 static int points_of(const struct contract *contract, const struct declaration *item, bool attribute)
@@ -55,81 +53,4 @@ bool contract_recognise(lam_check_contract *const *contracts, int count, struct 
         }
     }
     return true;
-}
-
-// --- names that do not match
-
-static const struct declaration *find_uniform_or_attribute(const struct declarations *d, const char *name, bool vertex)
-{
-    size_t length = strcspn(name, "[");
-    for (int i = 0; i < d->count; i++) {
-        bool wanted = d->items[i].kind == DECLARED_UNIFORM || (vertex && d->items[i].kind == DECLARED_INPUT);
-        if (wanted && strncmp(d->items[i].name, name, length) == 0 && strcspn(d->items[i].name, "[") == length)
-            return &d->items[i];
-    }
-    return NULL;
-}
-
-static bool is_declared(const struct contract *contract, const struct contract_name *row,
-                        const struct declarations *vertex, const struct declarations *fragment)
-{
-    const struct declarations *sides[] = {vertex, fragment};
-    for (int s = 0; s < 2; s++)
-        for (int i = 0; i < sides[s]->count; i++)
-            if (sides[s]->items[i].kind != DECLARED_OUTPUT &&
-                contract_find(contract, sides[s]->items[i].name, row->attribute, NULL) == row)
-                return true;
-    return false;
-}
-
-static const struct declaration *find_either(const struct declarations *vertex, const struct declarations *fragment,
-                                             const char *name)
-{
-    const struct declaration *item = find_uniform_or_attribute(vertex, name, true);
-    return item ? item : find_uniform_or_attribute(fragment, name, false);
-}
-
-// Returns the name in the contract that the author of an unknown name probably meant. Both names have the same kind and
-// similar types, and the shaders do not declare the contract's name. Returns NULL if there is none.
-static const struct contract_name *meant_by(const struct contract *contract, const struct declarations *vertex,
-                                            const struct declarations *fragment, const struct declaration *item)
-{
-    const struct contract_name *found = NULL;
-    double best = 0;
-    for (const struct contract_name *n = contract->names; item && n->name; n++) {
-        double similarity = name_similarity(item->name, n->name);
-        if (n->attribute == (item->kind == DECLARED_INPUT) && strncmp(n->type, item->type, 3) == 0 &&
-            similarity > best && similarity >= 0.5 && !is_declared(contract, n, vertex, fragment)) {
-            best = similarity;
-            found = n;
-        }
-    }
-    return found;
-}
-
-bool contract_is_misspelt(const struct contract *contract, const struct declarations *vertex,
-                          const struct declarations *fragment, const char *name)
-{
-    const struct declaration *item = find_either(vertex, fragment, name);
-    const struct contract_name *meant = meant_by(contract, vertex, fragment, item);
-    return meant && strcmp(meant->type, item->type) == 0 && !name_is_same(item->name, meant->name) &&
-           name_similarity(item->name, meant->name) > 0.6;
-}
-
-void contract_describe_unknown(const struct contract *contract, const struct declarations *vertex,
-                               const struct declarations *fragment, const char *const *unknown, int count, char *out,
-                               size_t capacity)
-{
-    size_t at = 0;
-    out[0] = 0;
-    for (int i = 0; i < count && at + 120 < capacity; i++) {
-        const struct declaration *item = find_either(vertex, fragment, unknown[i]);
-        const struct contract_name *meant = meant_by(contract, vertex, fragment, item);
-        at += (size_t)snprintf(out + at, capacity - at, "%s'%.40s'", i ? ", " : "", unknown[i]);
-        if (item)
-            at += (size_t)snprintf(out + at, capacity - at, " (%s%s%s)", item->type, meant ? "; there: " : "",
-                                   meant ? meant->name : "");
-    }
-    if (at + 120 >= capacity)
-        snprintf(out + at, capacity - at, " ...");
 }

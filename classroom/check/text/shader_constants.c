@@ -85,7 +85,7 @@ static void set_color(struct default_color *color, const double v[3])
     *color = (struct default_color){COLOR_GIVEN, {(float)v[0], (float)v[1], (float)v[2]}};
 }
 
-void shader_constants_set(struct shader_interface *r, enum uniform_semantic semantic, const double v[3])
+static void set_constant(struct shader_interface *r, enum uniform_semantic semantic, const double v[3])
 {
     struct contract_defaults *d = &r->defaults;
     struct default_number number = {true, (float)v[0]};
@@ -137,56 +137,10 @@ void shader_constants_find(struct shader_interface *r)
     for (const struct contract_constant *c = r->contract->constants; c->name; c++) {
         double v[3];
         if (find_value(&r->fragment, c->name, v) || find_value(&r->vertex, c->name, v)) {
-            shader_constants_set(r, c->semantic, v);
+            set_constant(r, c->semantic, v);
             r->constants |= (uint64_t)1 << c->semantic;
         }
     }
-}
-
-// --- numbers without a name
-
-// Returns whether the values of a semantic are vectors. Colours and strengths are found by trial, and directions and
-// exponents are recognised by their names.
-static bool is_vector(enum uniform_semantic semantic)
-{
-    return semantic == SEMANTIC_LIGHT_AMBIENT || semantic == SEMANTIC_LIGHT_COLOR ||
-           semantic == SEMANTIC_LIGHT_DIRECTION;
-}
-
-int shader_constants_open(const struct shader_interface *r, enum uniform_semantic out[SEMANTIC_COUNT])
-{
-    uint64_t seen = 0;
-    int count = 0;
-    for (const struct contract_constant *c = r->contract->constants; c->name; c++) {
-        bool tried = c->semantic == SEMANTIC_KA || c->semantic == SEMANTIC_KS || is_vector(c->semantic);
-        bool known = (r->constants | r->declared | seen) >> c->semantic & 1;
-        seen |= (uint64_t)1 << c->semantic;
-        if (tried && !known)
-            out[count++] = c->semantic;
-    }
-    return count;
-}
-
-int shader_constants_values(const struct shader_interface *r, enum uniform_semantic semantic,
-                            double out[MAX_NUMBERS][3])
-{
-    const struct declarations *d = r->vertex_lit ? &r->vertex : &r->fragment;
-    int count = 0;
-    for (int i = 0; i < d->word_count && count < MAX_NUMBERS; i++) {
-        double v[3] = {0};
-        int at = i;
-        bool vector = is_vector(semantic);
-        if (vector ? !read_vector(d, &at, v) : !word_take_number(d, &at, &v[0]))
-            continue;
-        if (vector ? v[0] == 0 && v[1] == 0 && v[2] == 0 : !(v[0] > 0 && v[0] < 1))
-            continue;
-        bool known = false;
-        for (int k = 0; k < count; k++)
-            known = known || (out[k][0] == v[0] && (!vector || (out[k][1] == v[1] && out[k][2] == v[2])));
-        if (!known)
-            memcpy(out[count++], v, sizeof v);
-    }
-    return count;
 }
 
 static uint64_t mix(uint64_t hash, double number) // FNV-1a, one number at a time

@@ -92,9 +92,6 @@ static void put_findings(FILE *file, const lam_check_report *r)
         html_text(file, FOREIGN(f->correction));
         fputs("</code></p>", file);
     }
-    if (r->finding_count && !r->findings[0].certain)
-        fprintf(file, "<p>This explains %.0f %% of the difference; there is more.</p>",
-                r->findings[r->finding_count - 1].share * 100);
     if (!r->finding_count && r->verdict == LAM_CHECK_DIFFERS) {
         fputs("<p>", file);
         check_print_no_finding(file, r);

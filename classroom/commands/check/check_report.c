@@ -61,12 +61,7 @@ static void print_findings(FILE *file, const lam_check_report *r)
         }
         return;
     }
-    const char *these = r->finding_count > 1 ? " these together" : " this";
-    if (r->findings[0].certain)
-        fprintf(file, "It looks like%s:\n", these);
-    else
-        fprintf(file, "It looks most like%s, which explains %.0f %% of the difference; there is more:\n", these,
-                r->findings[r->finding_count - 1].share * 100);
+    fprintf(file, "It looks like%s:\n", r->finding_count > 1 ? " these together" : " this");
     for (int i = 0; i < r->finding_count; i++) {
         const lam_check_finding *f = &r->findings[i];
         fprintf(file, "  %s: %s\n    mean difference %.5f without it, %.5f with it\n    write  %s\n", f->mistake,
@@ -100,8 +95,6 @@ void check_report_line(FILE *file, const struct check_result *result)
     fprintf(file, "%-12s %2g of %2g", lam_check_verdict_name(r->verdict), points.earned, points.possible);
     for (int i = 0; i < r->finding_count; i++)
         fprintf(file, "%s%s", i ? ", " : "  ", r->findings[i].mistake);
-    if (r->finding_count && !r->findings[0].certain)
-        fprintf(file, " (%.0f %% of the difference)", r->findings[r->finding_count - 1].share * 100);
     putc('\n', file);
 }
 

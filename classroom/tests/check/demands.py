@@ -4,8 +4,8 @@ import subprocess
 
 # Texts that are mistakes only if a contract demands the other form.
 DEMANDED = {"no-gate": "gate", "normal-unit-late": "unit_normals", "ambient-attenuated": "bare_ambient"}
-# The built-in contracts that do not demand them.
-LENIENT = ("learnopengl-pbr", "learnopengl", "threejs")
+# The built-in contracts that do not demand all of them.
+LENIENT = ("learnopengl-pbr", "learnopengl", "threejs", "nyu")
 
 
 def demanding(program, shader, ids, folder):

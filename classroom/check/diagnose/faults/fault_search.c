@@ -1,9 +1,8 @@
 // fault_search.c: searches for the faults that explain the pictures.
 //
-// The search has four steps. The first step tries each fault alone, up to the first scene that the fault does not
-// explain. The second step tries combinations of faults, each of which explains different scenes. The third step is a
-// beam search, which adds one more fault to each of the best few sets. If no set explains every picture, the last step
-// reports the faults that explain some pictures and spoil none.
+// The search first tries each fault alone, up to the first scene that the fault does not explain. A beam search then adds
+// one more fault to each of the best few sets. If no set explains
+// every picture, only a fault that explains nearly all of the difference is reported.
 //
 // Nearly all of the time is spent drawing, so hopeless sets are abandoned after few pictures: an added fault must
 // improve the first scenes that it changes (is_idle). The search stops when it reaches its limit of pictures. The limit
@@ -15,9 +14,10 @@
 
 #include "fail.h"
 
-// An explanation is exact in a scene if the mean difference is at most max_exact_scene. Two pictures are equal if their
-// mean difference is at most same_mean.
-static const double max_exact_scene = 1e-4, same_mean = 1e-5;
+// Two pictures are equal if their mean difference is at most this.
+static const double same_mean = 1e-5;
+// If no set explains every picture, a fault is reported that leaves at most this fraction of the difference.
+static const double max_left = 0.05;
 // A fault changes a scene if, applied alone, it changes the scene's mean difference by at least this much.
 static const double min_change = 1e-6;
 
@@ -71,8 +71,6 @@ static bool measure_outcome(struct state *t, struct outcome *o, bool all, lam_er
         o->fits = o->fits && d.fits;
         if (explains(&t->m.scenes[i], &d))
             o->explained |= (uint32_t)1 << i;
-        if (explains(&t->m.scenes[i], &d) && d.mean <= max_exact_scene)
-            o->exactly |= (uint32_t)1 << i;
     }
     return true;
 }
@@ -224,18 +222,16 @@ static bool search(struct state *t, lam_error *error)
         return false;
     if (!best.fits && !complete_each(t, error))
         return false;
-    if (!best.fits && !t->s->has_unset_names) {
-        struct candidate some;
-        if (!sets_try_supported(t, true, &some, error))
-            return false;
-        if (some.fits)
-            best = some;
-        else if (!sets_try(t, &best, error))
-            return false;
-        if (!best.fits && !sets_try_supported(t, false, &best, error))
-            return false;
-    }
-    return store(t, &best, error);
+    if (!best.fits && !t->s->has_unset_names && !sets_try(t, &best, error))
+        return false;
+    const struct outcome *nearest = NULL;
+    for (int m = 0; m < fault_count && !best.fits && !t->s->has_unset_names; m++)
+        if (t->outcomes[m].applies && (!nearest || t->outcomes[m].mean < nearest->mean) &&
+            !fault_is_style(&faults[m], t->s->interface))
+            nearest = &t->outcomes[m];
+    if (nearest && !nearest->spoils && nearest->mean <= max_left * t->s->before)
+        best = (struct candidate){.members = {nearest->fault}, .count = 1};
+    return !best.count || store(t, &best, error);
 }
 
 bool fault_search_run(struct fault_search *s, lam_error *error)

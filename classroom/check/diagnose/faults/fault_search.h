@@ -6,7 +6,7 @@
 #include "render_cache.h"
 #include "diagnostics.h"
 
-enum { MAX_FOUND_FAULTS = 4, MAX_SCENES = 32, MAX_ALSO = 3 };
+enum { MAX_FOUND_FAULTS = 6, MAX_SCENES = 32, MAX_ALSO = 3 };
 
 // A fault of the table, with the result of the search.
 struct found_fault {
@@ -47,10 +47,8 @@ struct fault_search {
     const struct fault **scene_faults;
 };
 
-// Searches for the smallest set of faults that explains every picture or, if there is none, for faults that explain
-// some pictures. A fault is reported only if pictures confirm the fault. Either the fault alone explains at least one
-// scene and spoils no scene that passes, or a set that explains everything exactly needs the fault. The caller
-// allocates `scene_faults`. For a shader that differs only by a style, `certain` is set and the count is 0.
+// Searches for the smallest set of faults that explains every picture. The caller allocates `scene_faults`. For a shader
+// that differs only by a style, `certain` is set and the count is 0.
 bool fault_search_run(struct fault_search *search, lam_error *error);
 
 // Draws a scene in the styles of search->styles. `pixels` has size² × 4 floats.

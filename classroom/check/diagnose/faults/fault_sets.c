@@ -11,8 +11,6 @@ enum { BEAM = 6 };
 // The search adds a third fault only if the best two faults leave at most this fraction of the original difference.
 static const double max_score_for_a_third = 0.75;
 static const double min_gain = 0.03; // each further fault must reduce the score by this much
-// another fault is a rival if its score is at most this many times the score of the fault
-static const double max_rival = 1.25;
 static const double max_exact =
     2e-4; // an explanation is exact if its mean difference over all scenes is at most this (rounding errors)
 
@@ -42,64 +40,6 @@ static bool reduce(struct state *t, struct candidate *c, lam_error *error)
                     (fault_is_style(c->members[i].row, t->s->interface) || outcome_of(t, c->members[i].row)->explained);
     c->fits = c->fits && supported;
     return true;
-}
-
-// Returns whether a fault is the only explanation of some scene: no other fault explains this scene and leaves a
-// similarly small difference over all scenes.
-static bool is_the_one(struct state *t, const struct outcome *o, lam_error *error, bool *ok)
-{
-    for (int k = 0; k < t->m.differ_count; k++) {
-        uint32_t scene = (uint32_t)1 << t->m.order[k];
-        bool alone = (o->exactly & scene) != 0;
-        for (int m = 0; alone && m < fault_count; m++) {
-            struct outcome *other = &t->outcomes[m];
-            if (!(other->explained & scene) || strcmp(faults[m].id, o->fault.row->id) == 0 ||
-                other->score > max_rival * o->score)
-                continue;
-            *ok = *ok && outcome_find_spoils(t, other, error);
-            alone = *ok && other->spoils;
-        }
-        if (alone)
-            return true;
-    }
-    return false;
-}
-
-bool sets_try_supported(struct state *t, bool all, struct candidate *c, lam_error *error)
-{
-    struct fault_search *s = t->s;
-    uint32_t covered = 0;
-    bool *used = calloc((size_t)fault_count, sizeof *used);
-    bool ok = used || fail_memory(error, (size_t)fault_count);
-    *c = (struct candidate){.mean = s->before, .score = 1};
-    while (ok && c->count < MAX_FOUND_FAULTS) {
-        struct outcome *next = NULL;
-        for (int m = 0; ok && m < fault_count; m++) {
-            struct outcome *o = &t->outcomes[m];
-            int mine = __builtin_popcount(o->explained & ~covered),
-                most = next ? __builtin_popcount(next->explained & ~covered) : 0;
-            if (used[m] || !mine || fault_is_style(&faults[m], t->s->interface) || mine < most ||
-                (mine == most && o->mean >= next->mean))
-                continue;
-            ok = outcome_find_spoils(t, o, error);
-            if (ok && !o->spoils && (all || is_the_one(t, o, error, &ok)))
-                next = o;
-        }
-        if (!ok || !next)
-            break;
-        used[next - t->outcomes] = true;
-        struct candidate more = *c;
-        more.members[more.count++] = next->fault;
-        candidate_rebuild(&more);
-        s->tried++;
-        ok = candidate_try(t, &more, no_limit, error);
-        if (all || (ok && more.score < c->score && more.mean < c->mean)) {
-            *c = more;
-            covered |= next->explained;
-        }
-    }
-    free(used);
-    return ok && (!all || !c->fits || reduce(t, c, error));
 }
 
 static bool is_better(const struct candidate *a, const struct candidate *b)

@@ -169,7 +169,8 @@ typedef enum lam_tone {
     LAM_TONE_KHRONOS_NEUTRAL,
     // 0.4 (x / 0.4)^2 for each channel: shades of grey differ more than with NONE.
     LAM_TONE_CONTRAST,
-    LAM_TONE_SOFT, // unchanged up to 0.85, compressed towards 1 above, for each channel
+    // Unchanged up to 0.85, compressed towards 1 above, for each channel.
+    LAM_TONE_SOFT,
     LAM_TONE_COUNT
 } lam_tone;
 

@@ -85,6 +85,15 @@ class Batch(Case):
 
 
 class Sources(Batch):
+    def test_journal_is_a_regular_file(self):
+        """Batch once renamed a device that was named as the journal, and put a file in its place."""
+        self.good("shape", "cube", "-q", "-o", "cube.obj")
+        os.mkfifo(self.folder / "pipe")
+        self.given |= {"cube.obj", "pipe"}
+        self.bad(5, "cube.obj", "-o", "{stem}.png", "--journal", "pipe", says="pipe: cannot write: a journal is a regular file")
+        self.assertTrue((self.folder / "pipe").is_fifo())
+        self.assertFalse((self.folder / "pipe.before").exists())
+
     def test_folders(self):
         self.tree(4)
         self.cube("in/a/deep/c.OBJ", "cube.obj")

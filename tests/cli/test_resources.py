@@ -46,6 +46,7 @@ class Resources(Case):
             convert cube.obj c.stl
             convert cube.obj c.3mf
             plot attenuation -o plot.png
+            exercises --count 1 -o class/
             lights cube.obj
             shape --parametric x=u;y=v;z=0 -o shape.obj
             view --help

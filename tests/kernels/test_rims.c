@@ -43,7 +43,9 @@ static lam_image draw(lam_device *device, const lam_scene *scene, const lam_view
     lam_error error = {0};
     lam_image image = {0};
     lam_camera camera = lam_camera_fit(scene, SIZE, SIZE, view);
-    lam_draw_params params = {.samples = samples, .rig = LAM_RIG_STUDIO};
+    // Occlusion differs: a back face that is not drawn hides no light.
+    lam_draw_params params = {
+        .samples = samples, .rig = LAM_RIG_STUDIO, .occlusion = LAM_OCCLUSION_OFF, .cavity = LAM_CAVITY_OFF};
     if (!lam_image_make(&image, SIZE, SIZE, LAM_RGBA8, &error) ||
         !lam_draw(device, scene, &camera, &params, &image, NULL, &error))
         fail_msg("%s", error.text);

@@ -390,6 +390,19 @@ TEST(origins_are_exact)
     }
 }
 
+// Seen from above, the nearest corner alone decides the distance, which is then 0 but for rounding.
+TEST(a_corner_that_hides_the_rest_is_in_view)
+{
+    static const char text[] = "v 0 0 0\nv 1 0 0\nv 1 7 0\nv 0 1 0.24069478908188585\nf 1 2 3 4\n";
+    lam_error error;
+    lam_scene *scene = lam_scene_load_memory(text, sizeof text - 1, "a.obj", NULL, NULL, &error);
+    assert_non_null(scene);
+    lam_view view = lam_view_of_side(LAM_SIDE_TOP);
+    lam_camera camera = lam_camera_fit(scene, 16, 16, &view);
+    assert_true(camera.eye.y > 8 && camera.eye.y < 20);
+    lam_scene_free(scene);
+}
+
 // The corners of the field of view are the corners of the picture, with and without perspective.
 TEST(points_of_eye_space_have_a_place)
 {

@@ -100,22 +100,6 @@ static double find_below(const struct curve *curve, double level, double farthes
 
 // --- parsing the curves
 
-struct curve *plot_add_curve(struct plot *plot, double (*value)(const struct curve *, double), lam_error *error)
-{
-    if (plot->count == CURVES_MAX) {
-        complain(error, LAM_LIMIT, "plot: more than %d curves, the most that can be distinguished", CURVES_MAX);
-        return NULL;
-    }
-    struct curve *curve = &plot->curves[plot->count++];
-    *curve = (struct curve){.value = value};
-    return curve;
-}
-
-bool plot_wrong(lam_error *error, const char *kind, const char *word, const char *expected)
-{
-    return complain(error, LAM_BAD_ARGUMENT, "plot %s: found '%.100s', expected %s", kind, word, expected);
-}
-
 // Adds the curve of a light. The label consists of `name` (may be NULL) and the light's numbers.
 static bool add_faded(struct plot *plot, const lam_light *light, const char *name, lam_error *error)
 {

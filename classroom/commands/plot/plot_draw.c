@@ -7,6 +7,22 @@
 
 #include "console.h"
 
+struct curve *plot_add_curve(struct plot *plot, double (*value)(const struct curve *, double), lam_error *error)
+{
+    if (plot->count == CURVES_MAX) {
+        complain(error, LAM_LIMIT, "plot: more than %d curves, the most that can be distinguished", CURVES_MAX);
+        return NULL;
+    }
+    struct curve *curve = &plot->curves[plot->count++];
+    *curve = (struct curve){.value = value};
+    return curve;
+}
+
+bool plot_wrong(lam_error *error, const char *kind, const char *word, const char *expected)
+{
+    return complain(error, LAM_BAD_ARGUMENT, "plot %s: found '%.100s', expected %s", kind, word, expected);
+}
+
 enum { INK = 0x222222, GREY = 0x707070, GRID = 0xe4e4e4, LEGEND_SIZE = 200 };
 
 // The position of the axes on the page, and the scale of the text.

@@ -114,8 +114,11 @@ static lam_camera fit_perspective(const struct fitting *fitting, const struct vi
     double ez_x = (at[EXTENT_RIGHT] + at[EXTENT_LEFT]) / (2 * extents.kx),
            ez_y = (at[EXTENT_TOP] + at[EXTENT_BOTTOM]) / (2 * extents.ky);
     double ez = ez_x > ez_y ? ez_x : ez_y;
-    if (!(ez > front)) // a single point, or a line along the view
-        ez = front + 1;
+    // A single point, a line along the view, or a nearest point beyond which everything is in view.
+    if (!(ez > front + 1e-6 * (ez < 0 ? -ez : ez))) {
+        double reach = scene_radius(points->scene, axes->centre);
+        ez = front + (reach > 0 ? reach : 1);
+    }
     centre_axis(points, !(ez_x > ez_y), ez, &extents);
     double x = (at[EXTENT_RIGHT] - at[EXTENT_LEFT]) / 2, y = (at[EXTENT_TOP] - at[EXTENT_BOTTOM]) / 2;
     return (lam_camera){.eye = to_world(axes, x, y, ez),

@@ -64,12 +64,14 @@ static bool suits_contrast(const struct lam_scene *scene, bool ground)
     return !ground && grey_reflectance(scene) > 0 && scene_form(scene) != FORM_FLAT;
 }
 
-// Returns whether light colours all surfaces: no material is unlit, so that no colour must stay as it is.
+// Returns whether light colours all surfaces: no material is unlit or emits light, so that no colour must stay as it is.
 static bool all_lit(const struct lam_scene *scene)
 {
     bool lit = true;
-    for (int i = 0; i < scene->materials.count; i++)
-        lit &= !lam_scene_material(scene, i)->unlit;
+    for (int i = 0; i < scene->materials.count; i++) {
+        const lam_material *m = lam_scene_material(scene, i);
+        lit &= !m->unlit && !(m->emission.r > 0 || m->emission.g > 0 || m->emission.b > 0);
+    }
     return lit;
 }
 

@@ -106,7 +106,7 @@ def lab_links(program, command, page):
 def heading_id(text, seen):
     """GitHub's anchors: the words of a heading in small letters, joined by dashes."""
     plain = html.unescape(re.sub(r"<[^>]*>", "", text)).lower()
-    name = re.sub(r"[^\w\- ]", "", plain).strip().replace(" ", "-")
+    name = re.sub(r"[^\w\- ]", "", plain.strip()).replace(" ", "-")
     seen[name] = seen.get(name, -1) + 1
     return name if not seen[name] else "%s-%d" % (name, seen[name])
 

@@ -20,7 +20,7 @@ from web import Results  # noqa: E402
 
 # Figures of docs/lighting that are not pictures of one model by `lambent`: diagrams (lambent plot, scripts/tone_plot.py), all materials on
 # one sheet, an explained pixel, and pictures drawn by docs/tools with a deliberate mistake.
-NO_LAB = r"highlight\.png|attenuation\.png|spot\.png|tone\.svg|tone-colors\.svg|materials\.png|explained\.png|mistake-.*"
+NO_LAB = r"beam\.png|lambert\.png|fresnel\.png|depth\.png|lobe\.png|highlight\.png|attenuation\.png|spot\.png|tone\.svg|tone-colors\.svg|materials\.png|explained\.png|mistake-.*"
 
 
 def check_links(results, folder):
@@ -43,7 +43,7 @@ def check_links(results, folder):
                 if anchor:
                     words.setdefault(os.path.relpath(path, folder), []).append([unquote(word) for word in anchor.split("&")])
                 continue
-            if not os.path.isfile(target) or (anchor and target in texts and 'id="%s"' % anchor not in texts[target]):
+            if not os.path.isfile(target) or (anchor and target in texts and 'id="%s"' % unquote(anchor) not in texts[target]):
                 missing.append("%s: %s" % (os.path.relpath(path, folder), link))
     results.ok(len(texts) > 40 and not missing, "every link of %d pages has its target" % len(texts), "\n".join(missing))
     return texts, words

@@ -45,7 +45,8 @@ static inline double off_plane_deg(lam_vec3 v, lam_vec3 n, lam_vec3 l)
 {
     const lam_vec3 across = cross(n, l);
     const double size = sqrt(dot(across, across)), sine = size > 1e-6 ? fabs(dot(v, across)) / size : 0;
-    return in_degrees(asin(sine < 1 ? sine : 1));
+    // rounded, because C libraries compute asin with different last bits
+    return floor(in_degrees(asin(sine < 1 ? sine : 1)) * 1e9 + 0.5) / 1e9;
 }
 
 // Computes the plane a x + b y + c z + d = 0 of a triangle in its mesh: (a b c) is (p1 − p0) × (p2 − p0), normalised.

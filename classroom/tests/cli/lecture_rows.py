@@ -54,7 +54,7 @@ ROWS = [
     (41, "If the object rotates, every colour is computed again; lights are fixed to the world, the camera or an object.", "compare teapot --sheet frames", PICTURE, "lighting/lights.md#frames"),
     (42, "The vertex shader with the products as uniforms.", "shader teapot --style lecture --stage vertex --glsl 120 --products", ["uniform vec4 ambient_product", "uniform vec4 diffuse_product"], "shaders.md#uniforms"),
     (43, "glGetUniformLocation, glUniformMatrix4fv, glUniform4fv.", "shader teapot --glsl 120 --host c", ["//   mat4 ", "    glUniformMatrix4fv"], "shaders.md#host-code"),
-    (44, "The printed program that lights in the vertex shader.", "check pittsburgh-compiled.frag --vertex pittsburgh-compiled.vert --contract=PITT", CHECK, "check/contracts.md#pittsburgh"),
+    (44, "The printed program that lights in the vertex shader.", "check pittsburgh-compiled.frag --vertex pittsburgh-compiled.vert --contract pittsburgh", CHECK, "check/contracts.md#pittsburgh"),
     (45, "The printed program that lights in the fragment shader.", "check pittsburgh-printed.frag --vertex pittsburgh-printed.vert", CHECK, "check/contracts.md#pittsburgh"),
     (46, "N, L, E, R and the reflected eye vector ER.", POINT + " --reflectivity 0.9 --environment sky", ["l ", "r ", "R "], "lighting/reflection.md"),
     (47, "Ambient, diffuse and specular light alone; shininess 50 and 1000; flat.", "compare teapot --sheet terms", PICTURE, "lighting/specular.md"),

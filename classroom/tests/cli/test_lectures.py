@@ -274,7 +274,7 @@ class Lectures(Case):
         """A row's command as it is printed."""
         size = "" if " -s " in command else " -s 480x300" if command.startswith("plot") else " -s 200x167" if command.startswith("compare") else " -s 240"
         if result == CHECK:
-            return "lambent " + command.replace("pittsburgh", "@pittsburgh").replace("oregon", "@oregon").replace("nyu", "@nyu").replace("@", "classroom/tests/check/lectures/").replace("PITT", "pittsburgh")
+            return "lambent " + re.sub(r"\S+\.(frag|vert)\b", r"classroom/tests/check/lectures/\g<0>", command)
         return "lambent " + command + (size + " -o docs/pictures/lectures/%02d.png" % number if result == PICTURE else "")
 
     def lines(self, output, names):

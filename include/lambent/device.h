@@ -157,7 +157,7 @@ typedef enum lam_output {
 // sources and plots). Tone curves apply to 8-bit pictures; float pictures store the light itself.
 typedef enum lam_tone {
     // KHRONOS_NEUTRAL if the frame shows a physical material, CONTRAST if the studio illuminates a grey curved model or
-    // a terrain, SOFT if it illuminates another model, otherwise NONE.
+    // a terrain, SOFT if it illuminates another model without unlit and emissive materials, otherwise NONE.
     LAM_TONE_AUTO = 0,
     LAM_TONE_NONE,     // no curve: each channel is clipped at 1
     LAM_TONE_REINHARD, // x / (1 + x) for each channel (Reinhard et al., 2002)
@@ -442,9 +442,9 @@ LAM_API lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_
 LAM_API int lam_draw_lights(const lam_scene *scene, lam_rig rig, bool ground, lam_light *lights, int capacity);
 
 // Returns params->tone, or the curve that the light of params->rig selects if that is LAM_TONE_AUTO: LAM_TONE_CONTRAST,
-// LAM_TONE_SOFT or, without the studio, LAM_TONE_AUTO. If
-// your program adds the lights of lam_scene_rig_lights to the scene itself, call this function before and draw with its
-// curve: the result is the picture that LAM_TONE_AUTO gives with the rig.
+// LAM_TONE_SOFT, or LAM_TONE_AUTO if it selects none. If your program adds the lights of lam_scene_rig_lights to the
+// scene itself, call this function before and draw with its curve: the result is the picture that LAM_TONE_AUTO gives
+// with the rig.
 LAM_API lam_tone lam_draw_tone(const lam_scene *scene, const lam_draw_params *params);
 
 // Returns the report of the device's last frame; all zero before the first frame.

@@ -345,9 +345,9 @@ struct option option_table[OPTIONS_MAX] = {
      "The tone curve: none, reinhard, aces, agx, khronos-neutral, contrast or soft.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
      "with physical materials, and `contrast` for scans, figures and terrains that are light grey and lit by the "
-     "studio. For other models that the studio lights, `auto` selects `soft`. For all other pictures, and with "
-     "`--color-mode raw`, `auto` selects `none`, which clips light at 1. Lambent applies no "
-     "curve to floating-point pictures. For the formulas, see `docs/lighting/tone.md`.",
+     "studio. For other models that the studio lights, `auto` selects `soft`, unless a material is unlit or emits "
+     "light. For all other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. "
+     "Lambent applies no curve to floating-point pictures. For the formulas, see `docs/lighting/tone.md`.",
      tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
      FIELD(draw.tone)},
     {"show", 0, GROUP_PICTURE, "QUANTITY", "the picture",

@@ -295,8 +295,15 @@ static bool add_tone(struct plot *plot, const char *word, lam_error *error)
     int tone = LAM_TONE_NONE;
     while (tone < LAM_TONE_COUNT && strcmp(lam_tone_name((lam_tone)tone), word) != 0)
         tone++;
-    if (tone == LAM_TONE_COUNT)
-        return plot_wrong(error, "tone", word, "none, reinhard, aces, agx, khronos-neutral or contrast");
+    if (tone == LAM_TONE_COUNT) {
+        char known[200] = "";
+        for (int i = LAM_TONE_NONE; i < LAM_TONE_COUNT; i++) {
+            const char *before = i == LAM_TONE_NONE ? "" : i == LAM_TONE_COUNT - 1 ? " or " : ", ";
+            size_t used = strlen(known);
+            snprintf(known + used, sizeof known - used, "%s%s", before, lam_tone_name((lam_tone)i));
+        }
+        return plot_wrong(error, "tone", word, known);
+    }
     struct curve *curve = plot_add_curve(plot, tone_value, error);
     if (!curve)
         return false;

@@ -90,7 +90,7 @@ class Sources(Batch):
         self.good("shape", "cube", "-q", "-o", "cube.obj")
         os.mkfifo(self.folder / "pipe")
         self.given |= {"cube.obj", "pipe"}
-        self.bad(5, "cube.obj", "-o", "{stem}.png", "--journal", "pipe", says="pipe: cannot write: a journal is a regular file")
+        self.bad(5, "cube.obj", "-o", "{stem}.png", "--journal", "pipe", says="pipe: cannot write: found a folder, pipe or device, expected a regular file")
         self.assertTrue((self.folder / "pipe").is_fifo())
         self.assertFalse((self.folder / "pipe.before").exists())
 

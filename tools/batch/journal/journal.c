@@ -323,8 +323,9 @@ struct journal *journal_open(const char *path, enum journal_way way, const struc
         complain(error, LAM_MACHINE, "out of memory");
     struct stat there;
     if (ok && lstat(path, &there) == 0 && !S_ISREG(there.st_mode) && !S_ISLNK(there.st_mode))
-        ok = complain(error, LAM_CANNOT_WRITE, "%s: cannot write: a journal is a regular file, found something else",
-                      path);
+        ok =
+            complain(error, LAM_CANNOT_WRITE,
+                     "%s: cannot write: found a folder, pipe or device, expected a regular file for the journal", path);
     ok = ok && output_make_folder(path, error) && open_running(j, error) &&
          (way == JOURNAL_START ? set_aside(j, error) : read_journal(j, way, run->options, error));
     if (ok) {

@@ -126,8 +126,6 @@ static void find_output(struct glsl_stage *f, const struct glsl_choices *c)
     f->per_fragment = !f->application && !f->per_vertex;
     f->lit = !f->application && !f->output_geometry;
     f->output_material = f->lit && output_kind(c->output) == OUTPUT_MATERIAL;
-    f->output_depth = c->output == LAM_OUTPUT_DEPTH;
-    f->output_occlusion = c->output == LAM_OUTPUT_AMBIENT_OCCLUSION;
     f->shows_level = f->output_material && c->output == LAM_OUTPUT_LOD;
     f->unlit = f->lit && (c->reflection == LAM_REFLECTION_NONE || f->output_material) && !f->output_vector;
     f->adds_lights = f->lit && !f->unlit && !f->output_vector;
@@ -147,7 +145,7 @@ static void find_lights(struct glsl_stage *f, const struct glsl_choices *c)
     }
     f->has_environment = c->environment != GLSL_NO_ENVIRONMENT && f->adds_lights;
     f->environment_light = f->has_environment && c->environment_light;
-    f->occluded = c->occlusion && f->per_fragment && (f->adds_lights || f->output_occlusion);
+    f->occluded = c->occlusion && f->per_fragment && (f->adds_lights || c->output == LAM_OUTPUT_AMBIENT_OCCLUSION);
 }
 
 static void find_material(struct glsl_stage *f, const struct glsl_choices *c)
@@ -170,7 +168,7 @@ static void find_attributes(struct glsl_stage *f, const struct glsl_choices *c)
 {
     f->glsl_120 = c->version == GLSL_120;
     f->needs_normal = f->lit && !f->unlit;
-    f->needs_position = f->needs_normal || f->output_depth;
+    f->needs_position = f->needs_normal || c->output == LAM_OUTPUT_DEPTH;
     f->signed_tangent = f->has_normal_map || f->has_coat_normal_map || (f->has_anisotropy && c->tangents);
     f->needs_tangent_attribute = (f->needs_tangent && c->tangents) || f->signed_tangent;
     f->vertex_colors = c->colors && f->lit && !f->output_vector;

@@ -74,7 +74,6 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     X(output_vector) /* a vector, or a cosine of one light */ \
     X(output_one_light) /* a cosine of one light */ \
     X(output_material) /* a property of the material at the point; the surface is unlit */ \
-    X(output_depth) X(output_occlusion) \
     X(shows_level) /* the level of detail of a map */ \
     /* surface */ \
     X(back_material) /* the back has its own material */ \

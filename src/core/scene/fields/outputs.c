@@ -21,7 +21,7 @@ const struct output_row output_rows[LAM_OUTPUT_COUNT] = {
     [LAM_OUTPUT_TANGENTS] = {"tangents", "tangents in eye space: (t + 1)/2", OUTPUT_VECTOR, CODE_SIGNED, .terms = TERMS_ALL,
                              .flag = "output_tangents"},
     [LAM_OUTPUT_DEPTH] = {"depth", "distance from the eye along the view direction: the nearest point is white, the farthest point black",
-                          OUTPUT_GEOMETRY, CODE_DEPTH, .terms = TERMS_ALL},
+                          OUTPUT_GEOMETRY, CODE_DEPTH, .terms = TERMS_ALL, .flag = "output_depth"},
     [LAM_OUTPUT_N_L] = {"n.l", "cosine of the angle between the normal and the direction to the light: max(n.l, 0)",
                         OUTPUT_VECTOR, CODE_PLAIN, .terms = TERMS_ALL, .one_light = true, .flag = "output_n_l"},
     [LAM_OUTPUT_N_H] = {"n.h", "cosine of the angle between the normal and the half vector: max(n.h, 0)",
@@ -40,7 +40,7 @@ const struct output_row output_rows[LAM_OUTPUT_COUNT] = {
     [LAM_OUTPUT_OCCLUSION] = {"occlusion", "the value of the occlusion map", OUTPUT_MATERIAL, CODE_PLAIN, .terms = TERMS_ALL, .flag = "shows_occlusion"},
     [LAM_OUTPUT_LOD] = {"lod", "level of detail of the base colour map, divided by 10", OUTPUT_MATERIAL, CODE_LEVEL, .terms = TERMS_ALL},
     [LAM_OUTPUT_AMBIENT_OCCLUSION] = {"ao", "ambient occlusion: the fraction of surrounding light that reaches the point",
-                                      OUTPUT_GEOMETRY, CODE_PLAIN, .terms = TERMS_ALL},
+                                      OUTPUT_GEOMETRY, CODE_PLAIN, .terms = TERMS_ALL, .flag = "output_occlusion"},
     [LAM_OUTPUT_ENVIRONMENT] = {"environment", "the light that surfaces of all materials reflect from the environment",
                                 .terms = TERM_DIFFUSE | TERM_SPECULAR | TERM_REFLECTION, .lit = true},
 };

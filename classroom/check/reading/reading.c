@@ -1,5 +1,8 @@
 // reading.c: evaluates a shader at the samples, and compares its colours with sums of an ambient, a diffuse and a
 // specular term.
+//
+// The file is longer than 600 lines, because the samples, the fit of the terms and the forms that are tried share their
+// state.
 #include "reading.h"
 
 #include <string.h>

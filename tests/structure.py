@@ -227,6 +227,16 @@ def windows_elsewhere():
                     yield os.path.relpath(os.path.join(path, name), ROOT)
 
 
+def tests_in_no_suite():
+    """Test files that no meson.build names. Those in tests/cli and tests/python are found by their scripts, and english.py is a part of style.py."""
+    text = "".join(open(file).read() for file in glob.glob(os.path.join(ROOT, "**", "tests", "**", "meson.build"), recursive=True))
+    for pattern in ("tests/*/test_*.c", "tests/*.py", "tests/*/run.py", "classroom/tests/*/test_*.*", "classroom/tests/web/*.py"):
+        for file in sorted(glob.glob(pattern, root_dir=ROOT)):
+            stem = os.path.splitext(os.path.basename(file))[0]
+            if file != "tests/english.py" and not re.search(r"\b%s\b|'%s'" % (re.escape(stem), re.escape(stem.removeprefix("test_"))), text):
+                yield file
+
+
 def large_folders():
     """Folders of the library, the program and the page with more than 25 files: nobody finds one at a glance."""
     for top in ("src", "program", "tools", "classroom", "web"):
@@ -336,6 +346,7 @@ def main():
         ("no folder of a program includes a header from one below it, or from the other program", ["%s includes %s" % one for one in headers_back(order)]),
         ("no text of the library names an option of the program", ["%s: %s" % one for one in options_in_messages()]),
         ("Windows is known to src/system alone", ["%s asks for it" % file for file in sorted(windows_elsewhere())]),
+        ("every test file is in a suite", ["%s is in none" % file for file in tests_in_no_suite()]),
         ("no folder has more than 25 files", ["%s has %d" % one for one in sorted(large_folders())]),
         ("no script of the page imports from a folder after its own", ["%s %s" % one for one in imports_back()]),
         ("no internal function has more than 8 parameters", ["%s: %s has %d" % one for one in long_parameter_lists()]),

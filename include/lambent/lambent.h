@@ -38,6 +38,7 @@
 #include "render.h"
 #include "scene.h"
 #include "scene_file.h"
+#include "section.h"
 #include "settings.h"
 #include "shader.h"
 #include "text.h"

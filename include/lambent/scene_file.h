@@ -2,6 +2,7 @@
 #ifndef LAMBENT_SCENE_FILE_H
 #define LAMBENT_SCENE_FILE_H
 
+#include "section.h"
 #include "settings.h"
 
 #ifdef __cplusplus
@@ -19,6 +20,7 @@ enum {
     LAM_SETTING_CAMERA = 1 << 6,      // camera
     LAM_SETTING_LIGHTS = 1 << 7,      // the scene's lights, even if the list is empty
     LAM_SETTING_ENVIRONMENT = 1 << 8, // environment_…
+    LAM_SETTING_SECTIONS = 1 << 9,    // sections
 };
 
 // The picture that a scene file describes: its size, camera and drawing settings. lam_scene contains the rest. Settings
@@ -38,7 +40,11 @@ typedef struct lam_picture_settings {
     const char *environment_picture;  // one picture: equirectangular or a cross
     const char *environment_built_in; // the name of a built-in environment
     double environment_rotation_rad;  // about the up axis
-    LAM_RESERVED(16);
+    // The planes that cut the scene, which loading has applied (section.h). They live as long as the scene.
+    // lam_scene_save ignores them, and writes the scene's own.
+    const lam_section *sections;
+    int section_count; // elements of `sections`
+    LAM_RESERVED(14);
 } lam_picture_settings;
 
 // Gets the settings of a scene that was loaded from a scene file. Returns false and sets all fields to zero for any

@@ -65,6 +65,7 @@ struct model_options {
     const char *scene, *variant, *animation; // as typed; NULL means the file's default
     double time_s;                           // valid if `has_time` is set
     bool has_time, lenient;
+    struct texts sections; // as typed, checked
 };
 
 // The camera.

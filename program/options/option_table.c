@@ -384,6 +384,17 @@ struct option option_table[OPTIONS_MAX] = {
      "first pose; after the last keyframe, it shows the last pose.",
      NULL, .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time),
      .min = -1e9, .max = 1e9, .others = "seconds", .loads = true},
+    {"section", 0, GROUP_MODEL, "PLANE", "none",
+     "Cut the model by a plane, such as x=0 or z=40%, and close the cut surface; repeatable.",
+     "The axis names the side that is removed: `x=0` removes x > 0, and `-x=0` removes x < 0. A percentage is a part "
+     "of "
+     "the model's extent along the axis, from its smallest coordinate. `normal=1/1/0,distance=2.5` is any other plane; "
+     "it removes the side to which the normal points. The coordinates refer to the model before `--rotate`. Cut "
+     "surfaces have the material of their part, or the colour of `,color=orange`. Lines, points, transparent parts and "
+     "surfaces that are not closed are cut, but not closed. `lambent info` prints the area of each section. `none` "
+     "shows the whole model of a scene file with sections.",
+     .brief = "cut the model: x=0, z=40% ...", .store = store_section,
+     .others = "clip clipping cut cutaway cut-away cross-section slice", FIELD(model.sections), .also_in = KEEPS_MODEL},
     {"lenient", 0, GROUP_MODEL, NULL, NULL,
      "Draw all geometry that can be read: ignore unknown extensions that a glTF or 3MF file requires.",
      "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
@@ -485,8 +496,7 @@ struct option option_table[OPTIONS_MAX] = {
      "A predefined set of lights: studio, headlight, three-point, lecture, default, file, none or auto.",
      "Every rig except `auto` and `file` replaces the model's own lights. `docs/lighting/lights.md` lists the lights "
      "of each rig.",
-     rig_words, .brief = "a set of lights: studio, headlight, three-point ...", .store = store_word,
-     .others = "lights light-setup studio headlight", FIELD(lighting.rig),
+     rig_words, .store = store_word, .others = "lights light-setup studio headlight", FIELD(lighting.rig),
      .has_field = offsetof(struct options, lighting.has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
      .kind = VALUE_COLOR, .store = store_opaque_color, .others = "ambient-light", FIELD(lighting.ambient)},

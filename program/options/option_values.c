@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/section.h>
 #include <lambent/words.h>
 
 #include "console.h"
@@ -492,6 +493,17 @@ bool store_rotation(const struct option *option, const char *value, struct optio
     double angle_deg;
     if (!rotation_parse(value, &axis, &angle_deg))
         return wrong(error, value, "an axis and degrees, such as y:30 (up to a million degrees)");
+    return append(option, value, options, error);
+}
+
+bool store_section(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    lam_section section;
+    const struct texts *list = field_of(options, option->field);
+    if (strcmp(value, "none") != 0 && !lam_section_parse(value, LAM_COLOR_SRGB, &section, error))
+        return false;
+    if (list->count == LAM_SECTIONS_MAX)
+        return wrong(error, value, "at most 8 sections");
     return append(option, value, options, error);
 }
 

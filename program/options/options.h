@@ -218,12 +218,12 @@ int options_parse(int count, char **words, uint64_t groups, struct options *opti
 option_parser store_switch, store_word_flag; // bool; store_word_flag accepts words with the values 0 and 1
 option_parser store_text, store_jobs;        // const char *
 option_parser store_color, store_opaque_color, store_show, store_camera; // const char *, checked
-option_parser store_word, store_words, store_glsl, store_up;     // int, the value of a word; store_words: a bit mask
-option_parser store_integer;                                     // int
-option_parser store_number, store_seconds;                       // double; store_seconds: infinity for "none"
-option_parser store_float, store_angle, store_cutoff;            // float; store_angle: degrees; store_cutoff: −1 for 0
-option_parser store_count, store_bytes;                          // uint64_t
-option_parser store_light, store_material, store_rotation;       // struct texts, checked
+option_parser store_word, store_words, store_glsl, store_up; // int, the value of a word; store_words: a bit mask
+option_parser store_integer;                                 // int
+option_parser store_number, store_seconds;                   // double; store_seconds: infinity for "none"
+option_parser store_float, store_angle, store_cutoff;        // float; store_angle: degrees; store_cutoff: −1 for 0
+option_parser store_count, store_bytes;                      // uint64_t
+option_parser store_light, store_material, store_rotation, store_section; // struct texts, checked
 option_parser store_texts, store_path, store_list, store_across; // struct texts; store_across: at most ACROSS_MAX
 option_parser store_reflectivity;                                // lam_rgb
 // Store several members of struct options.

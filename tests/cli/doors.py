@@ -43,7 +43,7 @@ CONTEXT = {
 }
 LIGHTS = ("ambient", "hemisphere", "point", "directional", "spot")
 GROUPS = ("image", "environment", "setting")
-NOT_SETTINGS = ("lambent", "image", "camera", "environment", "materials", "objects", "lights")
+NOT_SETTINGS = ("lambent", "image", "camera", "environment", "materials", "objects", "lights", "sections")
 
 # Other names of keys as options.
 OPTION_NAMES = {"image.color": "color-mode", "environment.builtin": "environment", "environment.rotation": "environment-rotation", "camera.ortho_half_height": "ortho"}

@@ -176,8 +176,12 @@ static bool convert(struct convert *c, struct progress *progress, lam_error *err
     lam_picture_settings settings;
     lam_control control;
     lam_export_params params = {.name = file_name(c->output), .control = &control};
-    if (!job_load(&c->job, progress, error))
+    if (!job_load(&c->job, progress, error) || !job_control(&c->job, NULL, &control, error) ||
+        !job_section(&c->job, &control, error))
         return false;
+    c->job.model_counts.triangles = lam_scene_triangle_count(c->job.scene); // sections change the counts
+    c->job.model_counts.lines = lam_scene_line_count(c->job.scene);
+    c->job.model_counts.points = lam_scene_point_count(c->job.scene);
     if (lam_scene_picture_settings(c->job.scene, &settings) && settings.present & LAM_SETTING_CAMERA)
         params.camera = &settings.camera;
     lam_image thumbnail = {0};

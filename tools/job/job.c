@@ -137,7 +137,7 @@ static bool draws_once(const struct job *job)
         return false;
     bool tangents = lam_reflection_describe(o->draw.reflection)->tangents;
     return o->work.repeat == 1 && !job->keeps_scene && !show_is_all(o) && !tangents && job->view_count <= 1 &&
-           !job->animation;
+           !job->animation && !o->model.sections.count;
 }
 
 // Warns about maps that flat and Gouraud shading ignore.
@@ -261,6 +261,8 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
         return complain(error, LAM_CANNOT_READ,
                         "%s: found no triangles, lines or points, expected at least one to draw", job->model);
     scene_settings_apply(job);
+    if (!lam_scene_set_sections(job->scene, NULL, 0, NULL, error)) // job_section cuts what the options have changed
+        return false;
     if (!find_background(job, error))
         return false;
     warn_maps(job);
@@ -450,7 +452,7 @@ bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
     animation_sphere(job, &job->sphere);
     if (job->shared)
         job->sphere = job->shared->sphere;
-    return job_place_camera(job, error) &&
+    return job_place_camera(job, error) && job_section(job, &control, error) &&
            (job->lights ? job_light_again(job, error) : job_light(job, &job->sphere, error)) &&
            animation_arrange(job, error) && (!job->options->shading.show_lights || light_markers_add(job, error));
 }

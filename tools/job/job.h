@@ -124,6 +124,9 @@ bool job_draw(struct job *job, lam_pixel_format format, struct progress *progres
 // scene, and applies the settings of a scene file.
 bool job_load(struct job *job, struct progress *progress, lam_error *error);
 
+// Cuts the model by the sections of the options or the scene file. job_arrange does this after it has placed the camera.
+bool job_section(struct job *job, const lam_control *control, lam_error *error);
+
 // Runs the second step: applies the options for materials, rotations, camera and lights.
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error);
 

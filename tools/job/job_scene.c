@@ -219,6 +219,45 @@ bool job_turn(struct job *job, const struct model_sphere *sphere, lam_error *err
     return true;
 }
 
+// Warns if the camera sees no cut surface.
+static void warn_unseen(const struct job *job, const lam_section *section, const char *text)
+{
+    const lam_vec3 n = section->normal, eye = job->camera.eye, target = job->camera.target;
+    lam_vec3 low, high;
+    if (eye.x == target.x && eye.y == target.y && eye.z == target.z) // no camera yet
+        return;
+    lam_scene_bounds(job->scene, &low, &high);
+    const double beyond = n.x * (eye.x - (n.x > 0 ? high.x : low.x)) + n.y * (eye.y - (n.y > 0 ? high.y : low.y)) +
+                          n.z * (eye.z - (n.z > 0 ? high.z : low.z));
+    const char *sign = *text == '-' ? "" : "-";
+    char note[160];
+    snprintf(note, sizeof note, "the camera does not see the section %.40s; %s%.40s removes the other side", text, sign,
+             text + (*text == '-'));
+    if (beyond < 0 && !strchr(text, ',') && job->view_count <= 1)
+        lam_scene_add_warning(job->scene, note);
+}
+
+bool job_section(struct job *job, const lam_control *control, lam_error *error)
+{
+    const struct texts *texts = &job->options->model.sections;
+    lam_section sections[LAM_SECTIONS_MAX] = {0};
+    int count = 0;
+    if (!texts->count)
+        return !job->settings.section_count ||
+               lam_scene_set_sections(job->scene, job->settings.sections, job->settings.section_count, control, error);
+    for (int i = 0; i < texts->count; i++) // "none" removes those before it
+        if (strcmp(texts->items[i], "none") == 0)
+            count = 0;
+        else if (!lam_section_parse(texts->items[i], (lam_color_mode)job->options->picture.color_mode,
+                                    &sections[count++], error))
+            return false;
+    if (!lam_scene_set_sections(job->scene, sections, count, control, error))
+        return false;
+    if (count == 1)
+        warn_unseen(job, &sections[0], texts->items[texts->count - 1]);
+    return true;
+}
+
 bool job_apply_options(struct job *job, const lam_control *control, struct model_sphere *sphere, lam_error *error)
 {
     const struct options *o = job->options;

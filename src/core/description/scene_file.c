@@ -98,12 +98,40 @@ static bool read_lights(struct reader *r, const json_t *root)
     return warn_of_names(r);
 }
 
+// Reads the planes that cut the scene, after it is loaded: one text of --section, or a list of them.
+static bool read_sections(struct reader *r, const json_t *root)
+{
+    const json_t *list = json_object_get(root, "sections");
+    const struct place *place = KEY_OF(NULL, "sections");
+    const size_t count = json_is_array(list) ? json_array_size(list) : list != NULL;
+    if (!count)
+        return true;
+    if (count > LAM_SECTIONS_MAX)
+        return json_fail(&r->json, place, "found %zu sections, expected at most %d", count, LAM_SECTIONS_MAX);
+    lam_section *sections = arena_array(&r->scene->arena, count, sizeof *sections);
+    if (!sections)
+        return call_memory_error(r->source->call, count * sizeof *sections, r->json.error);
+    for (size_t i = 0; i < count; i++) {
+        const json_t *one = json_is_array(list) ? json_array_get(list, i) : list;
+        const struct place *here = json_is_array(list) ? ELEMENT_OF(place, i) : place;
+        lam_error reason;
+        if (!json_is_string(one))
+            return json_unexpected(&r->json, here, one, "a section, such as \"x=0\" or \"z=40%\"");
+        if (!lam_section_parse(json_string_value(one), r->color, &sections[i], &reason))
+            return json_fail(&r->json, here, "%s", reason.text);
+    }
+    r->settings->sections = sections;
+    r->settings->section_count = (int)count;
+    r->settings->present |= LAM_SETTING_SECTIONS;
+    return true;
+}
+
 // --- the whole file
 
 static bool read_root(struct reader *r, const json_t *root)
 {
     static const char *const others[] = {"lambent", "image",     "camera",  "ambient", "environment",
-                                         "up",      "materials", "objects", "lights"};
+                                         "up",      "materials", "objects", "lights",  "sections"};
     enum { OTHERS = sizeof others / sizeof *others };
     const char *keys[OTHERS + LAM_SETTINGS_MAX + 1];
     int count = 0;
@@ -124,7 +152,7 @@ static bool read_root(struct reader *r, const json_t *root)
     r->has_lights = json_object_get(root, "lights");
     // The order matters: the colour mode must be read before colours, and objects before what refers to them.
     return read_settings(r, root) && read_scene(r, root) && read_environment(r, root) && read_materials(r, root) &&
-           read_objects(r, root) && read_own_camera(r, root) && read_lights(r, root);
+           read_objects(r, root) && read_own_camera(r, root) && read_lights(r, root) && read_sections(r, root);
 }
 
 // Returns the memory that Jansson needs for a file of this size in the worst case. In this case, every second byte of

@@ -70,6 +70,8 @@ void lam_scene_free(lam_scene *scene)
         arena_delete(scene_extent(scene, i)->own);
     for (int i = 0; i < scene->kept.count; i++)
         arena_delete(((struct arena **)scene->kept.items)[i]);
+    if (scene->cut && !scene->cut->kept)
+        arena_delete(scene->cut->own);
     arena_free(&scene->arena);
     lam_environment_free(scene->environment);
     lazy_environment_free(scene->studio);

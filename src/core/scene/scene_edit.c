@@ -32,7 +32,7 @@ bool scene_keep_meshes(struct lam_scene *scene, lam_error *error)
 
 // The arrays of a new mesh may be at the addresses of freed arrays. A new token prevents device caches from confusing
 // the new mesh with the old mesh.
-static void change_token(struct lam_scene *scene, struct scene_token *token)
+void scene_change_token(struct lam_scene *scene, struct scene_token *token)
 {
     __atomic_store_n(&scene->token->gone, 1, __ATOMIC_RELEASE);
     scene_token_release(scene->token);
@@ -94,7 +94,7 @@ bool lam_scene_set_mesh(lam_scene *scene, int index, const lam_mesh *mesh, lam_e
     *place = extent;
     ((lam_mesh *)scene->meshes.items)[index] = copy;
     note_edit(scene, index);
-    change_token(scene, token);
+    scene_change_token(scene, token);
     return true;
 }
 
@@ -114,6 +114,12 @@ bool lam_scene_hide_mesh(lam_scene *scene, int index, bool hidden, lam_error *er
     return true;
 }
 
+// The whole objects and the cut ones have the same indices, so neither may be removed.
+static bool check_whole(const lam_scene *scene, lam_error *error)
+{
+    return !scene->cut || fail(error, LAM_BAD_ARGUMENT, "the scene has sections; remove them first");
+}
+
 static void remove_object(lam_scene *scene, int index)
 {
     const int mesh = scene_object(scene, index)->mesh;
@@ -126,7 +132,7 @@ static void remove_object(lam_scene *scene, int index)
 
 bool lam_scene_remove_object(lam_scene *scene, int index, lam_error *error)
 {
-    if (!check_index(scene, "object", index, lam_scene_object_count(scene), error))
+    if (!check_index(scene, "object", index, lam_scene_object_count(scene), error) || !check_whole(scene, error))
         return false;
     remove_object(scene, index);
     return true;
@@ -134,7 +140,7 @@ bool lam_scene_remove_object(lam_scene *scene, int index, lam_error *error)
 
 bool lam_scene_remove_mesh(lam_scene *scene, int index, lam_error *error)
 {
-    if (!check_index(scene, "mesh", index, lam_scene_mesh_count(scene), error))
+    if (!check_index(scene, "mesh", index, lam_scene_mesh_count(scene), error) || !check_whole(scene, error))
         return false;
     struct scene_token *token = scene_token_make(error);
     if (!token)
@@ -157,6 +163,6 @@ bool lam_scene_remove_mesh(lam_scene *scene, int index, lam_error *error)
     arena_delete(scene_extent(scene, index)->own);
     remove_item(&scene->extents, index, sizeof(struct scene_extent));
     remove_item(&scene->meshes, index, sizeof(lam_mesh));
-    change_token(scene, token);
+    scene_change_token(scene, token);
     return true;
 }

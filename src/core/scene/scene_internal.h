@@ -9,6 +9,7 @@
 #include "call_control.h"
 
 #include <lambent/scene_file.h>
+#include <lambent/section.h>
 
 // A growing array in an arena. The outgrown arrays are kept until the scene is freed.
 struct scene_list {
@@ -66,6 +67,20 @@ struct scene_camera {
     lam_camera camera; // if near_plane > 0 and far_plane is 0, there is no far plane
 };
 
+// The sections of a scene. The cut meshes are the last of the scene's meshes, in `own`, which also contains this struct.
+struct scene_cut {
+    lam_section sections[LAM_SECTIONS_MAX];
+    double areas[LAM_SECTIONS_MAX];
+    int count;
+    struct arena *own;
+    bool kept;             // lam_scene_reset may restore these sections, so the memory is freed with the scene
+    lam_object *objects;   // the whole objects
+    int object_count;      // their number
+    int meshes, materials; // their numbers before the cut
+    int all;               // the number of meshes and materials after the cut
+    uint64_t items;        // lam_scene.object_items before the cut
+};
+
 struct lam_scene {
     struct arena arena;
     struct scene_token *token;
@@ -104,6 +119,7 @@ struct lam_scene {
     double deferred_crease_rad;
     uint64_t *known_form;    // the form, and a hash of the objects that it was found for; atomic
     struct scene_mark *mark; // the state for lam_scene_reset, or NULL
+    struct scene_cut *cut;   // NULL: no sections
     bool shared_arrays;      // meshes may share arrays, so no array is changed in place
     bool first_all_used;     // the importer of the first mesh knows that triangles use every vertex
     bool normals_missing;    // before scene_repair, an index of a normal may be UINT32_MAX: the corner has no normal
@@ -175,6 +191,14 @@ bool scene_copy_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_mesh *co
 // Computes the extent of one mesh. If the mesh is far from zero, also makes the positions relative to an origin.
 bool scene_measure_mesh(struct lam_scene *scene, lam_mesh *mesh, struct scene_extent *extent, struct pool *pool,
                         lam_error *error);
+// Cuts the objects (src/formats/section); the caller has checked the arguments.
+bool scene_cut(struct lam_scene *scene, const lam_section *sections, int count, struct call_control *call,
+               lam_error *error);
+// Restores the whole objects. Returns false if memory runs out.
+bool scene_uncut(struct lam_scene *scene, lam_error *error);
+// Makes device caches forget the meshes, because their memory is freed.
+void scene_change_token(struct lam_scene *scene, struct scene_token *token);
+
 // Makes the scene keep the memory of all meshes until the scene is freed, because lam_scene_reset may restore these
 // meshes. Returns false if memory runs out.
 bool scene_keep_meshes(struct lam_scene *scene, lam_error *error);

@@ -30,6 +30,8 @@ struct scene_mark {
     lam_rgb ambient;
     lam_material default_material;
     double deferred_crease_rad;
+    struct scene_cut *cut;
+    uint64_t object_items;
 };
 
 static struct scene_list *list_of(struct lam_scene *scene, int i)
@@ -49,8 +51,12 @@ bool lam_scene_mark(lam_scene *scene, lam_error *error)
 {
     if (!scene)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_mark: the scene is NULL");
-    if (!scene_keep_meshes(scene, error))
+    struct scene_cut *cut = scene->cut;
+    if (!scene_keep_meshes(scene, error) ||
+        (cut && !cut->kept && scene_append(scene, &scene->kept, &cut->own, sizeof cut->own, error) < 0))
         return false;
+    if (cut)
+        cut->kept = true;
     struct scene_mark *mark = arena_alloc(&scene->arena, sizeof *mark);
     if (!mark)
         return call_memory_error(scene->arena.call, sizeof *mark, error);
@@ -58,7 +64,9 @@ bool lam_scene_mark(lam_scene *scene, lam_error *error)
                                 .placement = scene->placement,
                                 .ambient = scene->ambient,
                                 .default_material = *scene->default_material,
-                                .deferred_crease_rad = scene->deferred_crease_rad};
+                                .deferred_crease_rad = scene->deferred_crease_rad,
+                                .cut = scene->cut,
+                                .object_items = scene->object_items};
     for (int i = 0; i < LISTS; i++) {
         const struct scene_list *list = list_of(scene, i);
         struct scene_list *saved = &mark->saved[i];
@@ -84,6 +92,10 @@ bool lam_scene_reset(lam_scene *scene, lam_error *error)
     if (!scene || !scene->mark)
         return fail(error, LAM_BAD_ARGUMENT, "lam_scene_reset: %s", scene ? "no state is marked" : "the scene is NULL");
     const struct scene_mark *mark = scene->mark;
+    if (scene->cut != mark->cut && !scene_uncut(scene, error))
+        return false;
+    scene->cut = mark->cut;
+    scene->object_items = mark->object_items;
     // the capacity of a list never shrinks, so there is space for its earlier elements
     for (int i = 0; i < LISTS; i++) {
         struct scene_list *list = list_of(scene, i);

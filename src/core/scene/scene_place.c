@@ -111,6 +111,8 @@ static bool transform_objects(lam_scene *scene, const lam_mat4 *transform, lam_e
             if (!(determinant != 0) || !math_finite(determinant) || !v3_finite(mat4_point(&moved, v3(0, 0, 0))))
                 return fail(error, LAM_BAD_ARGUMENT,
                             "lam_scene_transform: object %d would have a transform that cannot be inverted", i);
+            if (pass == 1 && scene->cut)
+                scene->cut->objects[i].transform = moved;
             if (pass == 1)
                 object->transform = moved;
         }

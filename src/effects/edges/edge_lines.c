@@ -88,7 +88,8 @@ static int style_of(const struct edge_task *task, const struct mesh_edge *edge, 
         kinds = edge->kind & EDGE_OPEN ? LAM_EDGES_BOUNDARY : LAM_EDGES_CREASE;
     } else {
         double turn = edge->kind & EDGE_ALIKE ? -1 : 1, size = math_sqrt(dot(a, a)) * math_sqrt(dot(b, b));
-        kinds |= size > 0 && turn * dot(a, b) < task->view->frame->edges.min_cosine * size ? LAM_EDGES_CREASE : 0;
+        bool sharp = size > 0 && turn * dot(a, b) < task->view->frame->edges.min_cosine * size;
+        kinds |= sharp || edge->kind & EDGE_CUT ? LAM_EDGES_CREASE : 0;
     }
     if (edge->kind & EDGE_INNER)
         kinds = 0;
@@ -377,7 +378,7 @@ static uint16_t weight_of(const struct edge_task *task, const struct mesh_edge *
                           const struct edge_line *line)
 {
     double length = line->length;
-    if (!line->whole[0] || !line->whole[1])
+    if (!line->whole[0] || !line->whole[1] || edge->kind & EDGE_CUT)
         return EDGE_WEIGHT_MAX;
     if (kinds == LAM_EDGES_CREASE && !(edge->kind & EDGE_SHARED)) {
         double a = height_over(task, edge->corner, line), b = height_over(task, edge->other, line);

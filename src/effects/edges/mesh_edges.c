@@ -26,10 +26,11 @@ static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *
 {
     struct mesh_edge edge = {.corner = (uint32_t)keys[0], .other = (uint32_t)keys[0]};
     uint32_t apexes[2] = {apex_of(weld, edge.corner), UINT32_MAX}, faces = 1;
-    bool inner = true;
+    bool inner = true, cut = false;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t corner = (uint32_t)keys[i], apex = apex_of(weld, corner);
         inner &= is_inner(mesh, corner);
+        cut |= mesh->inner_edges && mesh->inner_edges[corner / 3] & 8;
         if (apex == apexes[0])
             continue;
         if (faces == 1 || (apex == apexes[1] && weld->of[corner] != weld->of[edge.corner]))
@@ -38,6 +39,7 @@ static struct mesh_edge edge_of(const lam_mesh *mesh, const struct corner_weld *
             apexes[1] = faces++ == 1 ? apex : apexes[1];
     }
     edge.kind = (inner ? EDGE_INNER : 0) | (faces == 1 ? EDGE_OPEN : 0) | (faces > 2 ? EDGE_SHARED : 0);
+    edge.kind |= cut && !inner ? EDGE_CUT : 0;
     if (faces == 2 && weld->of[edge.corner] == weld->of[edge.other])
         edge.kind |= EDGE_ALIKE;
     return edge;

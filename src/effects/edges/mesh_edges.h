@@ -12,6 +12,7 @@ enum {
     EDGE_OPEN = 2,   // belongs to one face; triangles with the same three vertices are one face
     EDGE_SHARED = 4, // belongs to more than two faces
     EDGE_ALIKE = 8,  // both faces traverse the edge in the same direction, so their windings are inconsistent
+    EDGE_CUT = 16,   // is on the outline of a cut surface
 };
 
 // An edge from a corner of a triangle to the triangle's next corner.

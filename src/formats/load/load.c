@@ -99,6 +99,9 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
         lam_scene_add_warning(scene, "z is assumed to be up, because the model is a terrain in the plane of x and y "
                                      "(to keep the file's axes, choose y as the up axis)");
     }
+    if (scene->settings && scene->settings->section_count &&
+        !scene_cut(scene, scene->settings->sections, scene->settings->section_count, source->call, error))
+        return false;
     if (!scene->lights.count && !scene_lit_by_environment(scene))
         scene_find_form(scene, source->pool);
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;

@@ -8,6 +8,7 @@
 #include "command.h"
 #include "console.h"
 #include "interrupt.h"
+#include "job_steps.h"
 #include "limit_options.h"
 #include "report.h"
 #include "sandbox_start.h"
@@ -52,6 +53,20 @@ static void measure_drawing(struct info *info, const struct job *job)
     lam_device_free(device);
 }
 
+// Cuts the model to measure its sections. All other numbers describe the whole model.
+static bool measure_sections(struct info *info, struct job *job, lam_error *error)
+{
+    lam_control control;
+    if (!job_control(job, NULL, &control, error) || !job_section(job, &control, error))
+        return false;
+    for (int i = 0; lam_scene_section(job->scene, i); i++) {
+        info->sections[i] = *lam_scene_section(job->scene, i);
+        info->section_areas[i] = lam_scene_section_area(job->scene, i);
+        info->section_count = i + 1;
+    }
+    return lam_scene_set_sections(job->scene, NULL, 0, NULL, error);
+}
+
 static int print_one(const char *model, const struct options *given, bool first)
 {
     struct options options = *given;
@@ -64,7 +79,7 @@ static int print_one(const char *model, const struct options *given, bool first)
     info.textures = &textures;
     info.names = &names;
     bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error) &&
-              info_names_list(job.scene, &names, &error);
+              info_names_list(job.scene, &names, &error) && measure_sections(&info, &job, &error);
     if (ok) {
         error = (lam_error){0}; // if only the second attempt succeeded, the error is from the first
         measure_drawing(&info, &job);

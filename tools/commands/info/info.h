@@ -49,6 +49,9 @@ struct info {
         // the memory needed to draw a picture of INFO_SIDE² pixels, including the picture; 0 if drawing failed
         drawing_bytes;
     int drawing_threads;
+    lam_section sections[LAM_SECTIONS_MAX]; // of --section, or of a scene file
+    double section_areas[LAM_SECTIONS_MAX]; // in the model's square units
+    int section_count;
 };
 enum { INFO_SIDE = 1024 };
 

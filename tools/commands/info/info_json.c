@@ -22,8 +22,9 @@ static double shortest(float value)
 #define FLOATS(key, c)  NUMBERS(key, 3, shortest((c).r), shortest((c).g), shortest((c).b))
 #define KNOWN(known, x) ((known) ? (x) : (double)NAN)
 
-static void write_geometry(struct json *json, const struct job *job)
+static void write_geometry(struct json *json, const struct info *info)
 {
+    const struct job *job = info->job;
     const lam_scene *scene = job->scene;
     struct info_counts stored = info_count(scene);
     struct info_unit unit = info_unit(scene);
@@ -51,6 +52,14 @@ static void write_geometry(struct json *json, const struct job *job)
     json_put(json, NUMBER("area_mm2", KNOWN(known, measure.area * mm2)),
              NUMBER("volume_mm3", KNOWN(known && measure.closed, measure.volume * mm2 * mm)));
     json_close(json, '}');
+    json_open(json, "sections", '[');
+    for (int i = 0; i < info->section_count; i++) {
+        const lam_section *s = &info->sections[i];
+        json_put(json, OBJECT(NULL, VECTOR("normal", s->normal), NUMBER("distance", s->distance),
+                              FLAG("relative", s->relative), NUMBER("area", info->section_areas[i]),
+                              NUMBER("area_mm2", KNOWN(known, info->section_areas[i] * mm2))));
+    }
+    json_close(json, ']');
 }
 
 static void write_material(struct json *json, const lam_material *m, const struct info_textures *textures,
@@ -167,7 +176,7 @@ static void write_model(struct json *json, const struct info *info)
     const lam_file_info *file = lam_scene_file_info(scene);
     json_put(json, TEXT("format", info_format(scene)), TEXT("version", file->version),
              TEXT("generator", file->generator), TEXT("copyright", file->copyright));
-    write_geometry(json, job);
+    write_geometry(json, info);
     json_open(json, "names", '[');
     for (int i = 0; i < info->names->count; i++)
         json_put(json,

@@ -72,6 +72,17 @@ static void print_measure(const lam_scene *scene, double millimetres)
         printf(", not closed\n");
 }
 
+static void print_sections(const struct info *info, double millimetres)
+{
+    double scale = millimetres > 0 ? millimetres : 1;
+    for (int i = 0; i < info->section_count; i++) {
+        const lam_section *s = &info->sections[i];
+        printf("%-12snormal %.4g %.4g %.4g, distance %.6g%s: area %.6g%s²\n", label("sections", i), s->normal.x,
+               s->normal.y, s->normal.z, s->distance * (s->relative ? 100 : 1), s->relative ? " %" : "",
+               info->section_areas[i] * scale * scale, millimetres > 0 ? " mm" : " units");
+    }
+}
+
 static void print_geometry(const struct info *info)
 {
     const struct job *job = info->job;
@@ -89,6 +100,7 @@ static void print_geometry(const struct info *info)
     printf(", %s up\n", lam_up_name(lam_scene_up(scene)));
     printf("%-12sfrom %.6g %.6g %.6g to %.6g %.6g %.6g\n", "", low.x, low.y, low.z, high.x, high.y, high.z);
     print_measure(scene, mm);
+    print_sections(info, mm);
     uint64_t triangles = lam_scene_triangle_count(scene), vertices = lam_scene_vertex_count(scene);
     uint64_t lines = lam_scene_line_count(scene), points = lam_scene_point_count(scene);
     printf("%-12s", "geometry");

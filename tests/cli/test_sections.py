@@ -1,0 +1,144 @@
+# test_sections.py: --section: areas, cut surfaces and messages.
+import json
+import math
+import struct
+
+from harness import Case, pixel, read_png
+
+FRONT = ("--view", "front", "--projection", "orthographic", "-s", "256")
+
+
+def box(low, high, inward=False):
+    """The 12 triangles of a box, as nine numbers each."""
+    corner = lambda i: tuple((low, high)[i >> k & 1][k] for k in range(3))  # noqa: E731
+    for a, b, c, d in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+        for triangle in ((a, b, c), (a, c, d)):
+            yield sum(map(corner, reversed(triangle) if inward else triangle), ())
+
+
+def stl(*solids):
+    triangles = [t for solid in solids for t in solid]
+    return bytes(80) + struct.pack("<I", len(triangles)) + b"".join(struct.pack("<12fH", 0, 0, 0, *t, 0) for t in triangles)
+
+
+def obj(**parts):
+    """An OBJ file with a group for each list of triangles."""
+    lines, n = [], 0
+    for name, triangles in parts.items():
+        lines.append("g " + name)
+        for t in triangles:
+            lines += ["v %g %g %g" % t[i:i + 3] for i in (0, 3, 6)] + ["f %d %d %d" % (n + 1, n + 2, n + 3)]
+            n += 3
+    return "\n".join(lines) + "\n"
+
+
+OUTER, INNER = ((-2, -2, -2), (2, 2, 2)), ((-1, -1, -1), (1, 1, 1))
+HOLES = [((-1.5 + 1.1 * i, -1.5 + 1.1 * j, -1.9), (-0.8 + 1.1 * i, -0.8 + 1.1 * j, 1.5)) for i in range(3) for j in range(3)]
+
+
+class Sections(Case):
+    def file(self, name, data):
+        (self.folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
+        self.given.add(name)
+        return name
+
+    def area(self, model, *sections):
+        words = [w for s in sections for w in ("--section", s)]
+        return [s["area"] for s in json.loads(self.good("info", model, "--json", *words).stdout)["sections"]]
+
+    def test_areas(self):
+        """Five bodies with known areas. (The built-in shapes are fine polyhedra; the torus has the radii 1 − r and r.)"""
+        hollow = self.file("hollow.stl", stl(box(*OUTER), box(*INNER, inward=True)))
+        tube = 1 - json.loads(self.good("info", "torus", "--json").stdout)["bounds"]["max"][1]
+        rows = [("sphere", "z=0.1", math.pi * 0.99), ("sphere", "normal=1/2/3,distance=-0.5", math.pi * 0.75),
+                ("torus", "y=0", math.pi * (1 - (2 * tube - 1) ** 2)), ("torus", "x=0", 2 * math.pi * (1 - tube) ** 2),
+                ("cylinder", "y=20%", math.pi), (hollow, "z=0.1", 12), (hollow, "z=10%", 16), (hollow, "normal=1/1/1,distance=0", 9 * math.sqrt(3)),
+                (self.file("holes.stl", stl(box(*OUTER), *(box(*h, inward=True) for h in HOLES))), "-z=0", 16 - 9 * 0.49),
+                (self.file("flipped.stl", stl(box(*OUTER, inward=True))), "x=0", 16),
+                (self.file("union.stl", stl(box(*OUTER), box(*INNER))), "x=0", 16),
+                (self.file("parts.obj", obj(case=box(*OUTER), battery=box(*INNER))), "x=0", 16)]
+        for model, section, area in rows:
+            self.assertLess(abs(self.area(model, section)[0] / area - 1), 1e-3, (model, section))
+        self.assertEqual([round(a, 6) for a in self.area(hollow, "z=0.1", "x=0")], [12, 2.1 * 4 - 1.1 * 2])
+
+    def test_picture_agrees(self):
+        """Depth, object numbers and cover of a cut surface seen from the front, and its area."""
+        model = self.file("hollow.stl", stl(box(*OUTER), box(*INNER, inward=True)))
+        words = (model, *FRONT, "--up", "y", "--samples", "1", "--section", "z=0.25,color=#ff0000")
+        pixels = [(x, y) for x in range(256) for y in range(256)]
+        count = lambda picture, is_one: sum(bool(is_one(pixel(picture, x, y))) for x, y in pixels)  # noqa: E731
+        seen = count(self.png(*words), lambda p: p[3])
+        red = count(self.png(*words, "--rig", "none", "--ambient", "1", "--tone", "none"), lambda p: p[:3] == (255, 0, 0))
+        self.assertLess(abs(red / seen - self.area(model, "z=0.25")[0] / 16), 0.01)
+        depth = self.png(*words, "--show", "depth")
+        near = max(pixel(depth, x, y)[0] for x, y in pixels if pixel(depth, x, y)[3])
+        self.assertEqual(count(depth, lambda p: p[3] and p[0] == near), red)
+        self.assertEqual(count(self.png(*words, "--show", "ids"), lambda p: p[3]), seen)
+        shadow = lambda section: self.png(model, "-s", "64", "--up", "z", "--ground", "--section", section)  # noqa: E731
+        dark = [sum(p == 0 and a for p, a in zip(data[0::4], data[3::4])) for _, _, data in (shadow("z=2"), shadow("z=-1"))]
+        self.assertGreater(dark[0], 2 * dark[1]) # the shadow of a cut model is shorter
+
+    def test_parts(self):
+        """Each part has its own cut surface, with its name; one body of two materials has one."""
+        parts = self.file("parts.obj", "mtllib m.mtl\n" + obj(case=box(*OUTER), battery=box(*INNER)).replace("g battery", "g battery\nusemtl red"))
+        self.file("m.mtl", "newmtl red\nKd 1 0 0\n")
+        words = (parts, *FRONT, "--section", "z=0.5", "--rig", "none", "--ambient", "1", "--tone", "none", "--brighten", "off")
+        middle = pixel(self.png(*words, "--material", "ambient=1/0/0@battery"), 128, 128)
+        self.assertEqual(middle[:3], (255, 0, 0))
+        self.assertNotEqual(pixel(self.png(*words, "--hide", "battery"), 128, 128)[:3], (255, 0, 0))
+        halves = list(box(*OUTER))
+        self.assertEqual(self.area(self.file("halves.obj", obj(a=halves[:5], b=halves[5:])), "normal=1/1/0,distance=0.3"),
+                         self.area(self.file("one.obj", obj(a=halves)), "normal=1/1/0,distance=0.3"))
+
+    def test_warnings(self):
+        lid = self.file("open.stl", stl(list(box(*OUTER))[1:]))
+        for model, section, note in ((lid, "x=0", "is not closed"), ("teapot", "x=0", "is not closed"), ("sphere", "x=3", "removes nothing"),
+                                     ("sphere", "-z=0", "removes the other side"),
+                                     (self.file("l.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n"), "x=0.1", "lines and points")):
+            warnings = self.report(model, "-s", "32", "--section", section, "-o", "a.png")["warnings"]
+            self.assertEqual([note in w for w in warnings].count(True), 1, (model, warnings))
+        self.assertEqual(self.area(lid, "x=0"), [0])
+        warnings = self.report("sphere", "-s", "32", "--section", "x=0", "--opacity", "0.5", "-o", "a.png")["warnings"]
+        self.assertIn("transparent", " ".join(warnings))
+        self.bad(1, "sphere", "--section", "x=-3", says=("remove the whole model",))
+        for wrong in ("q=1", "x", "x=", "x=1k", "x=nan", "normal=0/0/0", "normal=1/2", "x=0,y=0", "x=0,color=quux", "distance=3", "normal=1/0/0,normal=0/1/0"):
+            self.bad(1, "sphere", "--section", wrong, says=("--section",))
+        self.bad(1, "sphere", *("--section", "x=0") * 9, says=("at most 8",))
+
+    def test_scene_file(self):
+        """A saved scene file draws the same bytes; its sections can be replaced."""
+        for words in (("--section", "x=0"), ("--section", "z=40%,color=orange", "--section", "-x=-0.2", "--edges", "crease"), ("--section", "y=10%", "--rotate", "x:30")):
+            first = self.png("torus", "-s", "96", *words, "--save-scene", "saved.json")
+            self.given.add("saved.json")
+            self.assertEqual(self.png("saved.json"), first)
+        scene = {"lambent": 1, "image": {"size": [64, 64]}, "sections": ["x=0", "z=50%"], "objects": [{"shape": "torus"}, {"shape": "sphere", "transform": [["scale", 0.4]]}]}
+        self.file("a.json", json.dumps(scene))
+        both = self.png("a.json")
+        self.assertEqual(self.png("a.json", "--section", "x=0", "--section", "z=50%"), both)
+        whole = self.png("a.json", "--section", "none")
+        self.file("b.json", json.dumps({**scene, "sections": []}))
+        self.assertEqual(self.png("b.json"), whole)
+        self.assertNotEqual(whole, both)
+        for wrong, place in (("x", "sections"), (["x=0", 3], "sections[1]"), (["x=0"] * 9, "sections")):
+            self.file("c.json", json.dumps({**scene, "sections": wrong}))
+            self.bad(2, "c.json", says=(place,))
+
+    def test_convert(self):
+        self.file("hollow.stl", stl(box(*OUTER), box(*INNER, inward=True)))
+        self.good("convert", "hollow.stl", "half.stl", "--section", "x=0.5", "--section", "normal=0/1/1,distance=0.1")
+        measure = json.loads(self.good("info", "half.stl", "--json").stdout)["measure"]
+        self.assertTrue(measure["closed"])
+        self.given.add("half.stl")
+
+    def test_several_pictures(self):
+        """Views, a turntable and a batch draw the pictures that are drawn alone."""
+        words = ("torus", "-s", "48", "--section", "x=0")
+        self.good(*words, "--view", "top,front", "-o", "v-{view}.png")
+        self.good(*words, "--turntable", "4", "-o", "t-{frame}.png")
+        self.good("batch", *words, "-o", "b-{stem}.png", "--journal", "none")
+        for name, more in (("v-front.png", ("--view", "front")), ("b-torus.png", ()), ("t-1.png", ("--rotate", "y:90", "-o", "-"))):
+            drawn = (self.folder / name).read_bytes()
+            if name[0] != "t": # a turntable fits the camera to all of its frames
+                self.assertEqual(read_png(drawn), self.png(*words, *more), name)
+        frames = [read_png((self.folder / f"t-{i}.png").read_bytes()) for i in range(4)]
+        self.assertEqual(len(set(map(str, frames))), 4)

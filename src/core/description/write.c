@@ -652,40 +652,21 @@ static int put_number(char *out, const char *before, double x)
     return sprintf(out, strtod(text, NULL) == x ? "%s%.15g" : "%s%.17g", before, x);
 }
 
-// Writes a section as --section accepts it.
-static json_t *section_json(const struct scene_writer *w, const lam_section *s)
-{
-    const lam_mat4 *placement = &w->scene->placement;
-    lam_vec3 n = s->normal;
-    double distance = s->distance * (s->relative ? 100 : 1);
-    if (!mat4_is_identity(placement)) {
-        double m[3][3];
-        mat4_normal_matrix(placement, m);
-        const double sign = mat4_determinant3(placement) < 0 ? -1 : 1;
-        const lam_vec3 unit = v3_unit(n);
-        n = v3_unit(v3(sign * (m[0][0] * n.x + m[0][1] * n.y + m[0][2] * n.z),
-                       sign * (m[1][0] * n.x + m[1][1] * n.y + m[1][2] * n.z),
-                       sign * (m[2][0] * n.x + m[2][1] * n.y + m[2][2] * n.z)));
-        if (!s->relative)
-            distance = v3_dot(n, mat4_point(placement, v3_scale(unit, distance)));
-    }
-    char text[400], *at = text;
-    at += put_number(at, "normal=", n.x);
-    at += put_number(at, "/", n.y);
-    at += put_number(at, "/", n.z);
-    at += put_number(at, ",distance=", distance);
-    at += sprintf(at, "%s", s->relative ? "%" : "");
-    if (s->color.a > 0)
-        sprintf(at, ",color=%.9g/%.9g/%.9g", (double)s->color.r, (double)s->color.g, (double)s->color.b);
-    return json_string(text);
-}
-
-// Writes the sections of the scene. Their planes follow the placement of the objects, which are written with it.
+// Writes the sections in world space, like the transforms of the objects.
 static void put_sections(struct scene_writer *w, json_t *root)
 {
     json_t *list = json_array();
-    for (int i = 0; lam_scene_section(w->scene, i); i++)
-        append(w, list, section_json(w, lam_scene_section(w->scene, i)));
+    for (int i = 0; w->scene->cut && i < w->scene->cut->count; i++) {
+        const lam_section *s = &w->scene->cut->placed[i];
+        char text[300], *at = text;
+        at += put_number(at, "normal=", s->normal.x);
+        at += put_number(at, "/", s->normal.y);
+        at += put_number(at, "/", s->normal.z);
+        at += put_number(at, ",distance=", s->distance);
+        if (s->color.a > 0)
+            sprintf(at, ",color=%.9g/%.9g/%.9g", (double)s->color.r, (double)s->color.g, (double)s->color.b);
+        append(w, list, json_string(text));
+    }
     if (json_array_size(list))
         put(w, root, "sections", list);
     else

@@ -70,6 +70,7 @@ struct scene_camera {
 // The sections of a scene. The cut meshes are the last of the scene's meshes, in `own`, which also contains this struct.
 struct scene_cut {
     lam_section sections[LAM_SECTIONS_MAX];
+    lam_section placed[LAM_SECTIONS_MAX]; // in world space, not relative, with unit normals
     double areas[LAM_SECTIONS_MAX];
     int count;
     struct arena *own;

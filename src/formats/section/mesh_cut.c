@@ -172,8 +172,7 @@ static const uint32_t *indices_of(const struct mesh_cut *cut, uint32_t count, co
 }
 
 // Copies one element for each item, and for each triangle of a cut surface the element of a triangle at its edge.
-static void *items_of(const struct mesh_cut *cut, const void *values, size_t size, size_t total, bool zero_caps,
-                      struct arena *memory)
+static void *items_of(const struct mesh_cut *cut, const void *values, size_t size, size_t total, struct arena *memory)
 {
     char *out = arena_array(memory, total, size);
     size_t n = 0;
@@ -182,11 +181,8 @@ static void *items_of(const struct mesh_cut *cut, const void *values, size_t siz
     const uint32_t parts = cut->mesh->part_count ? cut->mesh->part_count : 1;
     for (uint32_t part = 0; out && part < parts; part++)
         for (uint32_t i = 0; i < cut->caps[part].count; i++, n++)
-            if (zero_caps)
-                memset(out + n * size, 0, size);
-            else
-                memcpy(out + n * size,
-                       (const char *)values + cut->points[cut->caps[part].points[3 * i]].kept / 3 * size, size);
+            memcpy(out + n * size, (const char *)values + cut->points[cut->caps[part].points[3 * i]].kept / 3 * size,
+                   size);
     return out;
 }
 
@@ -197,7 +193,7 @@ static bool extend_colors(const struct mesh_cut *cut, size_t total, struct arena
     const lam_mesh *mesh = cut->mesh;
     const size_t size = mesh->colors_format == LAM_COLORS_LINEAR_F32 ? 16 : 4;
     if (mesh->colors_rate == LAM_PER_TRIANGLE) {
-        out->colors = items_of(cut, mesh->colors, size, total, false, memory);
+        out->colors = items_of(cut, mesh->colors, size, total, memory);
         out->color_count = (uint32_t)total;
         return out->colors != NULL;
     }
@@ -312,7 +308,7 @@ bool mesh_cut_make(const struct mesh_cut *cut, const int *materials, struct aren
     if (ok && mesh->colors)
         ok = extend_colors(cut, total, memory, out);
     if (ok && mesh->smoothing_groups)
-        ok = (out->smoothing_groups = items_of(cut, mesh->smoothing_groups, 4, total, true, memory)) != NULL;
+        ok = (out->smoothing_groups = items_of(cut, mesh->smoothing_groups, 4, total, memory)) != NULL;
     if (ok && mesh->triangle_count)
         ok = make_inner_edges(cut, total, memory, out);
     return ok || call_memory_error(call, total * 16, error);

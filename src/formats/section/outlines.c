@@ -13,7 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The ends of outlines are joined up to this distance, as a fraction of the extent of all outlines.
+// Points of an object up to this distance are one vertex, as a fraction of the extent of all outlines. Files with rounded
+// numbers leave such gaps.
 #define JOIN_DISTANCE 1e-5
 enum { NONE = UINT32_MAX, CHECK_INTERVAL = 1024 };
 
@@ -22,6 +23,7 @@ struct vertex {
     uint32_t point; // of the object's mesh_cut.points
     int object;     // index in outlines.objects
     uint32_t first; // the first edge that starts here
+    uint32_t next;  // in its slot of the hash table
     int balance;
 };
 
@@ -51,7 +53,8 @@ struct outlines {
     uint32_t vertex_count, edge_count, groups;
     struct loop *loops;
     uint32_t loop_count;
-    double size; // the larger extent
+    double size;           // the larger extent
+    uint32_t *table, mask; // hash table of the vertices
     struct arena *scratch, *memory;
     struct triangulator triangulator;
     struct outline_result *result;
@@ -61,7 +64,7 @@ struct outlines {
 
 static bool no_memory(struct outlines *o, size_t bytes) { return call_memory_error(o->call, bytes, o->error); }
 
-static void set_axes(struct outlines *o, const struct cut_plane *plane)
+static void set_axes(struct outlines *o, const lam_section *plane)
 {
     const lam_vec3 n = plane->normal;
     const double x = n.x < 0 ? -n.x : n.x, y = n.y < 0 ? -n.y : n.y, z = n.z < 0 ? -n.z : n.z;
@@ -73,37 +76,46 @@ static void set_axes(struct outlines *o, const struct cut_plane *plane)
 
 // --- vertices and edges
 
-static uint32_t hash_of(int object, const float position[3])
-{
-    uint32_t bits[3], hash = (uint32_t)object * 0x9e3779b9u;
-    memcpy(bits, position, sizeof bits);
-    for (int k = 0; k < 3; k++)
-        hash = (hash ^ (bits[k] == 0x80000000u ? 0 : bits[k])) * 0x85ebca6bu ^ hash >> 13;
-    return hash;
-}
-
-static bool same_position(const float a[3], const float b[3]) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
-
-// Returns the vertex at a point of an object. `table` has a power of two of elements.
-static uint32_t vertex_at(struct outlines *o, int object, uint32_t point, uint32_t *table, uint32_t mask)
+static struct vertex place(const struct outlines *o, int object, uint32_t point)
 {
     const struct cut_object *of = &o->objects[object];
     const float *p = of->cut.points[point].position;
-    uint32_t slot = hash_of(object, p) & mask;
-    for (; table[slot]; slot = (slot + 1) & mask) {
-        const struct vertex *v = &o->vertices[table[slot] - 1];
-        if (v->object == object && same_position(of->cut.points[v->point].position, p))
-            return table[slot] - 1;
-    }
     const lam_vec3 at = v3_sub(mat4_point(&of->to_world, v3((double)p[0], (double)p[1], (double)p[2])), o->origin);
-    o->vertices[o->vertex_count] =
-        (struct vertex){v3_dot(at, o->across), v3_dot(at, o->upward), point, object, NONE, 0};
-    table[slot] = ++o->vertex_count;
-    return o->vertex_count - 1;
+    return (struct vertex){v3_dot(at, o->across), v3_dot(at, o->upward), point, object, NONE, NONE, 0};
+}
+
+static uint32_t slot_of(const struct outlines *o, int64_t column, int64_t row)
+{
+    return (uint32_t)(((uint64_t)column * 0x9e3779b97f4a7c15u + (uint64_t)row * 0xc2b2ae3d27d4eb4fu) >> 32) & o->mask;
+}
+
+// Returns the vertex at a point of an object, or the nearest vertex of this object that is close to the point.
+static uint32_t vertex_at(struct outlines *o, int object, uint32_t point)
+{
+    const double near = JOIN_DISTANCE * o->size + 1e-300;
+    struct vertex v = place(o, object, point);
+    const int64_t column = (int64_t)(v.x / near), row = (int64_t)(v.y / near);
+    uint32_t best = NONE;
+    double least = near * near;
+    for (int i = 0; i < 9; i++)
+        for (uint32_t k = o->table[slot_of(o, column + i % 3 - 1, row + i / 3 - 1)]; k != NONE;
+             k = o->vertices[k].next) {
+            const double dx = o->vertices[k].x - v.x, dy = o->vertices[k].y - v.y;
+            if (o->vertices[k].object == object && dx * dx + dy * dy < least) {
+                least = dx * dx + dy * dy;
+                best = k;
+            }
+        }
+    if (best != NONE)
+        return best;
+    uint32_t *slot = &o->table[slot_of(o, column, row)];
+    v.next = *slot;
+    o->vertices[o->vertex_count] = v;
+    return *slot = o->vertex_count++;
 }
 
 // Adds the edges of an object, and gives each closed part a group of its own.
-static void add_edges(struct outlines *o, int object, uint32_t *table, uint32_t mask)
+static void add_edges(struct outlines *o, int object)
 {
     const struct mesh_cut *cut = &o->objects[object].cut;
     const uint32_t joined = o->groups++;
@@ -111,8 +123,8 @@ static void add_edges(struct outlines *o, int object, uint32_t *table, uint32_t 
         const uint32_t part = cut->edges[i].part, first = o->edge_count;
         bool balanced = true;
         for (end = i; end < cut->edge_count && cut->edges[end].part == part; end++) {
-            const uint32_t a = vertex_at(o, object, cut->edges[end].points[0], table, mask);
-            const uint32_t b = vertex_at(o, object, cut->edges[end].points[1], table, mask);
+            const uint32_t a = vertex_at(o, object, cut->edges[end].points[0]);
+            const uint32_t b = vertex_at(o, object, cut->edges[end].points[1]);
             if (a == b || !o->objects[object].closes[part])
                 continue;
             o->vertices[a].balance++;
@@ -132,42 +144,38 @@ static void add_edges(struct outlines *o, int object, uint32_t *table, uint32_t 
 static bool find_edges(struct outlines *o, int count)
 {
     size_t most = 0;
-    uint32_t mask = 1;
-    for (int i = 0; i < count; i++)
-        most += o->objects[i].cut.edge_count;
-    if (most > UINT32_MAX / 8)
-        return fail(o->error, LAM_LIMIT, "a section has more than %u edges", UINT32_MAX / 8);
-    while (mask < 4 * most)
-        mask *= 2;
-    uint32_t *table = arena_alloc_zeroed(o->scratch, (size_t)mask * sizeof *table);
-    o->vertices = arena_array(o->scratch, 2 * most, sizeof *o->vertices);
-    o->edges = arena_array(o->scratch, most, sizeof *o->edges);
-    if (!table || !o->vertices || !o->edges)
-        return no_memory(o, most * 128);
-    for (int i = 0; i < count; i++)
-        add_edges(o, i, table, mask - 1);
     double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
-    for (uint32_t i = o->edge_count; i-- > 0;) {
-        struct vertex *v = &o->vertices[o->edges[i].a];
-        o->edges[i].next = v->first;
-        v->first = i;
-        for (int k = 0; k < 2; k++) {
-            const double x = k ? v->y : v->x;
-            low[k] = x < low[k] ? x : low[k];
-            high[k] = x > high[k] ? x : high[k];
+    for (int i = 0; i < count; i++) {
+        most += o->objects[i].cut.edge_count;
+        for (uint32_t k = 0; k < o->objects[i].cut.point_count; k++) {
+            const struct vertex v = place(o, i, k);
+            low[0] = v.x < low[0] ? v.x : low[0];
+            low[1] = v.y < low[1] ? v.y : low[1];
+            high[0] = v.x > high[0] ? v.x : high[0];
+            high[1] = v.y > high[1] ? v.y : high[1];
         }
     }
     o->size = high[0] - low[0] > high[1] - low[1] ? high[0] - low[0] : high[1] - low[1];
+    if (most > UINT32_MAX / 8)
+        return fail(o->error, LAM_LIMIT, "a section has more than %u edges", UINT32_MAX / 8);
+    while (o->mask < 2 * most)
+        o->mask = 2 * o->mask + 1;
+    o->table = arena_array(o->scratch, (size_t)o->mask + 1, sizeof *o->table);
+    o->vertices = arena_array(o->scratch, 2 * most, sizeof *o->vertices);
+    o->edges = arena_array(o->scratch, most, sizeof *o->edges);
+    if (!o->table || !o->vertices || !o->edges)
+        return no_memory(o, most * 128);
+    memset(o->table, 0xff, ((size_t)o->mask + 1) * sizeof *o->table);
+    for (int i = 0; i < count; i++)
+        add_edges(o, i);
+    for (uint32_t i = o->edge_count; i-- > 0;) {
+        o->edges[i].next = o->vertices[o->edges[i].a].first;
+        o->vertices[o->edges[i].a].first = i;
+    }
     return true;
 }
 
 // --- loops
-
-struct chain {
-    uint32_t first, last; // edges
-    uint32_t next;        // the chain that continues it
-    bool taken;           // another chain continues with this one, or it is part of a loop
-};
 
 // Returns the unused edge that continues another edge: of the same group and, if possible, the same part.
 static uint32_t continuation(const struct outlines *o, const struct edge *edge)
@@ -184,7 +192,7 @@ static uint32_t continuation(const struct outlines *o, const struct edge *edge)
     return found;
 }
 
-static bool add_loop(struct outlines *o, uint32_t first)
+static void add_loop(struct outlines *o, uint32_t first)
 {
     struct loop loop = {.first = first, .low_x = 1e300, .low_y = 1e300, .high_x = -1e300, .high_y = -1e300};
     const struct vertex *start = &o->vertices[o->edges[first].a];
@@ -202,91 +210,27 @@ static bool add_loop(struct outlines *o, uint32_t first)
     const double area = loop.area < 0 ? -loop.area : loop.area;
     if (area > 1e-14 * o->size * o->size)
         o->loops[o->loop_count++] = loop;
-    return true;
-}
-
-static int by_start(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return x[0] < y[0] ? -1 : x[0] > y[0] ? 1 : x[1] < y[1] ? -1 : x[1] > y[1];
-}
-
-// Joins the ends of outlines that nearly meet. `starts` contains (x, index) of each chain, sorted.
-static void join_chains(struct outlines *o, struct chain *chains, uint32_t count, const double (*starts)[2])
-{
-    const double near = JOIN_DISTANCE * o->size;
-    for (uint32_t i = 0; i < count; i++) {
-        const struct edge *last = &o->edges[chains[i].last];
-        const struct vertex *end = &o->vertices[last->b];
-        uint32_t low = 0, high = count, best = NONE;
-        double least = near * near;
-        while (low < high) {
-            const uint32_t middle = (low + high) / 2;
-            *(starts[middle][0] < end->x - near ? &low : &high) = middle + (starts[middle][0] < end->x - near);
-        }
-        for (; low < count && starts[low][0] <= end->x + near; low++) {
-            const uint32_t k = (uint32_t)starts[low][1];
-            const struct edge *first = &o->edges[chains[k].first];
-            const struct vertex *start = &o->vertices[first->a];
-            const double dx = start->x - end->x, dy = start->y - end->y;
-            if (!chains[k].taken && first->group == last->group && dx * dx + dy * dy <= least) {
-                least = dx * dx + dy * dy;
-                best = k;
-            }
-        }
-        chains[i].next = best;
-        if (best != NONE)
-            chains[best].taken = true;
-    }
 }
 
 // Follows the edges to closed loops. Outlines that do not close are counted.
 static bool find_loops(struct outlines *o)
 {
     o->loops = arena_array(o->scratch, o->edge_count, sizeof *o->loops);
-    struct chain *chains = arena_array(o->scratch, o->edge_count, sizeof *chains);
-    double(*starts)[2] = arena_array(o->scratch, o->edge_count, sizeof *starts);
-    uint32_t count = 0;
-    if (!o->loops || !chains || !starts)
-        return no_memory(o, o->edge_count * sizeof *chains);
+    if (!o->loops)
+        return no_memory(o, o->edge_count * sizeof *o->loops);
     for (uint32_t i = 0; i < o->edge_count; i++) {
         if (o->edges[i].used)
             continue;
-        uint32_t last = i, next;
-        for (o->edges[i].used = true; o->edges[last].b != o->edges[i].a; last = next) {
-            if ((next = continuation(o, &o->edges[last])) == NONE)
-                break;
-            o->edges[last].after = next;
-            o->edges[next].used = true;
-        }
-        if (o->edges[last].b == o->edges[i].a) {
-            o->edges[last].after = i;
-            add_loop(o, i);
-        } else {
-            starts[count][0] = o->vertices[o->edges[i].a].x;
-            starts[count][1] = count;
-            chains[count++] = (struct chain){i, last, NONE, false};
-        }
-    }
-    qsort(starts, count, sizeof *starts, by_start);
-    join_chains(o, chains, count, (const double(*)[2])starts);
-    for (uint32_t i = 0; i < count; i++)
-        if (!chains[i].taken) { // the first chain of an open outline
+        uint32_t last = i;
+        for (o->edges[i].used = true; last != NONE && o->edges[last].b != o->edges[i].a; last = o->edges[last].after)
+            if ((o->edges[last].after = continuation(o, &o->edges[last])) != NONE)
+                o->edges[o->edges[last].after].used = true;
+        if (last == NONE) {
             o->result->open++;
-            for (uint32_t k = i, next; k != NONE; k = next) {
-                next = chains[k].next;
-                chains[k].next = NONE;
-            }
-        }
-    for (uint32_t i = 0; i < count; i++) {
-        if (chains[i].next == NONE)
             continue;
-        for (uint32_t k = i, next; chains[k].next != NONE; k = next) {
-            next = chains[k].next;
-            o->edges[chains[k].last].after = chains[next].first;
-            chains[k].next = NONE;
         }
-        add_loop(o, chains[i].first);
+        o->edges[last].after = i;
+        add_loop(o, i);
     }
     return true;
 }
@@ -624,7 +568,7 @@ static bool fill(struct outlines *o)
     return true;
 }
 
-bool outlines_close(struct cut_object *objects, int count, const struct cut_plane *plane, struct arena *memory,
+bool outlines_close(struct cut_object *objects, int count, const lam_section *plane, struct arena *memory,
                     struct outline_result *result, struct call_control *call, lam_error *error)
 {
     struct arena scratch;

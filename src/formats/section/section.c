@@ -18,6 +18,7 @@ struct cutting {
     bool *changed;        // whether the object has a new mesh
     struct arena scratch; // the arrays of one plane
     struct arena *own;
+    lam_section planes[LAM_SECTIONS_MAX]; // in world space
     double areas[LAM_SECTIONS_MAX];
     int open;                  // number of outlines that are not closed
     bool strokes, translucent; // lines, points or transparent parts were cut
@@ -46,24 +47,26 @@ static void find_extent(const struct cutting *c, lam_vec3 n, double ends[2])
     }
 }
 
-// Finds the plane in world space.
-static struct cut_plane place_plane(const struct cutting *c, const lam_section *section)
+// Returns the section in world space.
+static lam_section place_plane(const struct cutting *c, const lam_section *section)
 {
-    const lam_vec3 n = v3_unit(section->normal);
     const lam_mat4 *placement = &c->scene->placement;
+    lam_section placed = {.normal = section->normal, .distance = section->distance, .color = section->color};
     double m[3][3], ends[2];
     mat4_normal_matrix(placement, m);
-    const double sign = mat4_determinant3(placement) < 0 ? -1 : 1;
-    const lam_vec3 normal = v3_unit(
-        v3_scale(v3(m[0][0] * n.x + m[0][1] * n.y + m[0][2] * n.z, m[1][0] * n.x + m[1][1] * n.y + m[1][2] * n.z,
-                    m[2][0] * n.x + m[2][1] * n.y + m[2][2] * n.z),
-                 sign));
+    const double n[3] = {placed.normal.x, placed.normal.y, placed.normal.z}, sign = mat4_determinant3(placement);
+    const lam_vec3 turned =
+        v3(m[0][0] * n[0] + m[0][1] * n[1] + m[0][2] * n[2], m[1][0] * n[0] + m[1][1] * n[1] + m[1][2] * n[2],
+           m[2][0] * n[0] + m[2][1] * n[1] + m[2][2] * n[2]);
+    const lam_vec3 at = v3_scale(v3_unit(section->normal), section->distance);
+    placed.normal = v3_unit(v3_scale(turned, sign < 0 ? -1 : 1));
     if (section->relative) {
-        find_extent(c, normal, ends);
-        return (struct cut_plane){normal, ends[0] + section->distance * (ends[1] - ends[0]), section->color};
+        find_extent(c, placed.normal, ends);
+        placed.distance = ends[0] + section->distance * (ends[1] - ends[0]);
+    } else if (!mat4_is_identity(placement)) {
+        placed.distance = v3_dot(placed.normal, mat4_point(placement, at));
     }
-    return (struct cut_plane){normal, v3_dot(normal, mat4_point(placement, v3_scale(n, section->distance))),
-                              section->color};
+    return placed;
 }
 
 static int material_of(const lam_object *object, const lam_mesh *mesh, uint32_t part)
@@ -83,7 +86,7 @@ static bool is_opaque(const lam_material *m)
 
 // Finds the material of a cut surface: the part's material without textures, or in the section's colour. Returns −2 on
 // failure.
-static int cap_material(struct cutting *c, const struct cut_plane *plane, int index)
+static int cap_material(struct cutting *c, const lam_section *plane, int index)
 {
     lam_material material = *material_at(c, index);
     bool maps = false;
@@ -105,7 +108,7 @@ static int cap_material(struct cutting *c, const struct cut_plane *plane, int in
 }
 
 // Finds the objects that a plane cuts.
-static bool find_cuts(struct cutting *c, const struct cut_plane *plane, struct cut_object *cuts, int *count)
+static bool find_cuts(struct cutting *c, const lam_section *plane, struct cut_object *cuts, int *count)
 {
     for (int i = 0; i < c->scene->objects.count; i++) {
         struct cut_object *cut = &cuts[*count];
@@ -140,7 +143,7 @@ static bool find_cuts(struct cutting *c, const struct cut_plane *plane, struct c
 }
 
 // Replaces the mesh of a cut object.
-static bool take_cut(struct cutting *c, const struct cut_plane *plane, const struct cut_object *cut)
+static bool take_cut(struct cutting *c, const lam_section *plane, const struct cut_object *cut)
 {
     lam_mesh *mesh = &c->meshes[cut->object];
     lam_object *object = &c->objects[cut->object];
@@ -169,7 +172,7 @@ static bool take_cut(struct cutting *c, const struct cut_plane *plane, const str
     return true;
 }
 
-static bool cut_all(struct cutting *c, const struct cut_plane *plane, double *area)
+static bool cut_all(struct cutting *c, const lam_section *plane, double *area)
 {
     arena_start(&c->scratch, c->call);
     struct cut_object *cuts = arena_array(&c->scratch, (size_t)c->scene->objects.count + 1, sizeof *cuts);
@@ -225,15 +228,14 @@ static void warn(const struct cutting *c)
 
 static bool cut_objects(struct cutting *c, const lam_section *sections, int count)
 {
-    struct cut_plane planes[LAM_SECTIONS_MAX];
     for (int i = 0; i < c->scene->objects.count; i++) {
         c->objects[i] = *scene_object(c->scene, i);
         c->meshes[i] = *scene_mesh(c->scene, c->objects[i].mesh);
     }
     for (int i = 0; i < count; i++)
-        planes[i] = place_plane(c, &sections[i]);
+        c->planes[i] = place_plane(c, &sections[i]);
     for (int i = 0; i < count; i++)
-        if (!cut_all(c, &planes[i], &c->areas[i]))
+        if (!cut_all(c, &c->planes[i], &c->areas[i]))
             return false;
     return adopt_meshes(c);
 }
@@ -249,6 +251,7 @@ static bool take_objects(struct cutting *c, const lam_section *sections, int cou
     memcpy(cut->objects, scene->objects.items, bytes);
     memcpy(scene->objects.items, c->objects, bytes);
     memcpy(cut->sections, sections, (size_t)count * sizeof *sections);
+    memcpy(cut->placed, c->planes, sizeof cut->placed);
     memcpy(cut->areas, c->areas, sizeof cut->areas);
     cut->object_count = scene->objects.count;
     cut->all = scene->meshes.count + scene->materials.count;

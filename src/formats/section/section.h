@@ -6,13 +6,6 @@
 
 #include <lambent/section.h>
 
-// A plane in world space.
-struct cut_plane {
-    lam_vec3 normal; // unit
-    double distance;
-    lam_rgba color;
-};
-
 // A point of a cut mesh that is not a corner of the mesh before: on the edge between two corners, or a corner of a cut
 // surface that comes from another mesh.
 struct cut_point {
@@ -75,8 +68,8 @@ struct outline_result {
     int open; // number of outlines that are not closed
 };
 
-// Closes the outlines: fills the caps of each object. `memory` contains the results.
-bool outlines_close(struct cut_object *objects, int count, const struct cut_plane *plane, struct arena *memory,
+// Closes the outlines: fills the caps of each object. The plane is in world space. `memory` contains the results.
+bool outlines_close(struct cut_object *objects, int count, const lam_section *plane, struct arena *memory,
                     struct outline_result *result, struct call_control *call, lam_error *error);
 
 #endif

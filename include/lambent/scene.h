@@ -251,6 +251,11 @@ LAM_API bool lam_scene_hide_mesh(lam_scene *scene, int index, bool hidden, lam_e
 LAM_API bool lam_scene_remove_object(lam_scene *scene, int index, lam_error *error);
 LAM_API bool lam_scene_remove_mesh(lam_scene *scene, int index, lam_error *error);
 
+// Replaces each object that shows several parts by an object for each part, with the part's name, so that parts can be
+// hidden and moved alone. A scene file cannot describe the result. Returns false on failure and changes nothing:
+// LAM_BAD_ARGUMENT (the scene has sections), LAM_LIMIT.
+LAM_API bool lam_scene_split_parts(lam_scene *scene, lam_error *error);
+
 // Removes all lights. The scene's ambient light (lam_scene_set_ambient) stays.
 LAM_API void lam_scene_clear_lights(lam_scene *scene);
 

@@ -78,6 +78,8 @@ struct view_options {
     int projection;     // 1 means orthographic
     int up;             // lam_up
     const char *camera; // as typed; NULL means a fitted camera
+    // How far parts are moved apart, relative to their distance from the middle of the model along each axis; 0: not.
+    lam_vec3 explode;
 };
 
 // Lights.
@@ -98,6 +100,7 @@ struct material_options {
     struct texts materials; // as typed, checked
     struct texts back_materials;
     struct texts hidden;       // names of objects, parts or materials that are not drawn
+    struct texts only;         // if there are any, all others are not drawn
     const char *model_color;   // the colour of all materials, as typed; NULL keeps their own colours
     double shininess, opacity; // valid if the next flag is set
     bool has_shininess, has_opacity;

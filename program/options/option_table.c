@@ -573,6 +573,13 @@ struct option option_table[OPTIONS_MAX] = {
      "whose material has that name. Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent "
      "view` and the web page list the names.",
      .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
+    {"only", 0, GROUP_MATERIALS, "NAME", NULL, "Show only the objects, parts or materials of this name; repeatable.",
+     "The camera fits what is shown. The names are those that `--hide` accepts.", .store = store_texts,
+     .others = "solo part parts isolate-part show-only", FIELD(material.only), .loads = true},
+    {"explode", 0, GROUP_VIEW, "FACTOR", "0", "Move the objects and parts of the model apart; 0.5 is a good start.",
+     "Lambent moves each part away from the middle of the model by FACTOR times the distance between both middles. "
+     "`z=0.5` moves the parts only along the z axis.",
+     .store = store_explode, .others = "exploded explosion explode-view", FIELD(view.explode), .loads = true},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL,
      "The exponent of all highlights: 10 gives wide highlights, 1000 gives sharp highlights.",
      "The value replaces the shininess of every material, including materials set by `--material`.", .now = "material",

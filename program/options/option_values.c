@@ -496,6 +496,19 @@ bool store_rotation(const struct option *option, const char *value, struct optio
     return append(option, value, options, error);
 }
 
+bool store_explode(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    lam_vec3 *by = field_of(options, option->field);
+    const char axis = *value >= 'x' && *value <= 'z' && value[1] == '=' ? *value : 0;
+    double factor;
+    const char *end = read_number(axis ? value + 2 : value, &factor);
+    if (!end || *end || !(factor >= 0 && factor <= 1000))
+        return wrong(error, value, "a factor from 0 to 1000, such as 0.5, or along one axis z=0.5");
+    *by = (lam_vec3){!axis || axis == 'x' ? factor : 0, !axis || axis == 'y' ? factor : 0,
+                     !axis || axis == 'z' ? factor : 0};
+    return true;
+}
+
 bool store_section(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_section section;

@@ -223,6 +223,7 @@ option_parser store_integer;                                 // int
 option_parser store_number, store_seconds;                   // double; store_seconds: infinity for "none"
 option_parser store_float, store_angle, store_cutoff;        // float; store_angle: degrees; store_cutoff: −1 for 0
 option_parser store_count, store_bytes;                      // uint64_t
+option_parser store_explode;                                 // lam_vec3
 option_parser store_light, store_material, store_rotation, store_section; // struct texts, checked
 option_parser store_texts, store_path, store_list, store_across; // struct texts; store_across: at most ACROSS_MAX
 option_parser store_reflectivity;                                // lam_rgb

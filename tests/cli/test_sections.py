@@ -142,3 +142,38 @@ class Sections(Case):
                 self.assertEqual(read_png(drawn), self.png(*words, *more), name)
         frames = [read_png((self.folder / f"t-{i}.png").read_bytes()) for i in range(4)]
         self.assertEqual(len(set(map(str, frames))), 4)
+
+
+class Parts(Case):
+    """--only and --explode, which treat each part as an object."""
+
+    def setUp(self):
+        super().setUp()
+        text = "mtllib m.mtl\n" + obj(case=box(*OUTER), lid=box((-2, 2, -2), (2, 2.4, 2)), foot=box((3, -2.4, -1), (3.5, -2, 0))).replace("g foot", "g foot\nusemtl red")
+        (self.folder / "a.obj").write_text(text)
+        (self.folder / "m.mtl").write_text("newmtl red\nKd 1 0 0\n")
+        self.given.update(("a.obj", "m.mtl"))
+
+    def test_only(self):
+        (self.folder / "lid.obj").write_text(obj(lid=box((-2, 2, -2), (2, 2.4, 2))))
+        self.given.add("lid.obj")
+        words = ("-s", "64", "--up", "y", "--rig", "headlight")
+        self.assertEqual(self.png("a.obj", *words, "--only", "lid"), self.png("lid.obj", *words))
+        self.assertEqual(self.png("a.obj", *words, "--only", "red"), self.png("a.obj", *words, "--only", "foot"))
+        self.assertEqual(self.png("a.obj", *words, "--only", "case", "--only", "lid", "--only", "foot"), self.png("a.obj", *words))
+        self.bad(1, "a.obj", "--only", "lit", says=("--only", "lid"))
+
+    def test_explode(self):
+        words = ("-s", "64", "--rig", "headlight")
+        self.assertEqual(self.png("a.obj", *words, "--explode", "0"), self.png("a.obj", *words))
+        whole, apart = (self.png("a.obj", *FRONT[:-1], "96", *more) for more in ((), ("--explode", "y=1")))
+        rows = [sum(any(picture[2][4 * (y * 96 + x) + 3] for x in range(96)) for y in range(96)) for picture in (whole, apart)]
+        self.assertGreater(rows[0], 70)
+        self.assertLess(sum(any(apart[2][4 * (y * 96 + x) + 3] for x in range(30, 60)) for y in range(96)), rows[1])  # a gap below the lid
+        for wrong in ("-1", "x", "w=1", "nan", "1001"):
+            self.bad(1, "a.obj", "--explode", wrong, says=("--explode",))
+
+    def test_metal_on_one_part(self):
+        """A physical material on one part leaves the parts without a material lit."""
+        picture = self.png("a.obj", "-s", "64", "--material", "gold@lid")
+        self.assertGreater(pixel(picture, 24, 40)[0], 60)

@@ -137,7 +137,8 @@ static bool draws_once(const struct job *job)
         return false;
     bool tangents = lam_reflection_describe(o->draw.reflection)->tangents;
     return o->work.repeat == 1 && !job->keeps_scene && !show_is_all(o) && !tangents && job->view_count <= 1 &&
-           !job->animation && !o->model.sections.count;
+           !job->animation && !o->model.sections.count && !o->material.only.count &&
+           o->view.explode.x + o->view.explode.y + o->view.explode.z == 0;
 }
 
 // Warns about maps that flat and Gouraud shading ignore.
@@ -262,6 +263,9 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
                         "%s: found no triangles, lines or points, expected at least one to draw", job->model);
     scene_settings_apply(job);
     if (!lam_scene_set_sections(job->scene, NULL, 0, NULL, error)) // job_section cuts what the options have changed
+        return false;
+    const lam_vec3 apart = o->view.explode;
+    if ((o->material.only.count || apart.x + apart.y + apart.z > 0) && !lam_scene_split_parts(job->scene, error))
         return false;
     if (!find_background(job, error))
         return false;

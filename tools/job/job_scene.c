@@ -74,6 +74,27 @@ static bool set_color(const struct options *o, lam_scene *scene, lam_error *erro
     return ok;
 }
 
+// Moves each object away from the middle of the visible objects (--explode).
+static bool explode(lam_vec3 by, lam_scene *scene, lam_error *error)
+{
+    lam_vec3 low, high, middle;
+    double radius;
+    if ((by.x == 0 && by.y == 0 && by.z == 0) || !lam_scene_bounds(scene, &low, &high))
+        return true;
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        lam_object object = *lam_scene_object(scene, i);
+        double(*m)[4] = object.transform.m;
+        lam_scene_sphere(scene, i, &middle, &radius);
+        const double at[3] = {middle.x, middle.y, middle.z}, factors[3] = {by.x, by.y, by.z},
+                     from[3] = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
+        for (int k = 0; k < 3; k++)
+            m[k][3] += factors[k] * (m[k][0] * at[0] + m[k][1] * at[1] + m[k][2] * at[2] + m[k][3] - from[k]);
+        if (!lam_scene_set_object(scene, i, &object, error))
+            return false;
+    }
+    return true;
+}
+
 // Sets colour, shininess and opacity before the back materials, because some back materials are copies of front
 // materials.
 static bool apply_materials(const struct job *job, lam_error *error)
@@ -102,7 +123,8 @@ static bool apply_materials(const struct job *job, lam_error *error)
     for (int i = 0; i < o->material.hidden.count; i++)
         if (!material_option_hide(o->material.hidden.items[i], job->one_of_many, scene, error))
             return false;
-    return true;
+    return (!o->material.only.count || material_option_only(&o->material.only, job->one_of_many, scene, error)) &&
+           explode(o->view.explode, scene, error);
 }
 
 static bool apply_sides(const struct options *o, lam_scene *scene, lam_error *error)

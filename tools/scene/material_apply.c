@@ -254,3 +254,36 @@ bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, l
     }
     return found > 0;
 }
+
+static bool is_named(const lam_scene *scene, const lam_object *object, const char *name)
+{
+    const int material = front_of(scene, object);
+    return same(object->name, name) || (material >= 0 && same(lam_scene_material(scene, material)->name, name));
+}
+
+bool material_option_only(const struct texts *names, bool may_lack, lam_scene *scene, lam_error *error)
+{
+    const int count = lam_scene_object_count(scene);
+    bool any = false;
+    for (int k = 0; k < names->count; k++) {
+        const struct material_option option = {.target = names->items[k]};
+        bool found = false;
+        for (int i = 0; i < count && !found; i++)
+            found = is_named(scene, lam_scene_object(scene, i), option.target);
+        lam_error reason;
+        if (!found && !not_found(&option, false, "only", scene, &reason)) {
+            if (!may_lack)
+                return complain(error, reason.code, "%s", reason.text);
+            lam_scene_add_warning(scene, reason.text);
+        }
+        any |= found;
+    }
+    for (int i = 0; any && i < count; i++) {
+        bool shown = false;
+        for (int k = 0; k < names->count; k++)
+            shown |= is_named(scene, lam_scene_object(scene, i), names->items[k]);
+        if (!shown && !lam_scene_hide_object(scene, i, true, error))
+            return false;
+    }
+    return true;
+}

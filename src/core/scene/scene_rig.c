@@ -17,13 +17,26 @@
 #define GREY_MIN   0.3f
 #define GREY_SHOWN 0.62
 
+// Returns whether an object shows the default material.
+static bool shows_default(const struct lam_scene *scene)
+{
+    bool shows = !scene->materials.count;
+    for (int i = 0; i < scene->objects.count && !shows; i++) {
+        const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
+        shows = scene_object(scene, i)->material < 0 && !mesh->part_count;
+        for (uint32_t k = 0; scene_object(scene, i)->material < 0 && k < mesh->part_count && !shows; k++)
+            shows = mesh->parts[k].material < 0;
+    }
+    return shows;
+}
+
 bool scene_lit_by_environment(const struct lam_scene *scene)
 {
     if (scene->lights.count ||
         (!scene->environment && !environment_lookups_of(1))) // a build without effects has no studio
         return false;
     int physical = 0, classic = 0;
-    for (int i = scene->materials.count ? 0 : -1; i < scene->materials.count; i++) {
+    for (int i = shows_default(scene) ? -1 : 0; i < scene->materials.count; i++) {
         const lam_material *material = i < 0 ? scene->default_material : lam_scene_material(scene, i);
         physical += material->physical && !material->unlit;
         classic += !material->physical && !material->unlit;
@@ -36,7 +49,7 @@ bool scene_lit_by_environment(const struct lam_scene *scene)
 static double grey_reflectance(const struct lam_scene *scene)
 {
     double largest = 0;
-    for (int i = scene->materials.count ? 0 : -1; i < scene->materials.count; i++) {
+    for (int i = shows_default(scene) ? -1 : 0; i < scene->materials.count; i++) {
         const lam_material *m = i < 0 ? scene->default_material : lam_scene_material(scene, i);
         bool grey = m->diffuse.r == m->diffuse.g && m->diffuse.g == m->diffuse.b && m->emission.r == 0 &&
                     m->emission.g == 0 && m->emission.b == 0;

@@ -81,7 +81,8 @@ static const lam_material *material_at(const struct cutting *c, int index)
 
 static bool is_opaque(const lam_material *m)
 {
-    return !(m->physical && m->transmission > 0) && (m->diffuse.a >= 1 || m->alpha_mode != LAM_ALPHA_BLEND);
+    return m->diffuse.a > 0 && !(m->physical && m->transmission > 0) &&
+           (m->diffuse.a >= 1 || m->alpha_mode != LAM_ALPHA_BLEND);
 }
 
 // Finds the material of a cut surface: the part's material without textures, or in the section's colour. Returns −2 on
@@ -132,8 +133,9 @@ static bool find_cuts(struct cutting *c, const lam_section *plane, struct cut_ob
         if (!closes)
             return call_memory_error(c->call, parts, c->error);
         for (uint32_t part = 0; part < parts; part++) {
-            closes[part] = is_opaque(material_at(c, material_of(&c->objects[i], mesh, part)));
-            c->translucent |= !closes[part] && cut->cut.edge_count;
+            const lam_material *material = material_at(c, material_of(&c->objects[i], mesh, part));
+            closes[part] = is_opaque(material);
+            c->translucent |= !closes[part] && material->diffuse.a > 0 && cut->cut.edge_count;
         }
         c->strokes |= mesh_is_strokes(mesh) && cut->cut.items;
         cut->closes = closes;

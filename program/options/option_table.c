@@ -443,11 +443,18 @@ struct option option_table[OPTIONS_MAX] = {
      "model's up axis. In a perspective projection, `fovy` is the full vertical angle in degrees (default: 30). "
      "Without other keys, `--camera fovy=60` and `--fov 60` are equivalent. In a parallel projection, `ortho` is the "
      "distance from the picture's middle to its top, in model units. Give both `near` and `far`, or neither. By "
-     "default, Lambent fits both distances to the scene. You cannot combine this option with `--view`, `--azimuth`, "
+     "default, Lambent fits both distances to the scene. `fx`, `fy`, `cx` and `cy`, or `K`, are the intrinsics of a "
+     "calibrated camera in pixels of the drawn picture, instead of `fovy`. `pose` is the matrix from the camera to the "
+     "world, 16 numbers separated by `/`, instead of `eye`, `target` and `up`. With `convention=opencv`, the default, "
+     "y "
+     "of the pose points down, z points forward, and the centre of the first pixel is at 0, 0. With "
+     "`convention=opengl`, y points up, z points backward, and `cx` and `cy` count from the picture's corner. For an "
+     "example, see `docs/cameras.md`. You cannot combine this option with `--view`, `--azimuth`, "
      "`--elevation`, `--zoom`, `--fov` or `--projection`. For any picture, `--json` reports the camera under the same "
      "keys.",
-     .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
-     .min = FOV_MIN, .max = FOV_MAX},
+     .kind = VALUE_CAMERA, .store = store_camera,
+     .others = "eye position lookat look-at near far intrinsics pose extrinsics", FIELD(view.camera), .min = FOV_MIN,
+     .max = FOV_MAX},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light, such as point:position=2r/1r/3r, or none; repeatable.",

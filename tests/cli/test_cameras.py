@@ -126,3 +126,71 @@ class Cameras(Case):
             with self.subTest(says):
                 self.bad(1, "three.obj", "--camera", camera, says=says)
         self.good("three.obj", "--camera", words(K, pose, k1=0, p2=0, skew=0), "-s", 50)
+
+
+class Views(Case):
+    def drawn(self, *words):
+        """The names of the new files, without journals."""
+        before = self.new_files()
+        self.good(*words, "-s", 16, "-q")
+        return sorted(self.new_files() - before)
+
+    def transforms(self, name="transforms.json"):
+        return json.loads((self.folder / name).read_text())
+
+    def test_names(self):
+        """A number of directions, rings, azimuths and sides, with their names and placeholders."""
+        for words, files in ((("--view", "3"), ["cube-0.png", "cube-1.png", "cube-2.png", "transforms.json"]),
+                             (("--views", "sphere:2"), ["cube-0.png", "cube-1.png", "transforms.json"]),
+                             (("--view", "ring:2@10,top"), ["cube-0.png", "cube-1.png", "cube-top.png", "transforms.json"]),
+                             (("--view", "ring:4", "-o", "{azimuth}.png"), ["0.png", "180.png", "270.png", "90.png", "transforms.json"]),
+                             (("--azimuth", "0,90.5", "--elevation", "10"), ["cube-0.png", "cube-90.5.png"]),
+                             (("--view", "front,back"), ["cube-back.png", "cube-front.png"])):
+            with self.subTest(words):
+                self.assertEqual(self.drawn("cube.obj", *words), files)
+                for name in files:
+                    (self.folder / name).unlink()
+        self.assertEqual(len(self.drawn("cube.obj", "--view", 300)), 301)
+        self.assertEqual(self.transforms()["frames"][299]["file_path"], "cube-299.png")
+
+    def test_angles(self):
+        """A direction is drawn as --azimuth and --elevation draw it, and the directions of a sphere have equal heights and the golden angle."""
+        self.good("cube.obj", "--view", "ring:4@30", "-s", 64, "-o", "{azimuth}.png", "-q")
+        self.good("cube.obj", "--azimuth", "0,90", "--elevation", 30, "-s", 64, "-o", "list-{view}.png", "-q")
+        self.good("cube.obj", "--azimuth", "90", "--elevation", 30, "-s", 64, "-o", "alone.png", "-q")
+        self.assertEqual((self.folder / "alone.png").read_bytes(), (self.folder / "list-90.png").read_bytes())
+        for a, b in zip(*(read_png((self.folder / name).read_bytes())[2] for name in ("90.png", "alone.png"))):
+            self.assertLessEqual(abs(a - b), 1)
+        self.good("sphere", "--view", 8, "-s", 16, "-o", "s/", "-q")
+        ways = [[row[2] for row in frame["transform_matrix"][:3]] for frame in self.transforms("s/transforms.json")["frames"]]
+        for i, way in enumerate(ways):
+            self.assertAlmostEqual(way[1], 1 - (2 * i + 1) / 8, delta=1e-8)
+            turn = math.radians(180 * (3 - math.sqrt(5)) * i)
+            self.assertAlmostEqual(way[0], math.sin(turn) * math.hypot(way[0], way[2]), delta=1e-8)
+
+    def test_refused(self):
+        for words, says in ((("--view", "0"), "from 1 to 10000"), (("--view", "20000"), "10000"), (("--view", "ring:4@91"), "ring:N@ELEVATION"), (("--view", "sphere:x"), "sphere:N"),
+                            (("--view", "front,frnt"), "did you mean 'front'?"), (("--view", "9999,9999"), "more than 10000 views"), (("--view", "4", "--azimuth", "3"), "--azimuth"),
+                            (("--view", "4,4"), "a side twice"), (("--azimuth", "1,1"), "an angle twice"), (("--azimuth", "1,x"), "degrees"), (("--azimuth", "1,2", "--views", "4"), "--azimuth"),
+                            (("--view", "4", "-o", "a.png"), "names one picture"), (("--view", "4", "--save-scene", "s.json"), "single picture")):
+            with self.subTest(words):
+                self.bad(1, "cube.obj", *words, says=says)
+        (self.folder / "transforms.json").write_text('{"camera_angle_x": 1, "frames": []}')
+        self.bad(5, "cube.obj", "--view", 2, says="lambent did not write it")
+        self.bad(1, "cube.obj", "cube.stl", "--view", 2, "-o", "{ext}-{view}.png", says="transforms.json")
+
+    def test_batch(self):
+        """Each model has a file of its cameras; --resume draws the missing pictures, and --skip-same only those whose view changed."""
+        words = ("batch", "cube.obj", "torus.json", "--view", "3", "-s", 16, "-o", "out/{stem}/{view}.png")
+        (self.folder / "torus.json").write_text('{"lambent": 1, "objects": [{"shape": "torus"}]}')
+        self.good(*words)
+        first = (self.folder / "out/torus/transforms.json").read_bytes()
+        self.assertEqual(self.transforms("out/torus/transforms.json")["frames"][2]["file_path"], "2.png")
+        (self.folder / "out/torus/1.png").unlink()
+        self.good(*words, "--resume")
+        self.assertTrue((self.folder / "out/torus/1.png").exists())
+        self.assertEqual(first, (self.folder / "out/torus/transforms.json").read_bytes())
+        words = ("batch", "cube.obj", "-s", 16, "-o", "same/{view}.png", "--skip-same", "--view")
+        self.good(*words, "2")
+        self.assertIn("2 unchanged", self.good(*words, "2").stderr.decode())
+        self.assertNotIn("2 unchanged", self.good(*words, "ring:2").stderr.decode())

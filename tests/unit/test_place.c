@@ -207,7 +207,7 @@ TEST(cameras_in_words)
     assert_true(camera.ortho_half_height == 3 && camera.near_plane == -1 && camera.target.z == 1 && camera.up.x == 1);
     lam_camera before = camera;
     static const char *const wrong[][2] = {{"eye=1/2", "three numbers"},        {"eye=inf/0/0", "three numbers"},
-                                           {"eyes=1/2/3", "did you mean 'eye'?"}, {"fovy=20", "'eye' is missing"},
+                                           {"ey=1/2/3", "did you mean 'eye'?"}, {"fovy=20", "'eye' is missing"},
                                            {"eye=0/0/1e999", "three numbers"},  {"", "key=value"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_false(lam_camera_parse(wrong[i][0], scene, &camera, &error));

@@ -744,6 +744,10 @@ static bool read_request(const lam_bytes *request, struct figure *f, bool *svg, 
     f->y = whole(read[1], "y");
     f->camera.fovy_rad = number(read[0], "fovy_rad");
     f->camera.ortho_half_height = number(read[0], "ortho_half_height");
+    f->camera.fx = number(read[0], "fx");
+    f->camera.fy = number(read[0], "fy");
+    f->camera.cx = number(read[0], "cx");
+    f->camera.cy = number(read[0], "cy");
     f->beam = json_is_true(member(read[0], "beam"));
     *svg = json_is_true(member(read[0], "svg"));
     // The picture is not changed.

@@ -22,7 +22,12 @@ typedef struct lam_camera {
     // Distances along the view of the nearest and farthest drawn points; near < far, and near > 0 for perspective. Both
     // 0: fitted to the scene.
     double near_plane, far_plane;
-    LAM_RESERVED(16);
+    // The intrinsics of a calibrated perspective camera, in pixels of the drawn picture. fx > 0: a point at (X, Y, Z) of
+    // eye space is drawn at x = cx + fx X/−Z, y = cy − fy Y/−Z, measured from the picture's upper left corner (the centre
+    // of the first pixel is at 0.5, 0.5). `fovy_rad` is then ignored, and fy must be above 0. fx = 0: `fovy_rad` or
+    // `ortho_half_height`, with the axis in the middle of the picture.
+    double fx, fy, cx, cy;
+    LAM_RESERVED(12);
 } lam_camera;
 
 // Returns a perspective camera at (0, 0, 4) that looks at the origin with a field of view of 30°.
@@ -30,6 +35,28 @@ LAM_API lam_camera lam_camera_default(void);
 
 // Returns the matrix from world to eye space: the eye at the origin, x to the right, y up, looking along −z.
 LAM_API lam_mat4 lam_camera_view_matrix(const lam_camera *camera);
+
+// The axes of a camera's pose, and the point from which its cx and cy are measured. In both, y of pixels points down.
+typedef enum lam_camera_convention {
+    // OpenCV, COLMAP, Open3D: x to the right, y down, z forward; the centre of the first pixel is at (0, 0)
+    LAM_CONVENTION_OPENCV,
+    // OpenGL, Blender, NeRF, pyrender: x to the right, y up, z backward; the corner of the first pixel is at (0, 0)
+    LAM_CONVENTION_OPENGL,
+} lam_camera_convention;
+
+// Places a camera by its pose: the matrix from the camera's axes to world space. Its first three columns must be
+// orthogonal unit vectors within 0.001 and right-handed, its last row 0, 0, 0, 1. On failure, with LAM_BAD_ARGUMENT, the
+// camera is unchanged.
+LAM_API bool lam_camera_set_pose(lam_camera *camera, const lam_mat4 *pose, lam_camera_convention convention,
+                                 lam_error *error);
+
+// Returns the pose of a camera.
+LAM_API lam_mat4 lam_camera_pose(const lam_camera *camera, lam_camera_convention convention);
+
+// Gets fx, fy, cx and cy of a camera in a picture of width × height pixels. Returns false and changes nothing if the
+// camera is orthographic.
+LAM_API bool lam_camera_intrinsics(const lam_camera *camera, int width, int height, lam_camera_convention convention,
+                                   double intrinsics[4]);
 
 // Projects a point of eye space into a picture of width × height pixels (both above 0). *x and *y are in pixels from
 // the upper left corner, even for points outside the picture. The near and far planes are ignored. Returns false and
@@ -79,6 +106,15 @@ LAM_API lam_side lam_side_find(const char *name);
 // Returns the view of a side, in perspective, or the three-quarter view if `side` is out of range.
 LAM_API lam_view lam_view_of_side(lam_side side);
 
+// Parses a list of views, separated by commas: names of sides; N or sphere:N, N directions that are evenly distributed on
+// a sphere, from the top to the bottom; ring:N@E, N directions at equal angles from the front to the right, E degrees
+// above the horizon (default: 20). Returns the number of views, or −1 on failure, with LAM_BAD_ARGUMENT. If the list has
+// a view with this index (from 0), stores it in *view, and its name in `name`: the side's name, or the index with leading
+// zeros, "007". Both may be NULL.
+enum { LAM_VIEW_NAME_SIZE = 32 };
+LAM_API int lam_views_parse(const char *text, int index, lam_view *view, char name[LAM_VIEW_NAME_SIZE],
+                            lam_error *error);
+
 // Places a camera so that the scene's projected vertices (not their bounding box) fill a picture of width × height
 // pixels and are centred in it. A camera fitted for one aspect ratio crops or shrinks the model at another aspect
 // ratio. The view is relative to the scene's up axis. A width or height below 1 counts as 1. If `view` is NULL, the
@@ -109,7 +145,7 @@ typedef struct lam_orbit {
     LAM_RESERVED(8);
 } lam_orbit;
 
-// Returns the orbit of a camera of this scene. The orbit's target is the point on the line of sight that is nearest to
+// Returns the orbit of a camera of this scene, with the camera's `fovy_rad` instead of its intrinsics. The orbit's target is the point on the line of sight that is nearest to
 // the centre of the scene's box. If that point is behind the eye, or the scene is NULL or empty, the orbit's target is
 // the camera's target. A tilted camera becomes upright.
 LAM_API lam_orbit lam_orbit_of(const lam_camera *camera, const lam_scene *scene);
@@ -136,6 +172,10 @@ LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 //   up=x/y/z      default: the scene's up axis
 //   fovy=degrees  default: 30; or ortho=height, half the height of an orthographic view in model units
 //   near=d,far=d  default: fitted to the scene
+// or of a calibrated camera:
+//   fx=,fy=,cx=,cy=     all four, in pixels, instead of fovy; or K=fx/0/cx/0/fy/cy/0/0/1
+//   pose=               instead of eye, target and up: 16 numbers separated by /, row by row, from the camera to the world
+//   convention=opencv   the meaning of cx, cy and pose (lam_camera_convention): opencv or opengl
 // such as "eye=2/1/4,fovy=40". If `scene` is NULL, the target is the origin and y is up. The text has at most 1023
 // bytes. Fails with LAM_BAD_ARGUMENT; the error states what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);

@@ -2,9 +2,9 @@
 #ifndef OPTION_GROUPS_H
 #define OPTION_GROUPS_H
 
-#include <lambent/base.h>
+#include <lambent/camera.h>
 
-enum { ACROSS_MAX = 2, VIEWS_MAX = 16 };
+enum { ACROSS_MAX = 2, SIZES_MAX = 16 };
 
 // The values of a repeatable option, in order.
 struct texts {
@@ -73,6 +73,8 @@ struct view_options {
     int side;                          // lam_side
     double azimuth_deg, elevation_deg; // valid if the next flag is set
     bool has_azimuth, has_elevation;
+    // The view of the picture, if it is one of several; NULL means `side`. Set by the job, not by an option.
+    const lam_view *chosen;
     double zoom;        // 0 means 1
     double fov_deg;     // the vertical field of view of the fitted camera; 0 means 30
     int projection;     // 1 means orthographic
@@ -174,9 +176,11 @@ struct limits_options {
 
 // Many models (render, batch).
 struct batch_options {
-    struct texts lists;               // files that list models
-    int views[VIEWS_MAX], view_count; // lam_side; a count of 0 means --view
-    int sizes[VIEWS_MAX][2], size_count;
+    struct texts lists; // files that list models
+    const char *views;  // as typed: a list of views, or of azimuths if by_azimuth
+    int view_count;     // 0 means --view
+    bool by_azimuth;
+    int sizes[SIZES_MAX][2], size_count;
     const char *journal;     // NULL means the command's default; "none" disables it
     const char *shard;       // as typed (batch_shard.h); NULL means all models
     int shard_by;            // enum shard_by

@@ -252,7 +252,8 @@ struct option option_table[OPTIONS_MAX] = {
      "folder in this form. `--out` is an alias of `--output`.\nA file name may contain placeholders in braces: `-o "
      "'thumbs/{dir}/{stem}-{view}.png'`. Lambent replaces the placeholders for each model. `{stem}` is the model's "
      "file name without the extension, `{ext}` is the extension, and `{dir}` is the model's folder (without `..` or a "
-     "leading slash). `{view}` is the value of `--view`, and `{size}` is the size in pixels (`256` or `256x128`). With "
+     "leading slash). `{view}` is the value of `--view` (the number of a direction, from 0), `{azimuth}` is the "
+     "camera's angle in degrees, and `{size}` is the size in pixels (`256` or `256x128`). With "
      "placeholders, Lambent creates missing folders and replaces existing files. If the pictures of two models would "
      "have the same file name, Lambent reports an error before it starts. To write a literal brace, use `{{` or "
      "`}}`.\nWith the extension `.html`, Lambent writes one file that contains the picture and the model. Open the "
@@ -404,18 +405,23 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side from which to view the model, or a list of sides: front, back, left, right, top, bottom, iso or "
-     "three-quarter.",
+     "three-quarter; or a number of directions, such as 24.",
      "By default, the camera is 30 degrees to the right of the front and 20 degrees above the horizon. The model fills "
      "92 % of the picture's width or height. `--azimuth` and `--elevation` override the angles of a side.\n`render` "
-     "and `batch` accept up to 16 sides, such as `front,left,iso`. These commands read each model once. Without a "
-     "pattern in `-o`, Lambent appends the side to the model's name: `bunny-front.png`.",
-     view_words, .several = "views", .brief = "front, left, top, iso ...; or a list: front,left", .store = store_word,
+     "and `batch` also accept lists of sides, such as `front,left,iso`. `24` or `sphere:24` means 24 directions, "
+     "evenly "
+     "distributed on a sphere, and `ring:8@30` means 8 directions at equal angles, 30 degrees above the horizon. These "
+     "commands read each model once. Without a pattern in `-o`, Lambent appends the side, or the number of the "
+     "direction, to the model's name: `bunny-front.png`, `bunny-07.png`. For directions, Lambent also writes their "
+     "cameras to `transforms.json` (`docs/cameras.md`).",
+     view_words, .several = "views", .brief = "front, left, top, iso ...; a list; or a number", .store = store_word,
      .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
      FIELD(view.side), .not_in = IN_KEY},
     {"azimuth", 0, GROUP_VIEW, "DEGREES", "30",
-     "The camera's angle around the model: 0 is the front, 90 is the right side.", NULL, .store = store_number,
-     .others = "yaw heading orbit", FIELD(view.azimuth_deg), .has_field = offsetof(struct options, view.has_azimuth),
-     .min = -3600, .max = 3600},
+     "The camera's angle around the model: 0 is the front, 90 is the right side.",
+     "`render` and `batch` also accept a list, such as `0,90,180`, and draw a picture for each angle.",
+     .store = store_number, .several = "azimuths", .others = "yaw heading orbit", FIELD(view.azimuth_deg),
+     .has_field = offsetof(struct options, view.has_azimuth), .min = -3600, .max = 3600},
     {"elevation", 0, GROUP_VIEW, "DEGREES", "20",
      "The camera's angle above the horizon: 0 is level, 90 is straight above.", NULL, .store = store_number,
      .others = "pitch altitude tilt", FIELD(view.elevation_deg),
@@ -454,11 +460,18 @@ struct option option_table[OPTIONS_MAX] = {
      "model's up axis. In a perspective projection, `fovy` is the full vertical angle in degrees (default: 30). "
      "Without other keys, `--camera fovy=60` and `--fov 60` are equivalent. In a parallel projection, `ortho` is the "
      "distance from the picture's middle to its top, in model units. Give both `near` and `far`, or neither. By "
-     "default, Lambent fits both distances to the scene. You cannot combine this option with `--view`, `--azimuth`, "
+     "default, Lambent fits both distances to the scene. `fx`, `fy`, `cx` and `cy`, or `K`, are the intrinsics of a "
+     "calibrated camera in pixels of the drawn picture, instead of `fovy`. `pose` is the matrix from the camera to the "
+     "world, 16 numbers separated by `/`, instead of `eye`, `target` and `up`. With `convention=opencv`, the default, "
+     "y "
+     "of the pose points down, z points forward, and the centre of the first pixel is at 0, 0. With "
+     "`convention=opengl`, y points up, z points backward, and `cx` and `cy` count from the picture's corner. For an "
+     "example, see `docs/cameras.md`. You cannot combine this option with `--view`, `--azimuth`, "
      "`--elevation`, `--zoom`, `--fov` or `--projection`. For any picture, `--json` reports the camera under the same "
      "keys.",
-     .kind = VALUE_CAMERA, .store = store_camera, .others = "eye position lookat look-at near far", FIELD(view.camera),
-     .min = FOV_MIN, .max = FOV_MAX},
+     .kind = VALUE_CAMERA, .store = store_camera,
+     .others = "eye position lookat look-at near far intrinsics pose extrinsics", FIELD(view.camera), .min = FOV_MIN,
+     .max = FOV_MAX},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light, such as point:position=2r/1r/3r, or none; repeatable.",
@@ -849,6 +862,8 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"views", 0, GROUP_BATCH, "SIDES", NULL, "Several sides.", NULL, view_words, .store = store_views, .now = "view",
      FIELD(batch.views), .also_in = IN_JOB},
+    {"azimuths", 0, GROUP_BATCH, "DEGREES", NULL, "Several angles.", NULL, .store = store_azimuths, .now = "azimuth",
+     FIELD(batch.views), .min = -3600, .max = 3600, .also_in = IN_JOB},
     {"sizes", 0, GROUP_BATCH, "SIZES", NULL, "Several sizes.", NULL, .store = store_sizes, .now = "size",
      FIELD(batch.sizes), .max = 65535, .also_in = IN_JOB},
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE lists, one per line; repeatable.",

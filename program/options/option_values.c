@@ -279,7 +279,7 @@ bool store_sizes(const struct option *option, const char *value, struct options 
     for (const char *at = value;;) {
         char *end;
         int *size = options->batch.sizes[options->batch.size_count];
-        if (options->batch.size_count == VIEWS_MAX || !read_size(at, (long)option->max, size, &end) ||
+        if (options->batch.size_count == SIZES_MAX || !read_size(at, (long)option->max, size, &end) ||
             (*end && *end != ','))
             return wrong(error, value, "at most 16 sizes, W or WxH from 1 to 65535 pixels, such as 1024,256x128");
         for (int i = 0; i < options->batch.size_count; i++)
@@ -292,24 +292,50 @@ bool store_sizes(const struct option *option, const char *value, struct options 
     }
 }
 
-// Parses "front,left,iso".
+// Returns whether an item of a list separated by commas is in the list twice.
+static bool has_twice(const char *value)
+{
+    for (const char *a = value; a; a = strchr(a, ',') ? strchr(a, ',') + 1 : NULL)
+        for (const char *b = value; b < a; b = strchr(b, ',') + 1)
+            if (strcspn(a, ",") == strcspn(b, ",") && strncmp(a, b, strcspn(a, ",")) == 0)
+                return true;
+    return false;
+}
+
+// Parses "front,left,iso", "24" or "ring:8@30".
 bool store_views(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    options->batch.view_count = 0;
-    for (const char *at = value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
-        struct option one = *option;
-        char name[32];
-        snprintf(name, sizeof name, "%.*s", (int)(strcspn(at, ",") < 31 ? strcspn(at, ",") : 31), at);
-        if (options->batch.view_count == VIEWS_MAX)
-            return complain(error, LAM_BAD_ARGUMENT, "names more than %d sides", VIEWS_MAX);
-        one.field = (size_t)((char *)&options->batch.views[options->batch.view_count] - (char *)options);
-        if (!store_word(&one, name, options, error))
-            return false;
-        for (int i = 0; i < options->batch.view_count; i++)
-            if (options->batch.views[i] == options->batch.views[options->batch.view_count])
-                return complain(error, LAM_BAD_ARGUMENT, "'%.100s' has a side twice", value);
-        options->batch.view_count++;
+    (void)option;
+    int count = lam_views_parse(value, -1, NULL, NULL, error);
+    if (count < 0)
+        return false;
+    if (has_twice(value))
+        return complain(error, LAM_BAD_ARGUMENT, "'%.100s' has a side twice", value);
+    options->batch.views = value;
+    options->batch.view_count = count;
+    options->batch.by_azimuth = false;
+    return true;
+}
+
+// Parses "0,90,180".
+bool store_azimuths(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    int count = 0;
+    for (const char *at = value;; at++) {
+        double degrees;
+        const char *end = read_number(at, &degrees);
+        if (!end || (*end && *end != ',') || degrees < option->min || degrees > option->max)
+            return wrong(error, value, "degrees from -3600 to 3600, separated by commas, such as 0,90,180");
+        count++;
+        at = end;
+        if (!*at)
+            break;
     }
+    if (has_twice(value))
+        return complain(error, LAM_BAD_ARGUMENT, "'%.100s' has an angle twice", value);
+    options->batch.views = value;
+    options->batch.view_count = count;
+    options->batch.by_azimuth = true;
     return true;
 }
 

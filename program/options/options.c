@@ -258,11 +258,11 @@ static bool is_known_option(const char *argument)
            find_long(argument + 2, strcspn(argument + 2, "="));
 }
 
-// Returns the option that the user probably meant: option->several if the value contains a comma, option->former if it
-// accepts the value, or otherwise `option`.
+// Returns the option that the user probably meant: option->several if the value contains a comma, or a number instead of
+// a word; option->former if it accepts the value; or otherwise `option`.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
-    if (option->several && strchr(value, ','))
+    if (option->several && (strchr(value, ',') || (option->words && strpbrk(value, "0123456789:"))))
         return option_find(option->several);
     const struct option *former = option->former ? option_find(option->former) : NULL;
     for (const struct choice *w = former ? former->words : NULL; w && w->name; w++)

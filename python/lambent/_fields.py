@@ -102,7 +102,7 @@ class Described:
     """A struct of the library. `help` of the class lists its attributes with meaning, range, unit and default."""
 
     def __setattr__(self, name, value):
-        if not hasattr(type(self), name) and name not in ("struct", "values", "kept"):
+        if not hasattr(type(self), name) and name not in ("struct", "values", "kept", "size"):
             raise AttributeError("%s has no attribute %r; it has %s" % (type(self).__name__, name, ", ".join(self._keys())))
         super().__setattr__(name, value)
 
@@ -243,6 +243,8 @@ class Part:
         if owner is None:
             return self
         value = getattr(owner.struct, self.member)
+        if self.member in ("cx", "cy") and owner.struct.fx > 0:
+            return value - 0.5 # the convention of OpenCV
         if self.type == "Numbers":
             return value.x, value.y, value.z
         return math.degrees(value) if self.member.endswith("_rad") else value
@@ -252,19 +254,41 @@ class Part:
 
     def __set__(self, owner, value):
         known = owner.values if owner.values is not None else {key: getattr(owner, key) for key in owner._keys() if getattr(owner, key)}
-        owner._parse({**{key: other for key, other in known.items() if {key, self.key} != {"ortho", "fovy"}}, self.key: value})
+        lenses = [{"ortho"}, {"fovy"}, {"fx", "fy", "cx", "cy"}] # a camera has one of these
+        other = set().union(*(keys for keys in lenses if self.key not in keys)) if any(self.key in keys for keys in lenses) else set()
+        owner._parse({**{key: value for key, value in known.items() if key not in other}, self.key: value})
 
 
-class Camera(type("Parts", (Described,), {key: Part(key) for key in every(lib.lam_camera_key)})):
+class Camera(type("Parts", (Described,), {key: Part(key) for key in every(lib.lam_camera_key) if key not in ("K", "pose", "convention")})):
     """A camera: `Camera(eye=(2, 1, 4), fovy=40)`. Without a target it looks at the middle of the scene; `Picture.camera` is the camera of a
-    picture."""
+    picture.
 
-    def __init__(self, eye=(0, 0, 4), **parts):
-        self.struct, self.values = ffi.new("lam_camera *"), None
+    `Camera(K=K, pose=pose)` is a calibrated camera: K is the 3×3 matrix of fx, fy, cx and cy in pixels, pose the 4×4 matrix from the camera to the
+    world. `convention` is "opencv" (x to the right, y down, z forward; cx and cy from the first pixel's centre) or "opengl" (y up, z backward; cx and
+    cy from the picture's corner)."""
+
+    def __init__(self, eye=None, **parts):
+        self.struct, self.values, self.size = ffi.new("lam_camera *"), None, None
         if isinstance(eye, ffi.CData):
             self.struct[0] = eye
         else:
-            self._parse({"eye": eye, **parts})
+            self._parse({**({} if eye is None and "pose" in parts else {"eye": (0, 0, 4) if eye is None else eye}),
+                         **{key: np.ravel(value) if key in ("K", "pose") else value for key, value in parts.items()}})
+
+    @property
+    def K(self) -> "Array | None":
+        """The 3×3 matrix of fx, fy, cx and cy, as OpenCV defines them. None for parallel projection, and for a camera with `fovy` that has drawn no
+        picture yet."""
+        numbers, size = ffi.new("double[4]"), self.size or (1, 1)
+        if not (self.size or self.struct.fx > 0) or not lib.lam_camera_intrinsics(self.struct, *size, lib.LAM_CONVENTION_OPENCV, numbers):
+            return None
+        return np.array([[numbers[0], 0, numbers[2]], [0, numbers[1], numbers[3]], [0, 0, 1]])
+
+    @property
+    def pose(self) -> "Array":
+        """The 4×4 matrix from the camera to the world, with the axes of OpenCV: x to the right, y down, z forward."""
+        found = lib.lam_camera_pose(self.struct, lib.LAM_CONVENTION_OPENCV)
+        return np.array([list(row) for row in found.m])
 
     def _parse(self, values):
         self.struct[0] = self._text_in(ffi.NULL, values)[0]

@@ -353,6 +353,7 @@ def paint(scene, options, camera, params, size, task, fitted):
             call(lib.lam_scene_set_light, handle, index, old)
     picture.raw = bool(params.color == lib.LAM_COLOR_RAW or not light and params.output != lib.LAM_OUTPUT_BASE_COLOR)
     picture.camera, picture.warnings = Camera(camera[0]), scene.warnings
+    picture.camera.size = size
     picture.flags.writeable = False
     return picture
 

@@ -44,8 +44,8 @@ def of_class(cls):
         yield "    @property\n    def %s(self) -> %s: ...\n    @%s.setter\n    def %s(self, value: %s) -> None: ..." % (
             key, {"Color": "tuple[float, ...]", "Numbers": "tuple[float, ...]"}.get(kind, kind), key, key, kind)
     if attributes:
-        first = {"Material": "words: str = ''", "Light": "type: str = 'point'", "Camera": "eye: Numbers = ..."}[cls.__name__]
-        more = ["color: Color = ...", "intensity: float = ...", "target: Numbers = ...", "frame: str = ...", "name: str = ..."] * (cls.__name__ == "Light")
+        first = {"Material": "words: str = ''", "Light": "type: str = 'point'", "Camera": "eye: Numbers | None = None"}[cls.__name__]
+        more = ["K: Array = ...", "pose: Array = ...", "convention: Literal['opencv', 'opengl'] = ..."] * (cls.__name__ == "Camera") + ["color: Color = ...", "intensity: float = ...", "target: Numbers = ...", "frame: str = ...", "name: str = ..."] * (cls.__name__ == "Light")
         yield "    def __init__(self, %s, *, %s) -> None: ..." % (first, ", ".join(["%s: %s = ..." % row for row in attributes if row[0] != "eye"] + more))
     for name, item in vars(cls).items():
         if isinstance(item, property):

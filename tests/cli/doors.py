@@ -98,6 +98,7 @@ def number_values(about):
 
 COLORS = {"middle": [0.2, 0.4, 0.6], "zero": [0, 0, 0], "above": [2, 0.5, 0.25], "hex": "#ff8800", "short": "#f80", "name": "orange", "number": 0.5,
           "below": [-0.1, 0.2, 0.3], "alpha": "#ff880080", "wrong name": "nocolour", "wrong two": [1, 0.5], "four": [0.2, 0.3, 0.4, 0.5], "opaque": [1, 1, 1, 2]}
+MATRICES = {9: [20, 0, 7.5, 0, 20, 7.5, 0, 0, 1], 16: [1, 0, 0, 0.5, 0, -1, 0, 0.5, 0, 0, -1, 4, 0, 0, 0, 1]}  # K and pose
 VECTORS = {"middle": [0.5, 1, 2], "zero": [0, 0, 0], "wrong two": [1, 2], "wrong number": 5, "wrong text": "north"}
 
 
@@ -120,6 +121,8 @@ def values(about):
         return {"one": words[:1], "all": words, "none": [], "unknown": ["nonsense"], "wrong number": 5}
     if about["items"]["type"] == "string":
         return {"missing": ["missing.png"] * about["minItems"]}
+    if about["maxItems"] in MATRICES:
+        return {"middle": MATRICES[about["maxItems"]], "zero": [0] * about["maxItems"], "wrong two": [1, 2], "wrong text": "north"}
     low, high = about["items"].get("minimum"), about["items"].get("maximum")
     if (about["minItems"], about["maxItems"]) == (2, 2):
         return {"middle": [12, 10], "zero": [0, 10], "above": [high + 1, 10], "one": [10], "wrong text": "large"}
@@ -166,7 +169,9 @@ MORE = {
     "ambient": {"nothing": {}, "both": {"color": [1, 0, 0], "intensity": 2}, "colour and ambient": {"color": [1, 0, 0], "ambient": [0.1, 0.2, 0.3]}},
     "camera": {"nothing": {"eye": None}, "no eye": {"eye": None, "fovy": 30}, "same point": {"target": [2, 1.5, 3]}, "near far": {"near": 3.6, "far": 4}, "far near": {"near": 9, "far": 1},
                "near negative": {"near": -1, "far": 9}, "near negative in parallel": {"near": -1, "far": 9, "ortho_half_height": 2}, "fovy 180": {"fovy": 180},
-               "ortho": {"ortho": 2}, "unknown": {"fov": 30}, "angle": {"fovy": "40deg"}},
+               "ortho": {"ortho": 2}, "calibrated": {"fx": 20, "fy": 22, "cx": 3, "cy": 9.5}, "fx negative": {"fx": -20, "fy": 22, "cx": 3, "cy": 9.5},
+               "K and pose": {"eye": None, "K": MATRICES[9], "pose": MATRICES[16]}, "opengl": {"eye": None, "K": MATRICES[9], "pose": MATRICES[16], "convention": "opengl"},
+               "distortion": {"fx": 20, "fy": 22, "cx": 3, "cy": 9.5, "k1": 0.1}, "K with skew": {"K": [20, 1, *MATRICES[9][2:]]}, "unknown": {"fov": 30}, "angle": {"fovy": "40deg"}},
     "environment": {"rotation": {"rotation": 40}, "none": {"builtin": None}, "rotation alone": {"builtin": None, "rotation": 40}},
     "image": {"unknown": {"sice": [16, 16]}, "samples 3": {"samples": 3}, "both modes": {"color": "raw", "color_mode": "raw"}, "size 2.5": {"size": [2.5, 2]}},
     "setting": {"stage and shading": {"stage": "fragment", "shading": "gouraud"}, "stage and phong": {"stage": "vertex", "shading": "phong"}, "unknown": {"shadow": True},

@@ -349,7 +349,7 @@ class CommandLine(Case):
             ("--size", "10x"): "found '10x'", ("--size", "70000"): "65535", ("--size", "-5"): "found '-5'",
             ("--size", "10x10x10"): "found", ("--size", "99999999999999999999"): "found", ("--threads", "0"): "from 1",
             ("--threads", "1.5"): "whole", ("--threads", "2000"): "to 1024", ("--azimuth", "abc"): "found 'abc'",
-            ("--azimuth", "nan"): "found 'nan'", ("--azimuth", "1,5"): "found '1,5'", ("--elevation", "91"): "to 90",
+            ("--azimuth", "nan"): "found 'nan'", ("--zoom", "1,5"): "found '1,5'", ("--elevation", "91"): "to 90",
             ("--zoom", "0"): "from 0.001", ("--zoom", "inf"): "found", ("--background", "blurple"): "expected a colour", ("--color", "rde"): "did you mean 'red'?", ("--color", "ff8800"): "did you mean '#ff8800'?",
             ("-b", "none"): "did you mean 'transparent'?", ("--material", "plastic"): "did you mean 'white-plastic'?",
             ("--color", "transparent"): "without alpha",

@@ -118,6 +118,25 @@ class Arrays(unittest.TestCase):
         self.assertGreater(picture[16, 16, 0], 1)
         self.assertEqual(picture.encode("pfm")[:2], b"PF")
 
+    def test_calibrated_cameras(self):
+        """K and pose give the program's picture; a camera in another convention, and the matrices of a picture's camera, give the same picture."""
+        K, pose = [[90, 0, 40.5], [0, 80, 31], [0, 0, 1]], [[1, 0, 0, 0.2], [0, -1, 0, 0.1], [0, 0, -1, 4], [0, 0, 0, 1]]
+        picture = lambent.render("teapot", (96, 64), camera=lambent.Camera(K=K, pose=np.array(pose, np.float32)))
+        words = "K=90/0/40.5/0/80/31/0/0/1,pose=" + "/".join(str(n) for row in pose for n in row)
+        self.assertEqual(picture.hash, lambent.render("teapot", (96, 64), camera=words).hash)
+        same = lambent.Camera(fx=90, fy=80, cx=41, cy=31.5, pose=np.array(pose) * [[1, -1, -1, 1]], convention="opengl")
+        self.assertEqual(picture.hash, lambent.render("teapot", (96, 64), camera=same).hash)
+        np.testing.assert_allclose(picture.camera.K, K)
+        np.testing.assert_allclose(picture.camera.pose, pose, atol=1e-12)
+        fitted = lambent.render("teapot", (96, 64)).camera
+        self.assertAlmostEqual(fitted.K[1, 1], 32 / np.tan(np.radians(15)))
+        again = lambent.render("teapot", (96, 64), camera=lambent.Camera(K=fitted.K, pose=fitted.pose))
+        self.assertLess(np.abs(again.astype(int) - lambent.render("teapot", (96, 64))).max(), 2)
+        self.assertIsNone(lambent.Camera(fovy=40).K)
+        self.assertEqual(lambent.Camera(fx=90, fy=80, cx=7, cy=8, eye=(0, 0, 4)).cx, 7)
+        for wrong in ({"K": np.eye(4)}, {"K": K, "pose": -np.eye(4)}, {"K": [[90, 1, 2], [0, 80, 3], [0, 0, 1]]}, {"K": K, "fovy": 3}):
+            self.assertRaises(lambent.BadValue, lambent.Camera, **wrong)
+
     def test_camera_of_a_picture(self):
         first = lambent.render("teapot", 64, azimuth=70)
         self.assertEqual(first.hash, lambent.render("teapot", 64, camera=first.camera).hash)

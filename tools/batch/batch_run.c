@@ -267,8 +267,7 @@ static char *pictures_text(const struct batch *b)
         fprintf(out, "shard-by=list of %" PRIu64 " bytes\n", plan->list_bytes);
     for (int i = 0; i < plan->view_count; i++) {
         const struct job_view *v = &plan->views[i];
-        fprintf(out, "picture=%s %dx%d\n", lam_side_name((lam_side)(v->side >= 0 ? v->side : b->options->view.side)),
-                v->width, v->height);
+        fprintf(out, "picture=%s %dx%d\n", v->name, v->width, v->height);
     }
     if (fclose(out) == 0)
         return text;

@@ -73,19 +73,25 @@ struct writes {
     const struct batch *batch;
     const struct batch_plan *plan; // the plan of the batch, or of a job
     size_t first, count;           // the range of models to draw
-    size_t latest;                 // index of the most recently written picture
+    size_t latest;                 // index of the model of the most recently written picture
+    int latest_view;               // its view
     bool whole;                    // true for the whole batch, false for a process that draws one model
 };
 
-static bool is_picture_of(const struct writes *w, size_t model, const char *path)
+static bool is_picture_of(struct writes *w, size_t model, const char *path)
 {
+    const int count = w->plan->view_count, first = w->latest_view;
+    char *transforms = NULL;
     bool is = false;
-    for (int k = 0; !is && k < w->plan->view_count; k++) {
-        char *output = batch_plan_output(w->plan, model, k);
+    for (int k = 0; !is && k < count; k++) {
+        char *output = batch_plan_output(w->plan, model, (first + k) % count);
         is = output && (strcmp(output, path) == 0 ||
                         (animation_wanted(w->plan->options) && animation_is_frame(w->plan->options, output, path)));
+        w->latest_view = is ? (first + k) % count : first;
         free(output);
     }
+    is = is || (batch_plan_transforms(w->plan, model, &transforms) && transforms && strcmp(transforms, path) == 0);
+    free(transforms);
     return is;
 }
 
@@ -151,7 +157,7 @@ static void add_written(const struct writes *w, struct sandbox_paths *paths)
 
 bool batch_sandbox_start_writer(const struct batch *b, const struct batch_task *task, lam_error *error)
 {
-    struct writes writes = {b, task->plan, task->model, 1, task->model, false};
+    struct writes writes = {b, task->plan, task->model, 1, task->model, 0, false};
     bool writes_none = b->use ? !b->use->right : task->job && task->job->in_answer;
     if (writes_none || !sandbox_is_wanted(b->options))
         return true;
@@ -167,7 +173,7 @@ bool batch_sandbox_start_writer(const struct batch *b, const struct batch_task *
 
 bool batch_sandbox_enter(const struct batch *b, size_t first, size_t count, lam_error *error)
 {
-    struct writes writes = {b, b->plan, first, count, first, true};
+    struct writes writes = {b, b->plan, first, count, first, 0, true};
     struct sandbox_paths paths = {.may_write = right_of, .user = &writes, .writers = b->workers};
     const struct batch_model *models = b->plan->models;
     for (size_t i = first; i < first + count; i++) {

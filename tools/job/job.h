@@ -6,6 +6,7 @@
 #include "options.h"
 #include "progress.h"
 
+#include <lambent/camera.h>
 #include <lambent/scene.h>
 #include <lambent/scene_file.h>
 #include <lambent/shader.h>
@@ -38,7 +39,10 @@ struct model_sphere {
 
 // One of several pictures of a model that is loaded once.
 struct job_view {
-    int side;          // lam_side, or −1 if the options select the side
+    char name[LAM_VIEW_NAME_SIZE]; // {view}
+    bool given;                    // `view` is set; otherwise the options select the view
+    bool numbered;                 // one of many directions, whose cameras are written to transforms.json
+    lam_view view;
     int width, height; // pixels
 };
 
@@ -106,6 +110,10 @@ struct job {
 // the steps fill in the rest, so that the report of a failure includes the completed steps. The caller frees the scene,
 // the image and the paths of frames.
 bool job_run(struct job *job, struct progress *progress, lam_error *error);
+
+// Returns the pose of a camera, with the axes of OpenGL and a rotation of at most 30 binary digits. A camera with
+// this pose has exactly this pose again, so that a camera that is written to a file and read draws the same bytes.
+lam_mat4 job_camera_pose(const lam_camera *camera);
 
 // Draws and writes one of several pictures, after job_check_output, job_load and job_arrange. `output` is the file of
 // this picture.

@@ -1,6 +1,7 @@
 // job_camera.c: places the camera of a job, and the lights that depend on the camera.
 #include "job_steps.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,7 @@
 
 static lam_view view_of(const struct options *o)
 {
-    lam_view view = lam_view_of_side((lam_side)o->view.side);
+    lam_view view = o->view.chosen ? *o->view.chosen : lam_view_of_side((lam_side)o->view.side);
     if (o->view.has_azimuth)
         view.azimuth_rad = radians(o->view.azimuth_deg);
     if (o->view.has_elevation)
@@ -49,8 +50,7 @@ void job_choose_view(struct job *job, const struct job_view *view)
 {
     job->own.picture.width = view->width;
     job->own.picture.height = view->height;
-    if (view->side >= 0)
-        job->own.view.side = view->side;
+    job->own.view.chosen = view->given ? &view->view : NULL;
 }
 
 lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig)
@@ -122,6 +122,28 @@ static bool shared_camera(const struct job *job, lam_camera *camera)
     return true;
 }
 
+lam_mat4 job_camera_pose(const lam_camera *camera)
+{
+    lam_mat4 pose = lam_camera_pose(camera, LAM_CONVENTION_OPENGL);
+    for (int i = 0; i < 9; i++)
+        pose.m[i / 3][i % 3] = rint(pose.m[i / 3][i % 3] * 0x1p30) * 0x1p-30;
+    return pose;
+}
+
+// Makes a camera calibrated, so that its file describes it exactly.
+static void calibrate(lam_camera *camera, int width, int height)
+{
+    const lam_mat4 pose = job_camera_pose(camera);
+    double lens[4];
+    if (lam_camera_intrinsics(camera, width, height, LAM_CONVENTION_OPENGL, lens)) {
+        camera->fx = lens[0];
+        camera->fy = lens[1];
+        camera->cx = lens[2];
+        camera->cy = lens[3];
+    }
+    lam_camera_set_pose(camera, &pose, LAM_CONVENTION_OPENGL, NULL);
+}
+
 // Fits the camera before the model is rotated, so that one fit is valid for every angle. A camera given as text is not
 // fitted, and does not rotate with the model.
 static void fit_camera(struct job *job, const struct model_sphere *sphere, bool side_is_given)
@@ -148,7 +170,9 @@ bool job_place_camera(struct job *job, lam_error *error)
     // in reverse order, so that the first view is the current view afterwards
     for (int i = job->view_count - 1; i >= 0; i--) {
         job_choose_view(job, &job->views[i]);
-        fit_camera(job, sphere, job->views[i].side >= 0);
+        fit_camera(job, sphere, job->views[i].given);
+        if (job->views[i].numbered)
+            calibrate(&job->camera, job->views[i].width, job->views[i].height);
         job->cameras[i] = job->camera;
     }
     if (!job->view_count)

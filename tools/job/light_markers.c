@@ -65,14 +65,16 @@ static bool is_outside(const struct job *job, lam_vec3 centre, double radius)
     const lam_camera *camera = &job->camera;
     lam_mat4 view = lam_camera_view_matrix(camera);
     lam_vec3 e = matrix_apply(&view, centre, 1);
-    double depth = -e.z, aspect = (double)job->options->picture.width / job->options->picture.height;
+    double depth = -e.z;
     if (camera->far_plane > camera->near_plane &&
         (depth + radius < camera->near_plane || depth - radius > camera->far_plane))
         return true;
-    double x = fabs(e.x), y = fabs(e.y);
-    if (camera->ortho_half_height > 0)
-        return x > camera->ortho_half_height * aspect + radius || y > camera->ortho_half_height + radius;
-    double ky = tan(camera->fovy_rad / 2), kx = ky * aspect;
+    double x = fabs(e.x), y = fabs(e.y), lens[4], width = job->options->picture.width,
+           height = job->options->picture.height;
+    if (!lam_camera_intrinsics(camera, (int)width, (int)height, LAM_CONVENTION_OPENGL, lens))
+        return x > camera->ortho_half_height * width / height + radius || y > camera->ortho_half_height + radius;
+    // the slopes of the frustum's side that is on the sphere's side of the axis
+    double kx = (e.x > 0 ? width - lens[2] : lens[2]) / lens[0], ky = (e.y > 0 ? lens[3] : height - lens[3]) / lens[1];
     return depth <= 0 || x > kx * depth + radius * sqrt(1 + kx * kx) || y > ky * depth + radius * sqrt(1 + ky * ky);
 }
 

@@ -64,7 +64,9 @@ static void table_of_model(const struct job *job)
     const lam_camera *camera = &job->camera;
     say_plain("camera   eye %.7g %.7g %.7g, target %.7g %.7g %.7g, ", camera->eye.x, camera->eye.y, camera->eye.z,
               camera->target.x, camera->target.y, camera->target.z);
-    if (camera->ortho_half_height > 0)
+    if (camera->fx > 0)
+        say_plain("fx %.7g, fy %.7g, cx %.7g, cy %.7g\n", camera->fx, camera->fy, camera->cx - 0.5, camera->cy - 0.5);
+    else if (camera->ortho_half_height > 0)
         say_plain("orthographic, half height %.7g\n", camera->ortho_half_height);
     else
         say_plain("%.7g degrees high\n", degrees(camera->fovy_rad));
@@ -212,11 +214,16 @@ static void json_image(struct json *json, const struct job *job)
 static void json_camera(struct json *json, const lam_camera *c)
 {
     const bool flat = c->ortho_half_height > 0, fitted = c->near_plane == 0 && c->far_plane == 0;
-    json_put(json,
-             OBJECT("camera", VECTOR("eye", c->eye), VECTOR("target", c->target), VECTOR("up", c->up),
-                    NUMBER(flat ? "ortho_half_height" : "fovy_deg", flat ? c->ortho_half_height : degrees(c->fovy_rad)),
-                    NUMBER("near", fitted ? (double)NAN : c->near_plane),
-                    NUMBER("far", fitted ? (double)NAN : c->far_plane)));
+    json_open(json, "camera", '{');
+    json_put(json, VECTOR("eye", c->eye), VECTOR("target", c->target), VECTOR("up", c->up));
+    if (c->fx > 0)
+        json_put(json, NUMBER("fx", c->fx), NUMBER("fy", c->fy), NUMBER("cx", c->cx - 0.5), NUMBER("cy", c->cy - 0.5));
+    else
+        json_put(json,
+                 NUMBER(flat ? "ortho_half_height" : "fovy_deg", flat ? c->ortho_half_height : degrees(c->fovy_rad)));
+    json_put(json, NUMBER("near", fitted ? (double)NAN : c->near_plane),
+             NUMBER("far", fitted ? (double)NAN : c->far_plane));
+    json_close(json, '}');
 }
 
 static void json_device(struct json *json, const lam_device *device)

@@ -546,7 +546,13 @@ static void put_camera(struct scene_writer *w, json_t *root, const lam_camera *c
     put(w, out, "eye", vector(w, camera->eye));
     put(w, out, "target", vector(w, camera->target));
     put(w, out, "up", vector(w, camera->up));
-    if (camera->ortho_half_height > 0)
+    if (camera->fx > 0) {
+        put(w, out, "fx", number(camera->fx));
+        put(w, out, "fy", number(camera->fy));
+        put(w, out, "cx", number(camera->cx));
+        put(w, out, "cy", number(camera->cy));
+        put(w, out, "convention", json_string("opengl")); // cx and cy then need no rounding
+    } else if (camera->ortho_half_height > 0)
         put(w, out, "ortho_half_height", number(camera->ortho_half_height));
     else
         put(w, out, "fovy", degrees(camera->fovy_rad));

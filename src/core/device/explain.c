@@ -3,8 +3,8 @@
 #include "recorder.h"
 #include "scene_internal.h"
 
+#include "camera_lens.h"
 #include "fail.h"
-#include "linear.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -160,13 +160,10 @@ static void complete_matrices(struct recorder *recorder, lam_explained_fragment 
     lam_explained_matrices *matrices = recorder_alloc(recorder, 1, sizeof *matrices);
     if (!matrices)
         return;
-    const double aspect = (double)recorder->out->width / recorder->out->height, near_plane = (double)frame->near_plane,
-                 far_plane = (double)frame->far_plane;
     const lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
     matrices->model_view = object ? mat4_mul(&view, &object->transform) : view;
-    matrices->projection = frame->orthographic
-                               ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
-                               : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
+    matrices->projection = camera_projection(camera, recorder->out->width, recorder->out->height,
+                                             (double)frame->near_plane, (double)frame->far_plane);
     const double determinant = mat4_determinant3(&matrices->model_view);
     mat4_normal_matrix(&matrices->model_view, matrices->normal);
     for (int i = 0; i < 9; i++)

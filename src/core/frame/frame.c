@@ -1,6 +1,7 @@
 // frame.c: builds a frame from a scene, a camera and the draw parameters.
 #include "frame.h"
 
+#include "camera_lens.h"
 #include "edges.h"
 #include "environment.h"
 #include "fail.h"
@@ -436,7 +437,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
 
     lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
     frame_ground_place(frame, scene, camera, &view);
-    double near_plane = camera->near_plane, far_plane = camera->far_plane, aspect = (double)width / height;
+    double near_plane = camera->near_plane, far_plane = camera->far_plane;
+    const struct camera_lens lens = camera_lens_of(camera, width, height);
     struct stroke_view stroke_view = {.view = &view, .orthographic = frame->orthographic};
     frame_strokes_size(&stroke_view, scene, frame);
     frame->point_triangles = (int)stroke_view.point_corners - 2;
@@ -444,12 +446,10 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         fit_planes(scene, &view, frame->orthographic, &near_plane, &far_plane);
         if (frame->ground.kind)
             frame_ground_planes(&frame->ground, &view, frame->orthographic, &near_plane, &far_plane);
-        frame_strokes_near(scene, camera, &stroke_view, height, &near_plane);
+        frame_strokes_near(scene, &stroke_view, lens.pixel[1], &near_plane);
     }
     set_planes(frame, scene, &view, near_plane, far_plane);
-    lam_mat4 projection = frame->orthographic
-                              ? mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane)
-                              : mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
+    const lam_mat4 projection = camera_projection(camera, width, height, near_plane, far_plane);
     if (!build_environment(frame, scene, &view, error))
         return false;
     lam_mat4 pixel = to_pixels(&projection, width, height);
@@ -484,8 +484,10 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
         return false;
     frame->settings.shadows = wants_shadows(settings) && (lam_output_is_light(frame->settings.output) ||
                                                           frame->settings.output == LAM_OUTPUT_CLIPPED);
-    frame->pixel_size =
-        rounded(2 * (frame->orthographic ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad)) / height);
+    frame->pixel_size = rounded(lens.pixel[1]);
+    frame->pixel_aspect = rounded(lens.pixel[0] / lens.pixel[1]);
+    for (int i = 0; i < 2; i++)
+        frame->middle[i] = rounded(lens.middle[i]);
     set_occlusion(frame, scene, physical);
     frame_edges_build(frame, &view, &pixel);
     leave_facets(frame);

@@ -135,7 +135,10 @@ struct frame {
     struct frame_edges edges;
     bool distant_viewer; // v = +z at every point: the camera is orthographic, or the viewer is LAM_VIEWER_INFINITE
     bool orthographic;
-    float pixel_size;       // size of a pixel in eye units, at distance 1 (in an orthographic view, everywhere)
+    // The height of a pixel in eye units, at distance 1 (in an orthographic view, everywhere), and its width divided by
+    // its height.
+    float pixel_size, pixel_aspect;
+    float middle[2];        // where the camera's axis meets the picture, in pixels from the upper left corner
     float occlusion_radius; // radius of ambient occlusion in eye units; 0 disables it
     float cavity_radius;    // radius of cavity shading in eye units; 0 disables it
     bool narrow_valleys;    // cavity shading uses a smaller radius

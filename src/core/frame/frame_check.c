@@ -23,7 +23,15 @@ bool frame_camera_check(const lam_camera *camera, lam_error *error)
     double half = camera->ortho_half_height;
     if (!(half >= 0) || !math_finite(half))
         return fail(error, LAM_BAD_ARGUMENT, "camera: ortho_half_height is %g, expected a positive number or 0", half);
-    if (half == 0 && !(camera->fovy_rad > 0 && camera->fovy_rad < PI))
+    if (!(camera->fx >= 0) || !math_finite(camera->fx))
+        return fail(error, LAM_BAD_ARGUMENT, "camera: fx is %g, expected a positive number or 0", camera->fx);
+    if (camera->fx > 0 && half > 0)
+        return fail(error, LAM_BAD_ARGUMENT, "camera: both fx and ortho_half_height are set, expected only one");
+    if (camera->fx > 0 && !(camera->fy > 0 && math_finite(camera->fy)))
+        return fail(error, LAM_BAD_ARGUMENT, "camera: fy is %g, expected a positive number", camera->fy);
+    if (camera->fx > 0 && !(math_finite(camera->cx) && math_finite(camera->cy)))
+        return fail(error, LAM_BAD_ARGUMENT, "camera: cx or cy is not finite");
+    if (half == 0 && camera->fx == 0 && !(camera->fovy_rad > 0 && camera->fovy_rad < PI))
         return fail(error, LAM_BAD_ARGUMENT, "camera: fovy is %g°, expected more than 0° and less than 180°",
                     math_degrees(camera->fovy_rad));
     double n = camera->near_plane, f = camera->far_plane;

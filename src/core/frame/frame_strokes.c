@@ -108,10 +108,9 @@ static double nearer_by(const struct stroke_view *view, double width, double pix
     return view->orthographic || width * pixel < 0.25 ? width * pixel : 0.25;
 }
 
-void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera, const struct stroke_view *view,
-                        int height, double *near_plane)
+void frame_strokes_near(const struct lam_scene *scene, const struct stroke_view *view, double pixel, double *near_plane)
 {
-    double half = view->orthographic ? camera->ortho_half_height : math_tan(camera->fovy_rad / 2), width = 0;
+    double width = 0;
     for (int i = 0; i < scene->objects.count; i++) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
         double own = !scene_shows(scene, i) ? 0
@@ -120,7 +119,7 @@ void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera,
                                             : 0;
         width = own > width ? own : width;
     }
-    double nearer = nearer_by(view, width, 2 * half / height);
+    double nearer = nearer_by(view, width, pixel);
     *near_plane = view->orthographic ? *near_plane - nearer : *near_plane * (1 - nearer);
 }
 

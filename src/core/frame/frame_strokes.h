@@ -28,9 +28,9 @@ void frame_strokes_size(struct stroke_view *view, const struct lam_scene *scene,
 size_t stroke_triangles(const lam_mesh *mesh, size_t point_corners);
 
 // Moves a near plane that was fitted to the scene towards the eye, so that the plane does not clip lines and points,
-// which can extend nearer to the eye than their vertices.
-void frame_strokes_near(const struct lam_scene *scene, const lam_camera *camera, const struct stroke_view *view,
-                        int height, double *near_plane);
+// which can extend nearer to the eye than their vertices. `pixel` is a pixel's height in eye space at w = 1.
+void frame_strokes_near(const struct lam_scene *scene, const struct stroke_view *view, double pixel,
+                        double *near_plane);
 
 // Reserves memory for the polygons of all lines and points of a scene.
 bool frame_strokes_reserve(struct frame *frame, const struct lam_scene *scene, const struct stroke_view *view,

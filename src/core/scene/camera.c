@@ -1,8 +1,9 @@
 // camera.c: the camera's defaults, its matrix, and the named sides of a scene.
 #include <lambent/camera.h>
 
+#include "camera_lens.h"
+#include "fail.h"
 #include "float_state.h"
-#include "linear.h"
 
 #include <string.h>
 
@@ -25,12 +26,121 @@ bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec
     if (!flat && !(p.z < 0))
         return false;
     uint64_t state = float_state_enter();
-    double half = flat ? camera->ortho_half_height : -p.z * math_tan(camera->fovy_rad / 2);
-    double pixels = height / (2 * half); // pixels per model unit
-    *x = width / 2.0 + p.x * pixels;
-    *y = height / 2.0 - p.y * pixels;
+    const struct camera_lens lens = camera_lens_of(camera, width, height);
+    const double along = flat ? 1 : -p.z;
+    *x = lens.middle[0] + p.x / (along * lens.pixel[0]);
+    *y = lens.middle[1] - p.y / (along * lens.pixel[1]);
     float_state_leave(state);
     return true;
+}
+
+struct camera_lens camera_lens_of(const lam_camera *camera, int width, int height)
+{
+    if (camera_is_calibrated(camera))
+        return (struct camera_lens){{1 / camera->fx, 1 / camera->fy}, {camera->cx, camera->cy}};
+    const double half = camera->ortho_half_height > 0 ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad),
+                 size = 2 * half / height;
+    return (struct camera_lens){{size, size}, {0.5 * width, 0.5 * height}};
+}
+
+lam_mat4 camera_projection(const lam_camera *camera, int width, int height, double near_plane, double far_plane)
+{
+    const double aspect = (double)width / height;
+    if (camera->ortho_half_height > 0)
+        return mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane);
+    if (!camera_is_calibrated(camera))
+        return mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
+    lam_mat4 m = mat4_perspective(PI / 2, 1, near_plane, far_plane);
+    m.m[0][0] = 2 * camera->fx / width;
+    m.m[1][1] = 2 * camera->fy / height;
+    m.m[0][2] = 1 - 2 * camera->cx / width;
+    m.m[1][2] = 2 * camera->cy / height - 1;
+    return m;
+}
+
+// --- pose and intrinsics
+
+bool lam_camera_intrinsics(const lam_camera *camera, int width, int height, lam_camera_convention convention,
+                           double intrinsics[4])
+{
+    if (camera->ortho_half_height > 0)
+        return false;
+    uint64_t state = float_state_enter();
+    const struct camera_lens lens = camera_lens_of(camera, width, height);
+    const double corner = convention == LAM_CONVENTION_OPENCV ? 0.5 : 0; // from the first pixel's centre to its corner
+    const bool given = camera_is_calibrated(camera);
+    intrinsics[0] = given ? camera->fx : 1 / lens.pixel[0];
+    intrinsics[1] = given ? camera->fy : 1 / lens.pixel[1];
+    intrinsics[2] = lens.middle[0] - corner;
+    intrinsics[3] = lens.middle[1] - corner;
+    float_state_leave(state);
+    return true;
+}
+
+lam_mat4 lam_camera_pose(const lam_camera *camera, lam_camera_convention convention)
+{
+    uint64_t state = float_state_enter();
+    const lam_mat4 view = mat4_look_at(camera->eye, camera->target, camera->up);
+    const double eye[3] = {camera->eye.x, camera->eye.y, camera->eye.z},
+                 sign = convention == LAM_CONVENTION_OPENCV ? -1 : 1;
+    lam_mat4 pose = lam_mat4_identity();
+    for (int i = 0; i < 3; i++) {
+        pose.m[i][0] = view.m[0][i];
+        pose.m[i][1] = sign * view.m[1][i];
+        pose.m[i][2] = sign * view.m[2][i];
+        pose.m[i][3] = eye[i];
+    }
+    float_state_leave(state);
+    return pose;
+}
+
+static bool pose_check(const lam_mat4 *pose, lam_error *error)
+{
+    enum { ROTATION = 3 };
+    const double near = 1e-3; // six digits in a text file are enough
+    static const char *const names[] = {"first", "second", "third"};
+    for (int i = 0; i < 16; i++)
+        if (!math_finite(pose->m[i / 4][i % 4]))
+            return fail(error, LAM_BAD_ARGUMENT, "pose: number %d is not finite", i + 1);
+    for (int j = 0; j < 4; j++)
+        if (pose->m[3][j] != (j == 3))
+            return fail(error, LAM_BAD_ARGUMENT, "pose: the last row is %g, %g, %g, %g, expected 0, 0, 0, 1",
+                        pose->m[3][0], pose->m[3][1], pose->m[3][2], pose->m[3][3]);
+    for (int i = 0; i < ROTATION; i++)
+        for (int j = i; j < ROTATION; j++) {
+            double product = 0;
+            for (int k = 0; k < ROTATION; k++)
+                product += pose->m[k][i] * pose->m[k][j];
+            if (i == j && !(product > 1 - 2 * near && product < 1 + 2 * near))
+                return fail(error, LAM_BAD_ARGUMENT, "pose: the %s column has the length %.6g, expected 1", names[i],
+                            math_sqrt(product));
+            if (i != j && !(product > -near && product < near))
+                return fail(error, LAM_BAD_ARGUMENT,
+                            "pose: the %s and the %s column are not orthogonal (their product is %.6g)", names[i],
+                            names[j], product);
+        }
+    return mat4_determinant3(pose) > 0 ||
+           fail(error, LAM_BAD_ARGUMENT, "pose: the matrix mirrors, expected a rotation (the determinant is -1)");
+}
+
+bool lam_camera_set_pose(lam_camera *camera, const lam_mat4 *pose, lam_camera_convention convention, lam_error *error)
+{
+    if ((unsigned)convention > LAM_CONVENTION_OPENGL)
+        return fail(error, LAM_BAD_ARGUMENT, "lam_camera_set_pose: convention %d is not one of lam_camera_convention",
+                    (int)convention);
+    uint64_t state = float_state_enter();
+    const bool ok = pose_check(pose, error);
+    if (ok) {
+        const double sign = convention == LAM_CONVENTION_OPENCV ? -1 : 1;
+        const lam_vec3 eye = v3(pose->m[0][3], pose->m[1][3], pose->m[2][3]),
+                       back = v3(sign * pose->m[0][2], sign * pose->m[1][2], sign * pose->m[2][2]);
+        // as far away as the eye is from the origin, so that rounding does not change the direction
+        camera->eye = eye;
+        camera->target = v3_sub(eye, v3_scale(back, 1 + v3_length(eye)));
+        camera->up = v3(sign * pose->m[0][1], sign * pose->m[1][1], sign * pose->m[2][1]);
+    }
+    float_state_leave(state);
+    return ok;
 }
 
 // --- sides

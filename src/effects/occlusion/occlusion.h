@@ -25,10 +25,11 @@ struct screen_occlusion {
     int stride;                  // floats from row to row of a plane
     size_t plane;                // floats from plane to plane
     bool orthographic;
-    float pixel_size;    // size of a pixel in eye units, at distance 1 (in an orthographic view, everywhere)
-    float radius;        // radius of occlusion in eye units; 0 disables occlusion at this radius
-    float cavity_radius; // radius of cavity shading (lam_cavity)
-    bool deepens;        // whether cavity shading darkens valleys with the third power of their light
+    float pixel_size, pixel_aspect; // as in struct frame
+    float middle[2];                // the camera's axis, in pixels from the centre of the first pixel
+    float radius;                   // radius of occlusion in eye units; 0 disables occlusion at this radius
+    float cavity_radius;            // radius of cavity shading (lam_cavity)
+    bool deepens;                   // whether cavity shading darkens valleys with the third power of their light
     // The distance of the visible surface in front of the eye at each pixel, or SCREEN_EMPTY: one plane for each pixel
     // of a cell (screen_pixel). The caller fills `depth`; screen_occlusion_start writes SCREEN_EMPTY around the
     // picture.
@@ -68,8 +69,8 @@ static inline float screen_ground_depth(const struct frame *frame, int x, int y)
 {
     const struct frame_ground *ground = &frame->ground;
     const float *up = ground->eye_up;
-    float right = ((float)x + 0.5f - 0.5f * (float)frame->width) * frame->pixel_size;
-    float above = (0.5f * (float)frame->height - (float)y - 0.5f) * frame->pixel_size;
+    float right = ((float)x + 0.5f - frame->middle[0]) * (frame->pixel_size * frame->pixel_aspect);
+    float above = (frame->middle[1] - (float)y - 0.5f) * frame->pixel_size;
     float across = right * up[0] + above * up[1], depth;
     if (frame->orthographic) { // the point (right, above, -depth)
         depth = up[2] != 0 ? (across - ground->eye_height) / up[2] : SCREEN_EMPTY;

@@ -73,8 +73,8 @@ LANE_FN vec3 screen_point(const struct screen_occlusion *o, num column, num row,
 {
     num scale = o->orthographic ? num_of(o->pixel_size) : depth * o->pixel_size;
     float cell = (float)o->step;
-    return vec3_of((cell * column - 0.5f * (float)(o->width - 1)) * scale,
-                   (0.5f * (float)(o->height - 1) - cell * row) * scale, -depth);
+    return vec3_of((cell * column - o->middle[0]) * (scale * o->pixel_aspect), (o->middle[1] - cell * row) * scale,
+                   -depth);
 }
 
 // Returns the smaller of the changes of distance to the two neighbours, or 0 if neither neighbour contains a surface.
@@ -238,7 +238,8 @@ LANE_FN num unblocked_at(const struct screen_occlusion *o, const struct pattern_
 {
     int at = x & 3, longest = o->grid_width > o->grid_height ? o->grid_width : o->grid_height;
     num length = num_load(pattern->length + at) * radius;
-    num reach = min_of(length / c->cell, num_of((float)longest)), step_x = c->cosine * reach, step_y = c->sine * reach;
+    num reach = min_of(length / c->cell, num_of((float)longest)), step_x = c->cosine * reach * (1.0f / o->pixel_aspect),
+        step_y = c->sine * reach;
     num one_cell = 1.0f / max_of(max_of(absolute(step_x), absolute(step_y)), num_of(1.0e-6f)), share = num_of(0.0f);
     num column = num_of_int(lane_numbers() + x), row = num_of((float)y), cell = num_of((float)o->step);
     num last_column = num_of((float)(o->grid_width - 1)), last_row = num_of((float)(o->grid_height - 1));
@@ -250,10 +251,11 @@ LANE_FN num unblocked_at(const struct screen_occlusion *o, const struct pattern_
         for (float side = 1.0f; side >= -1.0f; side -= 2.0f) {
             inum to_x = int_of(min_of(positive(column + 0.5f + side * step_x * share), last_column));
             inum to_y = int_of(min_of(positive(row + 0.5f + side * step_y * share), last_row));
-            num across = (num_of_int(to_x) - column) * c->cell, down = (num_of_int(to_y) - row) * c->cell;
+            num across = (num_of_int(to_x) - column) * (c->cell * o->pixel_aspect),
+                down = (num_of_int(to_y) - row) * c->cell;
             num square = length * length - (across * across + down * down), half = square_root(positive(square));
-            struct column s = {(cell * num_of_int(to_x) - 0.5f * (float)(o->width - 1)) * o->pixel_size,
-                               (0.5f * (float)(o->height - 1) - cell * num_of_int(to_y)) * o->pixel_size,
+            struct column s = {(cell * num_of_int(to_x) - o->middle[0]) * (o->pixel_size * o->pixel_aspect),
+                               (o->middle[1] - cell * num_of_int(to_y)) * o->pixel_size,
                                depth - half,
                                depth + half,
                                SHEET * radius,

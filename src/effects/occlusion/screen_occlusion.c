@@ -76,6 +76,8 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
                                            .plane = plane,
                                            .orthographic = frame->orthographic,
                                            .pixel_size = frame->pixel_size,
+                                           .pixel_aspect = frame->pixel_aspect,
+                                           .middle = {frame->middle[0] - 0.5f, frame->middle[1] - 0.5f},
                                            .radius = frame->occlusion_radius,
                                            .cavity_radius = frame->cavity_radius,
                                            .deepens = frame->deep_valleys,

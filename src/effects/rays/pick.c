@@ -2,9 +2,9 @@
 #include "frame.h"
 #include "rays.h"
 
+#include "camera_lens.h"
 #include "fail.h"
 #include "float_state.h"
-#include "linear.h"
 
 #include <lambent/pick.h>
 
@@ -25,9 +25,9 @@ struct pick_hit {
 static struct pick_ray eye_ray(const lam_camera *camera, const lam_pick_pixel *pixel)
 {
     const bool flat = camera->ortho_half_height > 0;
-    const double half = flat ? camera->ortho_half_height : math_tan(camera->fovy_rad / 2),
-                 unit = 2 * half / pixel->height, // size of a pixel
-        x = (pixel->x + 0.5 - 0.5 * pixel->width) * unit, y = (0.5 * pixel->height - pixel->y - 0.5) * unit;
+    const struct camera_lens lens = camera_lens_of(camera, pixel->width, pixel->height);
+    const double x = (pixel->x + 0.5 - lens.middle[0]) * lens.pixel[0],
+                 y = (lens.middle[1] - pixel->y - 0.5) * lens.pixel[1];
     return flat ? (struct pick_ray){v3(x, y, 0), v3(0, 0, -1)} : (struct pick_ray){v3(0, 0, 0), v3(x, y, -1)};
 }
 

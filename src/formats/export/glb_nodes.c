@@ -170,6 +170,10 @@ static void add_light(struct glb *glb, const lam_light *l)
 
 static void add_camera(struct glb *glb, const lam_camera *c, const char *name)
 {
+    if (c->fx > 0) {
+        export_lose(glb->e, "cameras with fx, fy, cx and cy are left out: glTF has no principal point");
+        return;
+    }
     lam_vec3 forward = v3_unit(v3_sub(c->target, c->eye));
     lam_mat4 m = looking(c->eye, forward);
     lam_vec3 z = v3_scale(forward, -1), side = v3_cross(c->up, z);

@@ -212,7 +212,13 @@ uint64_t batch_key(const struct batch_key_parts *p)
             xxh64_add_text(&hash, option_table[i].name);
     xxh64_add_text(&hash, p->file_count ? NULL : p->model);
     xxh64_add_text(&hash, p->picture);
-    snprintf(numbers, sizeof numbers, "%d %dx%d", p->side >= 0 ? p->side : p->parsed->view.side, p->width, p->height);
+    const struct job_view *v = p->view;
+    const int side = v->given ? (int)lam_side_find(v->name) : p->parsed->view.side;
+    if (side < LAM_SIDE_COUNT)
+        snprintf(numbers, sizeof numbers, "%d %dx%d", side, v->width, v->height);
+    else
+        snprintf(numbers, sizeof numbers, "%.17g %.17g %dx%d", v->view.azimuth_rad, v->view.elevation_rad, v->width,
+                 v->height);
     xxh64_add_text(&hash, numbers);
     for (int i = 0; i < p->file_count; i++)
         xxh64_add_text(&hash, p->files[i]);

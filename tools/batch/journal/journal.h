@@ -99,7 +99,7 @@ struct batch_key_parts {
     const char *model;   // the name of a built-in shape; used if no file was read
     const char *format;  // the model's format: lam_scene_format
     const char *picture; // the extension of the picture's name
-    int side, width, height;
+    const struct job_view *view;
     const char *const *files; // hashes of the files, or "absent"
     int file_count;
 };

@@ -18,6 +18,7 @@
 #include "output.h"
 #include "report.h"
 #include "page.h"
+#include "transforms.h"
 #include "sandbox_start.h"
 #include "xxh64.h"
 
@@ -148,7 +149,7 @@ static json_t *start_record(const struct batch_drawing *drawing, int view, const
     json_t *record = json_object();
     journal_set_text(record, "model", drawing->model);
     journal_set_text(record, "output", drawing->contents ? NULL : drawing->outputs[view]);
-    journal_set_text(record, "view", lam_side_name((lam_side)(v->side >= 0 ? v->side : drawing->options->view.side)));
+    journal_set_text(record, "view", v->name);
     journal_set_text(record, "class", class);
     json_object_set_new(record, "exit", json_integer(exit));
     char shown[MESSAGE_SIZE];
@@ -219,15 +220,12 @@ static void add_key(json_t *record, const struct batch_drawing *drawing, int vie
     json_object_set_new(record, "files", list);
     if (files->changed || drawing->model_bytes || strcmp(drawing->model, "-") == 0)
         return; // a picture without a key is always drawn again
-    const struct job_view *v = &drawing->views[view];
     struct batch_key_parts parts = {.options = drawing->options_text,
                                     .parsed = drawing->options,
                                     .model = drawing->model,
                                     .format = format,
                                     .picture = job->format,
-                                    .side = v->side,
-                                    .width = v->width,
-                                    .height = v->height,
+                                    .view = &drawing->views[view],
                                     .files = files->texts,
                                     .file_count = files->count};
     xxh64_print(batch_key(&parts), text);
@@ -328,6 +326,8 @@ static void run_views(struct model_run *r, struct job *job, struct progress *pro
     job->output = r->drawing->outputs[0];
     bool read = (!page_wanted(job) || page_refuse_several(&error)) && job_load(job, progress, &error) &&
                 job_arrange(job, progress, &error);
+    if (read && r->drawing->transforms && !job->options->report.dry_run)
+        read = transforms_write(job, r->drawing->transforms, r->drawing->outputs, &error);
     for (int i = 0; i < job->view_count; i++) {
         job->output = r->drawing->outputs[i];
         job->picture_bytes = r->drawing->contents ? &r->drawing->contents[i] : NULL;

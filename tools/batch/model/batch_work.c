@@ -23,14 +23,18 @@ bool batch_work_start(struct batch_work *u, const struct batch *b, const struct 
                              .contents = in_answer ? calloc(count, sizeof *u->contents) : NULL,
                              .classes = calloc(count, sizeof *u->classes),
                              .records = calloc(count, sizeof *u->records),
+                             .open = {calloc(count, sizeof *u->open.views), calloc(count, sizeof *u->open.outputs),
+                                      calloc(count, sizeof *u->open.attempts), calloc(count, sizeof *u->open.which)},
                              .is_new = calloc(count, sizeof *u->is_new)};
-    bool ok = u->pictures && u->outputs && u->classes && u->records && u->is_new && (u->contents || !in_answer);
+    bool ok = u->pictures && u->outputs && u->classes && u->records && u->is_new && u->open.views && u->open.outputs &&
+              u->open.attempts && u->open.which && (u->contents || !in_answer);
     for (size_t i = 0; ok && i < count; i++) {
         if (!task->job)
             u->pictures[i] = batch_pictures_of(b, task->model)[i];
         u->outputs[i] = batch_plan_output(task->plan, task->model, (int)i);
         ok = u->outputs[i] != NULL;
     }
+    ok = ok && batch_plan_transforms(task->plan, task->model, &u->transforms);
     if (ok)
         return true;
     batch_work_free(u);
@@ -53,6 +57,11 @@ void batch_work_free(struct batch_work *u)
     free(u->classes);
     free(u->records);
     free(u->is_new);
+    free(u->transforms);
+    free(u->open.views);
+    free(u->open.outputs);
+    free(u->open.attempts);
+    free(u->open.which);
     free(u->out);
     free(u->err);
     *u = (struct batch_work){0};
@@ -112,16 +121,13 @@ static bool has_same_key(const json_t *record, const struct batch_work *u, int v
         }
     if (same) {
         const struct batch_plan *plan = u->task.plan;
-        const struct job_view *v = &plan->views[view];
         const char *dot = strrchr(u->outputs[view], '.'), *format = journal_value(record, "format").text;
         struct batch_key_parts parts = {.options = u->task.options_text,
                                         .parsed = plan->options,
                                         .model = model,
                                         .format = strcmp(format, "shape") == 0 ? "" : format,
                                         .picture = dot ? dot + 1 : "",
-                                        .side = v->side,
-                                        .width = v->width,
-                                        .height = v->height,
+                                        .view = &plan->views[view],
                                         .files = texts,
                                         .file_count = (int)count};
         same = batch_key(&parts) == recorded;
@@ -174,46 +180,43 @@ bool batch_work_look(struct batch_work *u, const struct batch *b)
 
 // --- drawing
 
-// Makes a drawing from the open pictures of a model. Stores the indices of these pictures in `which`.
-static struct batch_drawing drawing_of(const struct batch_work *u, const struct batch *b, const struct options *o,
-                                       struct job_view *views, char **outputs, int *attempts, int *which)
+// Makes a drawing from the open pictures of a model.
+static struct batch_drawing drawing_of(struct batch_work *u, const struct batch *b, const struct options *o)
 {
     int count = 0;
     const struct batch_task *task = &u->task;
     for (int i = 0; i < task->plan->view_count; i++) {
         if (u->pictures[i].outcome != PICTURE_OPEN)
             continue;
-        views[count] = task->plan->views[i];
-        outputs[count] = u->outputs[i];
-        attempts[count] = u->pictures[i].attempts + 1;
-        which[count++] = i;
+        u->open.views[count] = task->plan->views[i];
+        u->open.outputs[count] = u->outputs[i];
+        u->open.attempts[count] = u->pictures[i].attempts + 1;
+        u->open.which[count++] = i;
     }
     return (struct batch_drawing){.options = o,
                                   .options_text = task->options_text,
                                   .has_records = b->options_text || task->job || b->use,
                                   .model = task->plan->models[task->model].path,
                                   .model_bytes = task->job && task->job->bytes.data ? &task->job->bytes : NULL,
-                                  .views = views,
-                                  .outputs = outputs,
+                                  .views = u->open.views,
+                                  .outputs = u->open.outputs,
                                   .contents = u->contents, // if this is not NULL, all pictures of the model are open
                                   .makes_folders = task->job != NULL,
-                                  .attempts = attempts,
+                                  .attempts = u->open.attempts,
                                   .view_count = count,
                                   .use = b->use,
                                   .index = task->model,
+                                  // if some pictures were drawn before, the file is complete
+                                  .transforms = count == task->plan->view_count && !u->contents ? u->transforms : NULL,
                                   .one_of_many = task->plan->count > 1,
                                   .several = o->batch.view_count || o->batch.size_count};
 }
 
-enum { VIEWS = VIEWS_MAX * VIEWS_MAX };
-
 void batch_work_draw(struct batch_work *u, const struct batch *b, const struct options *o, lam_device *device,
                      const lam_cancel *cancel, bool capture)
 {
-    struct job_view views[VIEWS];
-    char *outputs[VIEWS];
-    int attempts[VIEWS], which[VIEWS];
-    struct batch_drawing drawing = drawing_of(u, b, o, views, outputs, attempts, which);
+    const int *which = u->open.which;
+    struct batch_drawing drawing = drawing_of(u, b, o);
     drawing.cancel = cancel;
     struct batch_artist artist = {.device = device,
                                   .environments = b->environments,
@@ -254,10 +257,8 @@ void batch_work_draw(struct batch_work *u, const struct batch *b, const struct o
 void batch_work_fail(struct batch_work *u, const struct batch *b, const char *class, int exit, bool by_machine,
                      const char *text)
 {
-    struct job_view views[VIEWS];
-    char *outputs[VIEWS];
-    int attempts[VIEWS], which[VIEWS];
-    struct batch_drawing drawing = drawing_of(u, b, u->task.plan->options, views, outputs, attempts, which);
+    const int *which = u->open.which;
+    struct batch_drawing drawing = drawing_of(u, b, u->task.plan->options);
     u->code = exit;
     for (int i = 0; i < drawing.view_count; i++) {
         struct batch_picture *picture = &u->pictures[which[i]];

@@ -125,6 +125,7 @@ struct batch_drawing {
     int view_count;
     bool one_of_many;                 // several models are drawn with the same options
     bool several;                     // the command line has several views or sizes
+    const char *transforms;           // the file to which the cameras are written, or NULL
     bool makes_folders;               // creates the pictures' folders even if the user gave the pictures' paths
     const lam_cancel *cancel;         // stops the drawing; if NULL, only Ctrl-C does
     const struct batch_receiver *use; // its functions receive the picture; NULL if the picture is written to a file
@@ -243,10 +244,16 @@ struct batch_work {
     int picture_count;              // task.plan->view_count
     struct batch_picture *pictures; // the states of the pictures after the work
     char **outputs;                 // paths
+    char *transforms;               // the path of the file of cameras, or NULL
     lam_bytes *contents;            // the encoded pictures for a job's answer; NULL if files are written
     const char **classes;           // for failed pictures, the name of the exit code (a static string)
     json_t **records;               // new records for the journal, or old records for the page (see is_new)
     bool *is_new;
+    struct { // the open pictures, in order, and their indices
+        struct job_view *views;
+        char **outputs;
+        int *attempts, *which;
+    } open;
     char *out, *err; // the messages; NULL if the messages were printed directly
     int code, warnings;
     bool interrupted;

@@ -8,6 +8,7 @@
 #include "animate_frame.h"
 #include "console.h"
 #include "output.h"
+#include "vectors.h"
 
 // Makes the pattern for the pictures' names: the user's pattern, or a pattern that distinguishes several pictures of a
 // model. If the pattern remains NULL, a picture is named after its model.
@@ -39,11 +40,13 @@ static bool make_pattern(struct batch_plan *plan, lam_error *error)
 
 static bool check_together(const struct options *o, lam_error *error)
 {
-    static const char *const sides[] = {"view", "camera", "azimuth", "elevation", NULL};
-    for (int i = 0; o->batch.view_count && sides[i]; i++)
-        if (option_given(o, sides[i]))
-            return complain(error, LAM_BAD_ARGUMENT, "several sides and the option '--%s' cannot be used together",
-                            sides[i]);
+    const bool angles = o->batch.by_azimuth; // these have the elevation of the other options
+    const char *const others[] = {angles ? "views" : "view",   "camera",   "azimuth",
+                                  angles ? NULL : "elevation", "azimuths", NULL};
+    for (int i = 0; o->batch.view_count && others[i]; i++)
+        if (option_given(o, others[i]))
+            return complain(error, LAM_BAD_ARGUMENT, "several %s and the option '--%s' cannot be used together",
+                            angles ? "azimuths" : "sides", others[i]);
     const char *wants = o->batch.resume ? "resume" : o->batch.skip_same ? "skip-same" : NULL;
     if (wants && o->batch.journal && strcmp(o->batch.journal, "none") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a journal, but '--journal none' disables it",
@@ -61,6 +64,29 @@ static bool check_together(const struct options *o, lam_error *error)
     return true;
 }
 
+// Sets the view with this index. The options have been checked.
+static void set_view(struct job_view *out, const struct options *o, int index)
+{
+    const char *at = o->batch.views;
+    double degrees = o->view.azimuth_deg;
+    out->given = o->batch.view_count > 0;
+    out->view = lam_view_of_side((lam_side)o->view.side);
+    if (!out->given) {
+        snprintf(out->name, sizeof out->name, "%s", lam_side_name((lam_side)o->view.side));
+        if (o->view.has_azimuth)
+            out->view.azimuth_rad = radians(degrees);
+    } else if (o->batch.by_azimuth) {
+        while (index--)
+            at = strchr(at, ',') + 1;
+        read_number(at, &degrees);
+        out->view.azimuth_rad = radians(degrees);
+        snprintf(out->name, sizeof out->name, "%.*s", (int)strcspn(at, ","), at);
+    } else {
+        lam_views_parse(at, index, &out->view, out->name, NULL);
+        out->numbered = strpbrk(at, "0123456789"); // so have the sides in a list with numbers
+    }
+}
+
 bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_error *error)
 {
     *plan = (struct batch_plan){.options = o};
@@ -68,13 +94,15 @@ bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_erro
         return false;
     plan->by_list = o->batch.shard_by == SHARD_BY_LIST;
     int views = o->batch.view_count ? o->batch.view_count : 1, sizes = o->batch.size_count ? o->batch.size_count : 1;
+    if (!(plan->views = calloc((size_t)views * (size_t)sizes, sizeof *plan->views)))
+        return complain(error, LAM_MACHINE, "out of memory");
     for (int v = 0; v < views; v++)
-        for (int s = 0; s < sizes; s++)
-            plan->views[plan->view_count++] = (struct job_view){
-                .side = o->batch.view_count ? o->batch.views[v] : -1,
-                .width = o->batch.size_count ? o->batch.sizes[s][0] : o->picture.width,
-                .height = o->batch.size_count ? o->batch.sizes[s][1] : o->picture.height,
-            };
+        for (int s = 0; s < sizes; s++) {
+            struct job_view *view = &plan->views[plan->view_count++];
+            set_view(view, o, v);
+            view->width = o->batch.size_count ? o->batch.sizes[s][0] : o->picture.width;
+            view->height = o->batch.size_count ? o->batch.sizes[s][1] : o->picture.height;
+        }
     return make_pattern(plan, error);
 }
 
@@ -112,11 +140,31 @@ char *batch_plan_output(const struct batch_plan *plan, size_t index, int view)
     const struct job_view *v = &plan->views[view];
     struct output_words words = {.model = model->path,
                                  .root = model->root,
-                                 .view = lam_side_name((lam_side)(v->side >= 0 ? v->side : plan->options->view.side)),
+                                 .view = v->name,
+                                 .azimuth_deg = in_degrees(v->view.azimuth_rad),
                                  .width = v->width,
                                  .height = v->height,
                                  .frame = OUTPUT_FRAME_OPEN};
     return output_path_of(plan->pattern ? plan->pattern : plan->options->picture.output, &words);
+}
+
+bool batch_plan_transforms(const struct batch_plan *plan, size_t index, char **path)
+{
+    *path = NULL;
+    if (!plan->view_count || !plan->views[0].numbered || (plan->pattern && output_is_stream(plan->pattern)))
+        return true;
+    const char *slash = plan->pattern ? strrchr(plan->pattern, '/') : NULL, *model = plan->models[index].path;
+    char *first = batch_plan_output(plan, index, 0), *folder = first ? output_folder_of(first) : NULL,
+         *above = slash ? strndup(plan->pattern, (size_t)(slash - plan->pattern)) : strdup("");
+    bool own = plan->count == 1 || (above && output_name_has(above, "stem"));
+    int length;
+    const char *stem = output_stem(model, &length);
+    bool ok = folder && above &&
+              asprintf(path, "%s/%.*s%stransforms.json", folder, own ? 0 : length, stem, own ? "" : "-") >= 0;
+    free(first);
+    free(folder);
+    free(above);
+    return ok;
 }
 
 char *batch_plan_folder(const struct batch_plan *plan)
@@ -195,25 +243,44 @@ static bool keep_shard(struct batch_plan *plan, lam_error *error)
     return ok || complain(error, LAM_MACHINE, "out of memory");
 }
 
+// Returns whether a file of cameras is missing or was written by Lambent.
+static bool may_replace(const char *path, lam_error *error)
+{
+    char start[64] = "";
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return true;
+    size_t size = fread(start, 1, sizeof start - 1, file);
+    fclose(file);
+    return (size && strstr(start, "\"lambent\"")) ||
+           complain(error, LAM_CANNOT_WRITE,
+                    "%s: already exists, and lambent did not write it; name another folder with -o", path);
+}
+
 bool batch_plan_check(struct batch_plan *plan, lam_error *error)
 {
     if (plan->by_list && plan->listed < plan->count)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--shard-by list' divides a single list; give only @FILE or --files-from FILE");
-    size_t count = plan->count * (size_t)plan->view_count, used = 0;
+    const size_t each = (size_t)plan->view_count + 1,
+                 count = plan->count * each; // the last file is the list of cameras
+    size_t used = 0;
     struct named_output *named = calloc(count + 1, sizeof *named);
-    bool ok = named != NULL;
+    bool ok = named || complain(error, LAM_MACHINE, "out of memory");
     for (size_t i = 0; ok && i < count; i++) {
-        size_t model = i / (size_t)plan->view_count;
-        char *output = batch_plan_output(plan, model, (int)(i % (size_t)plan->view_count));
-        named[used++] = (struct named_output){model, output};
-        ok = output != NULL;
+        const size_t model = i / each, view = i % each;
+        char *output = NULL;
+        const bool cameras = view + 1 == each, made = !cameras || batch_plan_transforms(plan, model, &output);
+        if (!cameras)
+            output = batch_plan_output(plan, model, (int)view);
+        if (output)
+            named[used++] = (struct named_output){model, output};
+        ok = made && (output || cameras) ? !cameras || !output || may_replace(output, error)
+                                         : complain(error, LAM_MACHINE, "out of memory");
     }
-    if (!ok)
-        complain(error, LAM_MACHINE, "out of memory");
-    else
-        qsort(named, count, sizeof *named, by_output);
-    ok = ok && find_doubles(plan, named, count, error);
+    if (ok)
+        qsort(named, used, sizeof *named, by_output);
+    ok = ok && find_doubles(plan, named, used, error);
     for (size_t i = 0; i < used; i++)
         free(named[i].output);
     free(named);
@@ -225,6 +292,7 @@ void batch_plan_free(struct batch_plan *plan)
     while (plan->count)
         batch_plan_drop_last(plan);
     free(plan->models);
+    free(plan->views);
     free(plan->pattern);
     *plan = (struct batch_plan){0};
 }

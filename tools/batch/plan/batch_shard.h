@@ -46,7 +46,7 @@ struct batch_plan {
     const struct options *options;
     struct batch_model *models;
     size_t count, capacity;
-    struct job_view views[VIEWS_MAX * VIEWS_MAX]; // pictures of each model
+    struct job_view *views; // pictures of each model, allocated with malloc
     int view_count;
     char *pattern;            // the pattern of the names; NULL means the model's name
     struct batch_shard shard; // --shard
@@ -78,6 +78,10 @@ char *batch_plan_output(const struct batch_plan *plan, size_t model, int view);
 // Returns the path of the folder that contains all pictures, allocated with malloc. The path ends in '/', or is "" for
 // the current folder. Returns NULL if memory runs out.
 char *batch_plan_folder(const struct batch_plan *plan);
+
+// Gets the path of a model's file of cameras, allocated with malloc, or NULL if its views are not numbered: transforms.json
+// beside the first picture, or STEM-transforms.json if several models share the folder. Returns false if memory runs out.
+bool batch_plan_transforms(const struct batch_plan *plan, size_t index, char **path);
 
 void batch_plan_free(struct batch_plan *plan);
 

@@ -101,7 +101,8 @@ static bool make_request(const struct job *job, const lam_explanation *e, bool s
         return complain(error, LAM_MACHINE, "out of memory");
     json_put(&json, OBJECT(NULL, FLAG("svg", svg), FLAG("beam", job->options->captions.figure == FIGURE_BEAM),
                            NUMBER("fovy_rad", job->camera.fovy_rad),
-                           NUMBER("ortho_half_height", job->camera.ortho_half_height)));
+                           NUMBER("ortho_half_height", job->camera.ortho_half_height), NUMBER("fx", job->camera.fx),
+                           NUMBER("fy", job->camera.fy), NUMBER("cx", job->camera.cx), NUMBER("cy", job->camera.cy)));
     putc('\n', file);
     explain_json(file, e, job);
     fwrite(job->image.pixels, 4, (size_t)job->image.width * (size_t)job->image.height, file);

@@ -17,8 +17,12 @@ struct spelling spelling_of(const char *word) { return (struct spelling){.word =
 void spelling_try(struct spelling *spelling, const char *candidate)
 {
     int distance = lam_word_distance(spelling->word, candidate);
-    bool shorter = spelling->nearest && strlen(candidate) < strlen(spelling->nearest);
-    if (distance < spelling->limit || (distance == spelling->limit && shorter)) {
+    // of equally similar words, one that begins with the typed word, or otherwise the shorter one
+    const size_t length = strlen(spelling->word);
+    const bool begins = strncmp(candidate, spelling->word, length) == 0,
+               began = spelling->nearest && strncmp(spelling->nearest, spelling->word, length) == 0,
+               better = spelling->nearest && (begins != began ? begins : strlen(candidate) < strlen(spelling->nearest));
+    if (distance < spelling->limit || (distance == spelling->limit && better)) {
         spelling->limit = distance;
         spelling->nearest = candidate;
     }

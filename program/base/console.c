@@ -146,9 +146,10 @@ void suggest_also(struct suggestion *suggestion, const char *word, const char *o
     for (size_t length; others && *others; others += length + (others[length] == ' ')) {
         char other[64];
         length = strcspn(others, " ");
-        snprintf(other, sizeof other, "%.*s", (int)length, others);
-        if (lam_word_distance(suggestion->typed, other) == 0 && suggestion->distance > 0) {
-            suggestion->distance = 0;
+        snprintf(other, sizeof other, "%.*s", (int)strcspn(others, "= "), others);
+        int distance = lam_word_distance(suggestion->typed, other);
+        if (distance < suggestion->distance) {
+            suggestion->distance = distance;
             suggestion->best = word;
         }
     }

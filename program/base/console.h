@@ -56,7 +56,8 @@ struct suggestion {
 
 struct suggestion suggest_start(const char *typed);
 void suggest_try(struct suggestion *suggestion, const char *word);
-// Suggests `word` if the typed word is in `others`, a list separated by spaces. `others` may be NULL.
+// Suggests `word` if the typed word is similar to one of `others`, a list separated by spaces; what follows an equals sign is ignored.
+// `others` may be NULL.
 void suggest_also(struct suggestion *suggestion, const char *word, const char *others);
 
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "console.h"
+#include "synonyms.h"
 
 enum { WIDTH = HELP_WIDTH, LETTER_COLUMN = 6 };
 
@@ -83,6 +84,8 @@ void help_option(const struct option *option, const struct command *command, boo
         return;
     if (option->details)
         help_text(option->details, LETTER_COLUMN, WIDTH);
+    if (option->also)
+        help_row("", LETTER_COLUMN, WIDTH, OTHER_NAMES), help_text(option->also, LETTER_COLUMN, WIDTH);
     print_words(option);
 }
 
@@ -168,6 +171,8 @@ void help_command_head(const struct command *command)
     printf("Usage: lambent %s%s%s\n\n", command->name, command->operands ? " " : "",
            command->operands ? command->operands : "");
     help_text(command->summary, 0, WIDTH);
+    if (command->also)
+        help_row("Other names:", 13, WIDTH, command->also);
     char words[64];
     bool any = false;
     snprintf(words, sizeof words, "lambent %s ", command->name);

@@ -44,12 +44,13 @@ static const struct own_default materials_defaults[] = {{"output", "no sheet", N
 
 const struct command command_table[] = {
     [COMMAND_render] = {"render", "MODEL...", "Draw a picture of each model. You can omit the word `render`.",
-                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS, .min_operands = 1,
+                        ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION | 1ull << GROUP_SETTINGS,
+                        .also = "draw image snapshot screenshot thumbnail thumb", .min_operands = 1,
                         .max_operands = -1},
     [COMMAND_batch] = {"batch", "[MODEL|FOLDER|@LIST|-]...",
                        "Draw many models, from folders, lists or standard input, and keep a journal.",
-                       ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .min_operands = 0, .max_operands = -1,
-                       .defaults = batch_defaults},
+                       ALL | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION, .also = "thumbnails thumbs",
+                       .min_operands = 0, .max_operands = -1, .defaults = batch_defaults},
     [COMMAND_journal] =
         {"journal", "JOURNAL|FOLDER...",
          "Read the journals of a batch and list the written, failed and missing pictures; -o FILE merges "
@@ -75,6 +76,8 @@ const struct command command_table[] = {
         {"info", "MODEL...",
          "Print the contents of models: size, triangles, materials, pictures, lights, cameras, animations, extensions.",
          ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | TAKES_JSON | TAKES_QUIET,
+         .also = "stats stat size measure inspect describe list volume bbox bounds dimensions area validate verify "
+                 "count list-animations animations",
          .min_operands = 1, .max_operands = -1},
     [COMMAND_check] =
         {"check", "SHADER.frag...",
@@ -92,7 +95,7 @@ const struct command command_table[] = {
                       "difference, or a page that shows the models before and after.",
                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_DIFF | TAKES_JSON | TAKES_QUIET | TAKES_MANY |
                           TAKES_TITLE,
-                      .min_operands = 2, .max_operands = 2,
+                      .also = "difference", .min_operands = 2, .max_operands = 2,
                       .one_more = "the command compares two pictures, two models or two folders of models",
                       .defaults = diff_defaults},
     [COMMAND_hash] =
@@ -105,7 +108,7 @@ const struct command command_table[] = {
                          "does not support.",
                          ABOUT | 1ull << GROUP_CONVERT | 1ull << GROUP_MODEL | 1ull << GROUP_LIMITS | TAKES_UP |
                              TAKES_THREADS | TAKES_JSON | TAKES_QUIET,
-                         .min_operands = 2, .max_operands = 2,
+                         .also = "export transform", .min_operands = 2, .max_operands = 2,
                          .one_more = "the command writes one model: lambent convert MODEL OUT.glb"},
     [COMMAND_plot] = {"plot", "attenuation|spot|highlight|lambert|fresnel|tone|depth|lobe [CURVE...]",
                       "Plot curves (PNG or SVG) and print their values.",
@@ -134,17 +137,20 @@ const struct command command_table[] = {
          "folder.",
          ABOUT | 1ull << GROUP_VIEWER | PICTURE_GROUPS | 1ull << GROUP_LIMITS | TAKES_THREADS | TAKES_QUIET |
              WRITES_NO_FILE,
-         .min_operands = 1, .max_operands = 1, .one_more = "the command shows one model, or the models of one folder"},
-    [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .min_operands = 0, .max_operands = 0,
+         .also = "watch open show gui viewer preview display", .min_operands = 1, .max_operands = 1,
+         .one_more = "the command shows one model, or the models of one folder"},
+    [COMMAND_shapes] = {"shapes", NULL, "List the built-in shapes.", ABOUT, .also = "list-shapes primitives",
+                        .min_operands = 0, .max_operands = 0,
                         .one_more = "the command lists all shapes; lambent teapot draws one shape"},
-    [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .min_operands = 0,
-                         .max_operands = 0, .one_more = "the command lists all formats"},
+    [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .also = "list-formats",
+                         .min_operands = 0, .max_operands = 0, .one_more = "the command lists all formats"},
     [COMMAND_looks] = {"looks", "[NAME]", "List the built-in looks (--look), or print the text of one look.", ABOUT,
-                       .min_operands = 0, .max_operands = 1},
+                       .also = "list-looks", .min_operands = 0, .max_operands = 1},
     [COMMAND_materials] =
         {"materials", NULL,
          "List the named materials with the values of their fields; -o FILE also draws a sheet of these materials.",
-         ABOUT | 1ull << GROUP_PICTURE | 1ull << GROUP_CAPTIONS | TAKES_JSON, .min_operands = 0, .max_operands = 0,
+         ABOUT | 1ull << GROUP_PICTURE | 1ull << GROUP_CAPTIONS | TAKES_JSON, .also = "list-materials presets",
+         .min_operands = 0, .max_operands = 0,
          .one_more = "the command lists all materials; lambent teapot --material gold shows one material",
          .defaults = materials_defaults},
     [COMMAND_config] = {"config", NULL, "Print the current settings, and the name of the settings file.",
@@ -152,10 +158,10 @@ const struct command command_table[] = {
                         .one_more = "the command only prints the settings; to change settings, edit the settings file"},
     [COMMAND_devices] = {"devices", NULL,
                          "List the devices that can draw on this machine, and explain why other devices cannot.",
-                         ABOUT | TAKES_JSON, .min_operands = 0, .max_operands = 0},
+                         ABOUT | TAKES_JSON, .also = "list-devices gpus", .min_operands = 0, .max_operands = 0},
     [COMMAND_help] = {"help", "[TOPIC]",
                       "Explain a subject, a command or an option. Without TOPIC, list the subjects and commands.",
-                      ABOUT, .min_operands = 0, .max_operands = -1, .verbatim = true},
+                      ABOUT, .also = "man usage", .min_operands = 0, .max_operands = -1, .verbatim = true},
     [COMMAND_complete] = {"complete", "-- WORD...", "Print completions for the last word (used by shells).", ABOUT,
                           .min_operands = 0, .max_operands = -1, .verbatim = true},
     [COMMAND_generate] = {"generate", "man|markdown|bash|zsh|fish|scene-schema|contract-schema|contract-NAME",

@@ -31,6 +31,7 @@ struct command {
     int min_operands, max_operands;     // −1 in max_operands means no limit
     const struct own_default *defaults; // NULL if the command has no defaults of its own
     const char *one_more;               // a hint for the error about too many operands; may be NULL
+    const char *also;                   // other names of the command, separated by spaces; may be NULL
     bool verbatim;                      // only -h and --help, as the first argument, are parsed as options
 };
 

@@ -246,7 +246,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"output", 'o', GROUP_PICTURE, "FILE", "MODEL.png", output_summary,
      "The extension selects the format; `lambent formats` lists the formats. `-` writes a PNG to standard output. If "
      "the name of a file, pipe or device has no known extension, Lambent writes a PNG too. Without `-o`, Lambent "
-     "writes `MODEL.png` to the current folder (`model.png` if the model comes from standard input). Without `-o`, "
+     "writes `MODEL.png` to the current folder. If the model comes from standard input, Lambent writes to standard "
+     "output if that is a file or a pipe, otherwise to `model.png`. Without `-o`, "
      "Lambent never overwrites a file that another program created. `-o pictures/` (with a slash at the end) writes to "
      "the folder `pictures`, and creates this folder if it is missing. Every command that writes files accepts a "
      "folder in this form. `--out` is an alias of `--output`.\nA file name may contain placeholders in braces: `-o "
@@ -260,22 +261,29 @@ struct option option_table[OPTIONS_MAX] = {
      "file in a browser to turn the model and change every option. The page works offline (`docs/web.md`). This format "
      "requires the page built by `make web`.",
      .kind = VALUE_FILE, .brief = "FILE.png, .jpg, .webp, .exr ...; or a FOLDER/", .of_file = true, .store = store_text,
-     .alias = "out", .others = "outfile file format export save write out-dir outdir directory folder f",
+     .alias = "out", .others = "file export directory folder f",
+     .also = "outfile out-file save write out-dir=*/ output-dir=*/ outdir=*/ output-folder=*/ format={stem}.* "
+             "overwrite=- force-overwrite=-",
      FIELD(picture.output), .single = TAKES_OUTPUT, .not_in = IN_LOOK | IN_JOB | IN_KEY | IN_PAGE},
     {"size", 's', GROUP_PICTURE, "W[xH]", "1024", "The picture's size in pixels: 800, 1920x1080, or a list of sizes.",
      "`render` and `batch` accept up to 16 sizes, such as `1024,256x128`. These commands read each model once and draw "
      "each picture separately, without scaling. If `--view` lists several sides, Lambent draws each side in each size. "
      "Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
      .several = "sizes", .brief = "pixels: 800, 1920x1080, or a list", .store = store_size,
-     .others = "resolution resolutions thumbnails width height dimensions pixels viewport window", .max = 65535,
+     .others = "resolutions thumbnails viewport window",
+     .also = "resolution res image-size img-size pixels thumbnail thumb window-size", .max = 65535,
      .single = TAKES_SIZE, .not_in = IN_LOOK | IN_KEY},
+    {"width", 0, GROUP_PICTURE, "PIXELS", NULL, "The picture's width.", NULL, .store = store_side, .now = "size",
+     FIELD(picture.width), .min = 1, .max = 65535, .not_in = IN_LOOK | IN_KEY | IN_JOB},
+    {"height", 0, GROUP_PICTURE, "PIXELS", NULL, "The picture's height.", NULL, .store = store_side, .now = "size",
+     FIELD(picture.height), .min = 1, .max = 65535, .not_in = IN_LOOK | IN_KEY | IN_JOB},
     {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
      "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, most visibly in small pictures. On a sheet, the default depends on the size of "
      "each picture. Lambent computes the lighting once per triangle and pixel, regardless of the number of samples.",
-     sample_words, .store = store_word,
-     .others = "antialias antialiasing anti-aliasing aa msaa supersampling ssaa quality spp", FIELD(draw.samples),
-     .also_in = IN_SHEET},
+     sample_words, .store = store_word, .others = "quality",
+     .also = "antialias antialiasing anti-aliasing aa msaa ssaa spp supersampling hq=16 high-quality=16",
+     FIELD(draw.samples), .also_in = IN_SHEET},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
      "A pixel on a slanted surface covers a long, narrow area of the texture. A single texture sample blurs the whole "
      "area. With N samples along this area, textures can appear up to N times as sharp.",
@@ -297,7 +305,8 @@ struct option option_table[OPTIONS_MAX] = {
      "name. The names are `black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
      "`orange` and the other colour names of HTML 4.",
      .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
-     .others = "bg background-color backdrop transparent", FIELD(picture.background), .also_in = IN_SHEET},
+     .also = "bg bgcolor bg-color background-color backdrop transparent=transparent", FIELD(picture.background),
+     .also_in = IN_SHEET},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(picture.color_mode), .also_in = IN_SHEET, .not_in = KEEPS_MODEL},
@@ -311,8 +320,8 @@ struct option option_table[OPTIONS_MAX] = {
      "A lower number gives a smaller file of lower quality. At 90 and above, JPEG files store a colour for every "
      "pixel; below 90, they store one colour for every four pixels. WebP is lossless at 100 and by default. The option "
      "has no effect on other formats. The bytes depend on the version of libjpeg-turbo or libwebp.",
-     .store = store_integer, .others = "jpeg-quality webp-quality jpg lossy", FIELD(picture.quality), .min = 1,
-     .max = 100, .not_in = IN_PAGE},
+     .store = store_integer, .others = "jpg lossy", .also = "jpeg-quality webp-quality", FIELD(picture.quality),
+     .min = 1, .max = 100, .not_in = IN_PAGE},
     {"term", 0, GROUP_PICTURE, "METHOD", "auto",
      "How to show the picture in the terminal: auto, kitty, iterm2, sixel, blocks or off.",
      "If the terminal supports pictures and you omit `-o`, Lambent shows the picture above the line that names the "
@@ -341,7 +350,7 @@ struct option option_table[OPTIONS_MAX] = {
      "`auto`. With `auto`, Lambent computes the exposure at which 95 % of the covered pixels have a luminance of at "
      "most 0.8. Lambent rounds this exposure to a third of a stop, and reports the result. `--exposure 0` keeps the "
      "light unchanged. With any exposure, Lambent does not adjust the light for dark and white models (`--brighten`).",
-     .store = store_exposure, .others = "brightness ev", FIELD(picture.exposure), .min = -100, .max = 100},
+     .store = store_exposure, .others = "brightness", .also = "ev", FIELD(picture.exposure), .min = -100, .max = 100},
     {"tone", 0, GROUP_PICTURE, "CURVE", "auto",
      "The tone curve: none, reinhard, aces, agx, khronos-neutral, contrast or soft.",
      "Lambent applies the tone curve after exposure and before encoding. `auto` selects `khronos-neutral` for pictures "
@@ -349,8 +358,8 @@ struct option option_table[OPTIONS_MAX] = {
      "studio. For other models that the studio lights, `auto` selects `soft`, unless a material is unlit or emits "
      "light. For all other pictures, and with `--color-mode raw`, `auto` selects `none`, which clips light at 1. "
      "Lambent applies no curve to floating-point pictures. For the formulas, see `docs/lighting/tone.md`.",
-     tone_words, .store = store_word, .others = "tonemap tone-map tonemapping tone-mapping tone-curve view-transform",
-     FIELD(draw.tone)},
+     tone_words, .store = store_word, .others = "tone-curve view-transform",
+     .also = "tonemap tone-map tonemapping tone-mapping", FIELD(draw.tone)},
     {"show", 0, GROUP_PICTURE, "QUANTITY", "the picture",
      "Show a term of the light, one light, or a surface quantity instead of the picture.",
      "The terms `ambient`, `diffuse`, `specular`, `emission` and `reflection` add up to the picture. `light:key` shows "
@@ -360,8 +369,10 @@ struct option option_table[OPTIONS_MAX] = {
      "layers of one `.exr` file. `.pfm` and `.exr` files store surface quantities unchanged. `docs/show.md` explains "
      "how 8-bit pictures encode these quantities.",
      .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
-     .others = "unlit pass aov channel layer debug term only", FIELD(picture.show), .also_in = IN_SHEET,
-     .not_in = IN_LOOK},
+     .others = "layer debug term only",
+     .also = "aov pass render-pass channel depth=depth mask=coverage silhouette=coverage normals=normals "
+             "normal-map=normals unlit=base-color albedo=base-color",
+     FIELD(picture.show), .also_in = IN_SHEET, .not_in = IN_LOOK},
 
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
      "The file stores every setting of the picture: the model's path relative to FILE, the camera, all lights "
@@ -379,7 +390,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"animation", 0, GROUP_MODEL, "NAME|N", "none",
      "The animation that poses a glTF model: its name or number (the first animation is 0).",
      "Lambent evaluates the animation of nodes, morph target weights and skins at the time given by `--time`.", NULL,
-     .store = store_text, .others = "anim clip action", FIELD(model.animation)},
+     .store = store_text, .others = "action", .also = "anim clip animate=0 play=0", FIELD(model.animation)},
     {"time", 0, GROUP_MODEL, "SECONDS", "0", "The time in the animation, in seconds.",
      "Without `--animation`, Lambent uses the file's first animation. Before the first keyframe, Lambent shows the "
      "first pose; after the last keyframe, it shows the last pose.",
@@ -415,43 +426,45 @@ struct option option_table[OPTIONS_MAX] = {
      "direction, to the model's name: `bunny-front.png`, `bunny-07.png`. For directions, Lambent also writes their "
      "cameras to `transforms.json` (`docs/cameras.md`).",
      view_words, .several = "views", .brief = "front, left, top, iso ...; a list; or a number", .store = store_word,
-     .others = "side sides cameras angle angles orientation front back left right top bottom isometric",
+     .others = "side sides cameras angle angles orientation",
+     .also = "top=top bottom=bottom front=front back=back left=left right=right iso=iso isometric=iso",
      FIELD(view.side), .not_in = IN_KEY},
     {"azimuth", 0, GROUP_VIEW, "DEGREES", "30",
      "The camera's angle around the model: 0 is the front, 90 is the right side.",
      "`render` and `batch` also accept a list, such as `0,90,180`, and draw a picture for each angle.",
-     .store = store_number, .several = "azimuths", .others = "yaw heading orbit", FIELD(view.azimuth_deg),
+     .store = store_number, .several = "azimuths", .others = "heading orbit", .also = "yaw", FIELD(view.azimuth_deg),
      .has_field = offsetof(struct options, view.has_azimuth), .min = -3600, .max = 3600},
     {"elevation", 0, GROUP_VIEW, "DEGREES", "20",
      "The camera's angle above the horizon: 0 is level, 90 is straight above.", NULL, .store = store_number,
-     .others = "pitch altitude tilt", FIELD(view.elevation_deg),
+     .others = "altitude tilt", .also = "pitch", FIELD(view.elevation_deg),
      .has_field = offsetof(struct options, view.has_elevation), .min = -90, .max = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "Magnification: 2 shows the model twice as large.", NULL,
-     .store = store_number, .others = "scale magnify magnification distance", FIELD(view.zoom), .min = 0.001,
-     .max = 1000},
+     .store = store_number, .others = "magnification distance", .also = "magnify scale zoom-to-fit=1 fit=1",
+     FIELD(view.zoom), .min = 0.001, .max = 1000},
     {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The camera's vertical field of view, above 0 and below 180.",
      "With a wide angle, Lambent moves the camera closer, so the model still fills the picture. The perspective is "
      "then stronger. `--fov 60` and `--camera fovy=60` are equivalent.",
-     .store = store_number, .others = "field-of-view view-angle perspective-angle focal-length", .alias = "fovy",
-     FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
+     .store = store_number, .others = "view-angle perspective-angle focal-length", .also = "field-of-view",
+     .alias = "fovy", FIELD(view.fov_deg), .min = FOV_MIN, .max = FOV_MAX},
     {"projection", 0, GROUP_VIEW, "KIND", "perspective", "The projection: perspective or orthographic.", NULL,
-     projection_words, .store = store_word, .others = "ortho orthographic perspective parallel",
+     projection_words, .store = store_word, .others = "parallel",
+     .also = "ortho=orthographic orthographic=orthographic orthogonal=orthographic perspective=perspective",
      FIELD(view.projection)},
     {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
      "The camera and the lights that are fixed to the camera follow the axis; the model's coordinates do not change. "
      "Lambent reads STL and 3MF files as Z up, as in CAD and 3D printing, and other formats as Y up. Lambent also "
      "reads OBJ and PLY files as Z up if they contain a terrain in the xy plane. Lambent also accepts capital letters "
      "and a plus sign (`+Z`).",
-     up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up,
-     .others = "up-axis upaxis z-up y-up zup yup axis", FIELD(view.up), .single = TAKES_UP, .not_in = KEEPS_MODEL},
+     up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up, .others = "axis",
+     .also = "up-axis upaxis z-up=z zup=z y-up=y yup=y", FIELD(view.up), .single = TAKES_UP, .not_in = KEEPS_MODEL},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
      "The axis is the scene's x, y or z axis. Lambent applies rotations in the given order. Lights do not move, except "
      "lights that are fixed to the model. The unit r refers to the size and position of the model before the rotation. "
      "Lambent also fits the camera before the rotation, and moves it back if the model would be cut off at some angle. "
      "The model therefore has the same size and position at every angle. All pictures of a sheet share "
      "this camera.",
-     .brief = "rotate the model: y:30", .store = store_rotation, .others = "r rotation turn spin",
-     FIELD(shading.rotations)},
+     .brief = "rotate the model: y:30", .store = store_rotation, .others = "r turn spin",
+     .also = "rot rotation rotate-x=x:* rotate-y=y:* rotate-z=z:*", FIELD(shading.rotations)},
     {"camera", 0, GROUP_VIEW, "KEYS|NAME|N", "fitted",
      "The camera: keys such as eye=x/y/z,target=x/y/z,fovy=30, or the name or number of a camera in the model file.",
      "A value without `=` selects a camera of a glTF file, by its name or number (the first camera is 0). Otherwise, "
@@ -469,9 +482,9 @@ struct option option_table[OPTIONS_MAX] = {
      "example, see `docs/cameras.md`. You cannot combine this option with `--view`, `--azimuth`, "
      "`--elevation`, `--zoom`, `--fov` or `--projection`. For any picture, `--json` reports the camera under the same "
      "keys.",
-     .kind = VALUE_CAMERA, .store = store_camera,
-     .others = "eye position lookat look-at near far intrinsics pose extrinsics", FIELD(view.camera), .min = FOV_MIN,
-     .max = FOV_MAX},
+     .kind = VALUE_CAMERA, .store = store_camera, .others = "position near far intrinsics pose extrinsics",
+     .also = "eye=eye=* camera-position=eye=* look-at=target=* lookat=target=* target=target=*", FIELD(view.camera),
+     .min = FOV_MIN, .max = FOV_MAX},
 
     {"light", 0, GROUP_LIGHTS, "TYPE[:KEYS]", "the rig's",
      "A light, such as point:position=2r/1r/3r, or none; repeatable.",
@@ -497,20 +510,20 @@ struct option option_table[OPTIONS_MAX] = {
      "`exponent`, or by the half angles `inner` and `outer`. `name` appears in reports.\n`lambent help lights` lists "
      "all keys.",
      .kind = VALUE_LIGHT, .brief = "point, spot, directional ... replace the studio", .store = store_light,
-     .others = "l lamp sun spot point directional lighting", FIELD(lighting.lights)},
+     .others = "l lamp spot point directional lighting", .also = "sun=directional", FIELD(lighting.lights)},
     {"look", 0, GROUP_LIGHTS, "NAME|FILE", "studio",
      "A named set of options: studio, classic, catalog, technical, or your own file.",
      "A look is a file with one option per line. Options on the command line override options of the look. A rig or "
      "lights on the command line replace the look's lights. `lambent looks` lists the built-in looks. `lambent looks "
      "catalog` prints a look's file, which you can copy and edit.",
-     look_words, .kind = VALUE_FILE, .store = store_text, .others = "preset style theme", FIELD(lighting.look),
+     look_words, .kind = VALUE_FILE, .store = store_text, .also = "preset style theme", FIELD(lighting.look),
      .not_in = IN_LOOK | IN_KEY | IN_PAGE | KEEPS_MODEL},
     {"rig", 0, GROUP_LIGHTS, "NAME", "auto",
      "A predefined set of lights: studio, headlight, three-point, lecture, default, file, none or auto.",
      "Every rig except `auto` and `file` replaces the model's own lights. `docs/lighting/lights.md` lists the lights "
      "of each rig.",
-     rig_words, .store = store_word, .others = "lights light-setup studio headlight", FIELD(lighting.rig),
-     .has_field = offsetof(struct options, lighting.has_rig)},
+     rig_words, .store = store_word, .others = "lights light-setup studio", .also = "headlight=headlight",
+     FIELD(lighting.rig), .has_field = offsetof(struct options, lighting.has_rig)},
     {"ambient", 0, GROUP_LIGHTS, "COLOR", "0", "Ambient light: #rrggbb, r/g/b, a name or one number.", NULL,
      .kind = VALUE_COLOR, .store = store_opaque_color, .others = "ambient-light", FIELD(lighting.ambient)},
     {"show-lights", 0, GROUP_LIGHTS, NULL, NULL,
@@ -529,7 +542,7 @@ struct option option_table[OPTIONS_MAX] = {
      "environment light. Occlusion also dims lights whose key `occluded` is above 0, such as the studio's lights. "
      "Ambient "
      "occlusion requires Phong shading. For the formulas, see `docs/lighting/occlusion.md`.",
-     .others = "ambient-occlusion occlusion ssao gtao hbao no-ao"},
+     .others = "occlusion gtao hbao", .also = "ambient-occlusion=auto ssao=screen no-ao=off"},
     {"cavity", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "Cavity shading makes letters, holes, seams and wrinkles visible. Cavity shading measures valleys at a small "
      "radius, and affects the same light as `--ao`. To draw only this effect, use `--show ao --ao off --cavity "
@@ -553,7 +566,7 @@ struct option option_table[OPTIONS_MAX] = {
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1",
      "Multiply the brightness of all lights, except the light of "
      "`--ambient`.",
-     NULL, .store = store_number, .others = "intensity light-intensity light-power", FIELD(lighting.light_scale),
+     NULL, .store = store_number, .also = "light-intensity light-power intensity", FIELD(lighting.light_scale),
      .has_field = offsetof(struct options, lighting.has_light_scale), .min = 0, .max = 1e6},
     {"material", 0, GROUP_MATERIALS, "NAME|KEYS[@NAME]", "the model's",
      "A material: gold (see `lambent materials`), or shininess=50,specular=0.5; repeatable.",
@@ -568,15 +581,18 @@ struct option option_table[OPTIONS_MAX] = {
      "`ruby@handle`. Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then "
      "for materials of the model. If several options match a surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
-     .others = "m mat specular diffuse", FIELD(material.materials)},
+     .others = "m specular diffuse",
+     .also = "mat metallic=metallic=* metalness=metallic=* roughness=roughness=* gold=gold silver=silver chrome=chrome "
+             "glass=glass",
+     FIELD(material.materials)},
     {"color", 0, GROUP_MATERIALS, "COLOR", "the materials' own", "The colour of the model: red, #ff8800 or r/g/b.",
      "The colour replaces the ambient and diffuse colour of every material, including colours set by `--material`. "
      "Highlights keep their colour. `--color COLOR` is short for `--material color=COLOR`. A colour alone is also a "
      "valid material: `--material '#ff8800@handle'`. For old scripts, `--color raw` means `--color-mode raw`, and "
      "`--color srgb` means `--color-mode srgb`.",
      .kind = VALUE_COLOR, .brief = "the model's colour: red, '#ff8800'", .store = store_opaque_color,
-     .others = "c paint tint albedo model-color mesh-color surface-color", FIELD(material.model_color),
-     .former = "color-mode"},
+     .others = "c albedo surface-color", .also = "colour paint tint model-color mesh-color",
+     FIELD(material.model_color), .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, with the syntax of `--material`; properties that you do not list keep the front's "
      "values.",
@@ -585,7 +601,7 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then for surfaces "
      "whose material has that name. Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent "
      "view` and the web page list the names.",
-     .store = store_texts, .others = "invisible exclude omit remove without", FIELD(material.hidden)},
+     .store = store_texts, .others = "invisible omit remove without", .also = "exclude", FIELD(material.hidden)},
     {"only", 0, GROUP_MATERIALS, "NAME", NULL, "Show only the objects, parts or materials of this name; repeatable.",
      "The camera fits what is shown. The names are those that `--hide` accepts.", .store = store_texts,
      .others = "solo part parts isolate-part show-only", FIELD(material.only), .loads = true},
@@ -601,11 +617,12 @@ struct option option_table[OPTIONS_MAX] = {
     {"opacity", 0, GROUP_MATERIALS, "SHARE", NULL, "The alpha of all materials: 1 is opaque, 0 is clear.",
      "The value replaces the opacity of every material, including materials set by `--material`. The alpha of vertex "
      "colours still multiplies this opacity.",
-     .now = "material", .key = "opacity", .store = store_number, .others = "alpha transparency translucency",
+     .now = "material", .key = "opacity", .store = store_number, .others = "transparency translucency", .also = "alpha",
      FIELD(material.opacity), .has_field = offsetof(struct options, material.has_opacity), .min = 0, .max = 1},
 
-    {"shading", 0, GROUP_SHADING, "METHOD", .brief = "flat, gouraud or phong",
-     .others = "flat smooth gouraud phong interpolation", .has_field = offsetof(struct options, shading.has_shading)},
+    {"shading", 0, GROUP_SHADING, "METHOD", .brief = "flat, gouraud or phong", .others = "smooth interpolation",
+     .also = "flat=flat flat-shading=flat faceted=flat gouraud=gouraud phong=phong",
+     .has_field = offsetof(struct options, shading.has_shading)},
     {"reflection", 0, GROUP_SHADING, "MODEL", NULL, reflection_summary,
      .others = "brdf lobe pbr lighting-model reflection-model blinn-phong lambert"},
     {"stage", 0, GROUP_SHADING, "STAGE", "fragment", NULL,
@@ -626,15 +643,15 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
      "hemisphere light and the environment cast no shadows. A light with a `radius` casts soft shadows. "
      "`docs/lighting/shadows.md` describes the method and common shadow errors.",
-     .others = "shadow cast-shadows raytrace shadow-map"},
+     .others = "raytrace shadow-map", .also = "shadow cast-shadows"},
     {"ground", 0, GROUP_SHADING, "KIND", NULL, NULL,
      "`--ground` without a value means `--ground shadow`. With a ground plane, lights cast shadows on the plane and on "
      "the model. The kind `shadow` draws only the shadows. The background may be transparent. The other kinds are lit "
      "surfaces. The ground plane is perpendicular to the up axis (`--up`) and fades out with distance. The ground "
      "plane is invisible from below. A ground plane requires Phong shading. For pictures, see "
      "`docs/lighting/ground.md`.",
-     .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "floor plane shadow-catcher base grid",
-     FIELD(draw.ground)},
+     .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "plane base grid",
+     .also = "floor shadow-catcher=shadow no-shadows=off no-shadow=off", FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
     {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
      "The fraction of unblocked rays is the brightness of the light at that point. With more than 48 rays, "
@@ -647,7 +664,7 @@ struct option option_table[OPTIONS_MAX] = {
      "`--hidden-lines`) and edges that split polygons of OBJ and PLY files into triangles. `--surfaces off` draws only "
      "the lines. Lines are smooth with any value of `--samples`. Lines keep their colour and width in any light, with "
      "any exposure and tone curve, and at any distance. For pictures, see `docs/edges.md`.",
-     .keyed = true, .others = "wire mesh mesh-lines show-edges polygons topology", .loads = true},
+     .keyed = true, .others = "mesh polygons topology", .also = "wire wires mesh-lines show-edges", .loads = true},
     {"wireframe-width", 0, GROUP_SHADING, "PIXELS", .now = "wireframe", .key = "width", .others = "wire-width"},
     {"wireframe-color", 0, GROUP_SHADING, "COLOR", "black", NULL, "If the alpha is below 1, the surfaces show through.",
      .kind = VALUE_COLOR, .store = store_color, .now = "wireframe", .key = "color", .others = "wire-color",
@@ -658,7 +675,8 @@ struct option option_table[OPTIONS_MAX] = {
      "add the keys `angle` (default: 40 degrees), `width` (default: 1.5 pixels) and `color` (default: black): `--edges "
      "all,width=2,color=red`. If you give only keys, Lambent draws all edges. `--edges all --surfaces off` makes a "
      "technical drawing.",
-     .keyed = true, .others = "edge feature-edges outline outlines contour toon lineart line-art", .loads = true},
+     .keyed = true, .others = "edge contour toon lineart",
+     .also = "outline=all outlines=all feature-edges=all line-art=all", .loads = true},
     {"edge-angle", 0, GROUP_SHADING, "DEGREES", .now = "edges", .key = "angle", .others = "feature-angle sharp-angle"},
     {"edge-width", 0, GROUP_SHADING, "PIXELS", .now = "edges", .key = "width", .others = "outline-width"},
     {"edge-color", 0, GROUP_SHADING, "COLOR", "black", NULL, NULL, .kind = VALUE_COLOR, .store = store_color,
@@ -685,11 +703,12 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, .now = "back-faces", FIELD(shading.one_sided)},
     {"cull", 0, GROUP_SHADING, "SIDE", "the model's",
      "Omit the back or front faces of all objects: none, back or front.", NULL, cull_words, .store = store_word,
-     .others = "culling backface-culling", FIELD(shading.cull), .has_field = offsetof(struct options, shading.has_cull),
-     .also_in = KEEPS_MODEL},
+     .also = "culling backface-culling=back cull-backfaces=back", FIELD(shading.cull),
+     .has_field = offsetof(struct options, shading.has_cull), .also_in = KEEPS_MODEL},
     {"normals", 0, GROUP_SHADING, "SOURCE", "file",
      "The source of normals: the file, or computed smooth or facet normals.", NULL, normals_words, .store = store_word,
-     .others = "recompute-normals smooth-normals facet-normals", FIELD(shading.normals)},
+     .others = "recompute-normals facet-normals", .also = "smooth=smooth smooth-normals=smooth smooth-shading=smooth",
+     FIELD(shading.normals)},
     {"crease-angle", 0, GROUP_SHADING, "DEGREES", "40",
      "At edges sharper than this angle, the faces on the two sides do not share computed normals.", NULL,
      .store = store_number, .others = "smoothing-angle smooth-angle crease autosmooth", FIELD(shading.crease_angle_deg),
@@ -709,17 +728,17 @@ struct option option_table[OPTIONS_MAX] = {
      "built-in studio environment with the rig's lights. To use a file named `sky`, write `./sky`. Classic materials "
      "reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
      "`docs/lighting/reflection.md` describes how Lambent maps each kind of environment around the model.",
-     .kind = VALUE_ENVIRONMENT, .store = store_text,
-     .others = "e env envmap environment-map hdri hdr ibl sky skybox cubemap", FIELD(shading.environment)},
+     .kind = VALUE_ENVIRONMENT, .store = store_text, .others = "e sky",
+     .also = "hdri hdr env envmap environment-map ibl skybox cubemap", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Rotate the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
-     FIELD(shading.environment_rotation_deg), .min = -360000, .max = 360000},
+     FIELD(shading.environment_rotation_deg), .min = -360000, .max = 360000, .also = "hdri-rotation env-rotation"},
     {"reflectivity", 0, GROUP_SHADING, "SHARE", "the materials' own",
      "The share of the environment that every material reflects: 0.5 or r/g/b.", NULL, .now = "material",
      .key = "reflectivity", .store = store_reflectivity, .others = "mirror reflective", FIELD(material.reflectivity),
      .has_field = offsetof(struct options, material.has_reflectivity), .max = 1000, .also_in = KEEPS_MODEL},
 
-    {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames.",
+    {"turntable", 0, GROUP_ANIMATION, "N", NULL, "Animate a full turn of the model in N frames (36 without a number).",
      "The model rotates about its up axis in equal steps, counter-clockwise as seen from above. Frame k is identical "
      "to a picture drawn with `--rotate y:A`, where A is k/N of 360 degrees. All frames use the same camera distance "
      "and exposure. By default, or if the name ends in `.png` or `.webp`, Lambent writes all frames to one animated "
@@ -727,8 +746,8 @@ struct option option_table[OPTIONS_MAX] = {
      "to a separate file, in any format. `36,light=model` turns the lights with the model, instead of keeping the "
      "lights fixed to the camera. Lights that are fixed to an object always turn with the object. For examples, see "
      "`docs/animation.md`.",
-     .store = store_integer, .keyed = true, .others = "spin turnaround orbit rotate360 animate gif apng",
-     FIELD(animation.turntable), .min = 2, .max = 100000},
+     .store = store_integer, .keyed = true, .alone = "36", .others = "rotate360 animate gif apng",
+     .also = "spin turnaround orbit", FIELD(animation.turntable), .min = 2, .max = 100000},
     {"turntable-light", 0, GROUP_ANIMATION, "WITH", "camera",
      "Keep the lights of a turntable with the camera, or turn them with the model: camera or model.", NULL,
      turntable_light_words, .store = store_word, .now = "turntable", .key = "light",
@@ -754,11 +773,12 @@ struct option option_table[OPTIONS_MAX] = {
      "`--turntable N` overrides this number. For `--sweep time`, the default is the animation's length times `--fps`.",
      .store = store_integer, .others = "frame-count", FIELD(animation.frames), .min = 2, .max = 100000},
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
-     .store = store_number, .others = "frame-rate framerate speed delay", FIELD(animation.fps), .min = 0.1, .max = 240},
+     .store = store_number, .others = "speed delay", .also = "framerate frame-rate", FIELD(animation.fps), .min = 0.1,
+     .max = 240},
 
     {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads. It does not affect the picture.",
-     NULL, .store = store_integer, .others = "jobs cores cpus parallel", FIELD(work.threads), .min = 1, .max = 1024,
-     .single = TAKES_THREADS},
+     NULL, .store = store_integer, .others = "jobs parallel", .also = "cores cpus", FIELD(work.threads), .min = 1,
+     .max = 1024, .single = TAKES_THREADS},
     {"isa", 0, GROUP_WORK, "NAME", "auto", "The instruction set: scalar, sse4, avx2, avx512, neon or auto.",
      "All instruction sets draw identical pictures. Lambent rejects an instruction set that this machine or this build "
      "does not support (exit 3).",
@@ -766,8 +786,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"device", 0, GROUP_WORK, "NAME", "auto", "The rendering device: cpu, gl, gles or auto.",
      "OpenGL draws the same picture within a tolerance (`docs/opengl.md`). If OpenGL is unavailable, the error message "
      "states the reason (exit 3). Lambent does not switch to another device. `lambent devices` lists the devices.",
-     device_words, .store = store_word, .others = "d gpu cpu backend renderer engine opengl gl", FIELD(work.device),
-     .also_in = IN_KEY},
+     device_words, .store = store_word, .others = "d cpu engine gl", .also = "gpu=gl opengl=gl backend renderer",
+     FIELD(work.device), .also_in = IN_KEY},
     {"gl-device", 0, GROUP_WORK, "N|NAME", "the first usable",
      "The OpenGL device, given by its number or by a part of its name.",
      "`lambent devices` lists the devices with their numbers, hardware before software.", .store = store_text,
@@ -957,8 +977,8 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_switch, .others = "plan simulate no-write preview what-if check-only", FIELD(report.dry_run)},
     {"verbose", 'v', GROUP_REPORT, NULL, NULL,
      "Print the name of each file that Lambent reads, and the duration of each step, to standard error.", NULL,
-     .store = store_switch, FIELD(report.verbose)},
-    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print only errors.", NULL, .store = store_switch, .others = "silent",
+     .store = store_switch, FIELD(report.verbose), .also = "debug"},
+    {"quiet", 'q', GROUP_REPORT, NULL, NULL, "Print only errors.", NULL, .store = store_switch, .also = "silent",
      FIELD(report.quiet), .single = TAKES_QUIET},
 
     {"tolerance", 0, GROUP_DIFF, "STEPS", "0", "The largest allowed difference per channel, in steps of 1/255.",

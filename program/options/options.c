@@ -202,6 +202,8 @@ static bool is_one_of(const char *argument, const char *const *words)
     return *words;
 }
 
+bool option_names_model(const char *name) { return is_one_of(name, model_names); }
+
 static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_error *error)
 {
     char typed[64];
@@ -212,6 +214,7 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
             if (!o->now)
                 suggest_try(&nearest, o->name);
             suggest_also(&nearest, o->name, o->others);
+            suggest_also(&nearest, o->name, o->also);
         }
     if (nearest.distance > 0 && is_one_of(typed, model_names))
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; a model needs no option: lambent MODEL",
@@ -433,13 +436,17 @@ static bool follows(const struct option *option, const char *argument, const str
 {
     struct options copy = *options;
     lam_error unused;
-    return option->store(option, argument, &copy, &unused);
+    char own[64]; // without the keys for other options
+    snprintf(own, sizeof own, "%.*s", (int)strcspn(argument, ","), argument);
+    return option->store(option, option->keyed ? own : argument, &copy, &unused);
 }
 
 // Returns whether the argument after an option with an optional value is probably a mistyped value: a plain word that
-// names no file, shape or command.
+// names no file, shape or command, or a number.
 static bool is_mistyped(const char *argument)
 {
+    if (*argument && !argument[strspn(argument, "-.0123456789")])
+        return access(argument, F_OK) != 0;
     return isalpha((unsigned char)*argument) && !argument[strspn(argument, "abcdefghijklmnopqrstuvwxyz-")] &&
            access(argument, F_OK) != 0 && lam_shape_find(argument) < 0 && !find_command(argument);
 }

@@ -148,13 +148,16 @@ struct option {
     // Stores the value (NULL for a switch) at offset `field` of struct options. On failure, error->text describes the
     // mistake without the option's name.
     option_parser *store;
-    size_t field, has_field;    // offset of a bool that the option also sets; 0 means no bool
-    double min, max;            // the range of a number that is not a setting of the library
-    uint64_t single;            // TAKES_…, if a command may accept the option without its group
-    const char *brief;          // a few words for -h; NULL omits the option from -h
-    size_t letter_field;        // offset of a bool that the short form also sets; 0 means no bool
-    const char *alias;          // another long name for the same option, or NULL
-    const char *others;         // names in other programs, separated by spaces, for suggestions; may be NULL
+    size_t field, has_field; // offset of a bool that the option also sets; 0 means no bool
+    double min, max;         // the range of a number that is not a setting of the library
+    uint64_t single;         // TAKES_…, if a command may accept the option without its group
+    const char *brief;       // a few words for -h; NULL omits the option from -h
+    size_t letter_field;     // offset of a bool that the short form also sets; 0 means no bool
+    const char *alias;       // another long name for the same option, or NULL
+    const char *others;      // names in other programs, separated by spaces, for suggestions; may be NULL
+    // Other names that the command line accepts, separated by spaces (synonyms.h): "bg" renames the option, "top=top"
+    // means a value, and in "eye=eye=*" the value of the other name replaces *. May be NULL.
+    const char *also;
     const char *alone;          // the value of an option without a value; NULL means that a value is required
     bool of_file;               // the option concerns the output file (WRITES_NO_FILE)
     bool loads;                 // if the option changes, the model must be read again
@@ -190,6 +193,8 @@ void options_drop_settings(struct options *options);
 
 // Returns the option with a long name, or NULL if there is no such option.
 const struct option *option_find(const char *name);
+
+bool option_names_model(const char *name); // whether other programs give the model with an option of this name
 
 // Returns the index of the first operand: an argument that is neither an option nor an option's value. Returns −1 if
 // there is no operand, or if "--" or an unknown option precedes it.
@@ -228,8 +233,8 @@ option_parser store_light, store_material, store_rotation, store_section; // str
 option_parser store_texts, store_path, store_list, store_across; // struct texts; store_across: at most ACROSS_MAX
 option_parser store_reflectivity;                                // lam_rgb
 // Store several members of struct options.
-option_parser store_exposure, store_size, store_views, store_azimuths, store_sizes, store_segments, store_ground,
-    store_back_faces;
+option_parser store_exposure, store_size, store_side, store_views, store_azimuths, store_sizes, store_segments,
+    store_ground, store_back_faces;
 
 // Reads a plain decimal number such as "-1.5e3" at the start of `text`; hexadecimal numbers and "inf" are rejected.
 // Returns the rest of the text, or NULL if there is no number or it is too large.

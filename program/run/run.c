@@ -5,11 +5,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "console.h"
 #include "failure.h"
 #include "help.h"
 #include "sandbox.h"
+#include "synonyms.h"
 #include "writer.h"
 
 // Scans a command line for --json and -o -, which determine how an error in the command line is reported.
@@ -38,6 +41,33 @@ static const struct command *take_command(int *count, char **words)
         return command_table;
     memmove(words + first, words + first + 1, (size_t)(--*count - first) * sizeof *words);
     return command;
+}
+
+// Returns whether a stream is a file or a pipe, as after `cat a.stl |` and before `> p.png`.
+static bool is_redirected(int stream)
+{
+    struct stat found;
+    return fstat(stream, &found) == 0 && (S_ISREG(found.st_mode) || S_ISFIFO(found.st_mode));
+}
+
+// Takes what new users write without an option: `a.stl 800x600`, `a.stl p.png`, and a model or a picture in a pipe.
+// Returns the number of operands that remain.
+static int take_plain_operands(int count, char **operands, struct options *o)
+{
+    lam_error unused;
+    lam_pixel_format format;
+    const struct option *size = option_find("size");
+    if (count > 1 && strchr(operands[count - 1], 'x') && access(operands[count - 1], F_OK) != 0 &&
+        size->store(size, operands[count - 1], o, &unused))
+        o->given[size - option_table] = (o->values[size - option_table] = operands[--count]);
+    if (count == 2 && !o->picture.output && lam_image_format_for(operands[1], &format, NULL))
+        o->picture.output = operands[--count];
+    if (count == 0 && !o->batch.lists.count && is_redirected(STDIN_FILENO))
+        operands[count++] = "-";
+    bool prints = o->report.json || o->report.dry_run || o->batch.view_count > 1 || o->batch.size_count > 1;
+    if (count == 1 && strcmp(operands[0], "-") == 0 && !o->picture.output && !prints && is_redirected(STDOUT_FILENO))
+        o->picture.output = "-";
+    return count;
 }
 
 static bool check_operands(const struct command *command, int count, char **operands, const struct options *options,
@@ -90,12 +120,17 @@ static int run_words(int count, char **words, char **line, run_command_fn *run)
 {
     struct options options = option_defaults();
     lam_error error = {0};
+    struct own_words own;
     struct options scanned = scan_report_options(count, words);
-    const struct command *command = take_command(&count, words);
-    int operands = parse(command, count, words, &options, &error);
+    bool ok = synonyms_replace(count, words, &own, &error);
+    const struct command *command = take_command(&own.count, own.words);
+    int operands = ok ? parse(command, own.count, own.words, &options, &error) : -1;
+    if (operands >= 0 && command == command_table && !options.report.help && !options.report.version)
+        operands = take_plain_operands(operands, own.words, &options);
     options.line = line;
-    int code = operands < 0 ? report_failure(&error, &scanned) : execute(command, operands, words, &options, run);
+    int code = operands < 0 ? report_failure(&error, &scanned) : execute(command, operands, own.words, &options, run);
     options_free(&options);
+    synonyms_free(&own);
     return code;
 }
 

@@ -174,7 +174,7 @@ MORE = {
                "distortion": {"fx": 20, "fy": 22, "cx": 3, "cy": 9.5, "k1": 0.1}, "K with skew": {"K": [20, 1, *MATRICES[9][2:]]}, "unknown": {"fov": 30}, "angle": {"fovy": "40deg"}},
     "environment": {"rotation": {"rotation": 40}, "none": {"builtin": None}, "rotation alone": {"builtin": None, "rotation": 40}},
     "image": {"unknown": {"sice": [16, 16]}, "samples 3": {"samples": 3}, "both modes": {"color": "raw", "color_mode": "raw"}, "size 2.5": {"size": [2.5, 2]}},
-    "setting": {"stage and shading": {"stage": "fragment", "shading": "gouraud"}, "stage and phong": {"stage": "vertex", "shading": "phong"}, "unknown": {"shadow": True},
+    "setting": {"stage and shading": {"stage": "fragment", "shading": "gouraud"}, "stage and phong": {"stage": "vertex", "shading": "phong"}, "unknown": {"shadowz": True},
                 "ground and colour": {"ground": "color", "ground_color": "#446688"}, "angle": {"edge_angle": "40deg", "edges": ["crease"]}},
 }
 

@@ -89,7 +89,7 @@ class Read(ThreeMF):
                 self.assertAlmostEqual(measure["size_mm"][axis] / millimetres, axis + 1, 9)
         text = self.good("info", self.save("a.3mf", model(f'<object id="1">{box(1, 2, 3)}</object>', attributes='unit="inch"'))).stdout.decode()
         self.assertIn("1 × 2 × 3 in (25.4 × 50.8 × 76.2 mm), z up", text)
-        self.assertRegex(text, r"area 1.419e\+04 mm², closed: volume 9.832e\+04 mm³")
+        self.assertRegex(text, r"area 141.9 cm², closed: volume 98.32 cm³")
 
     def test_transforms_and_instances(self):
         """Components within components, rotated; each item is an object, a mesh is stored once."""
@@ -161,7 +161,7 @@ class Read(ThreeMF):
                 self.assertLessEqual(max(abs(a - b) for a, b in zip(*pictures)), 1, (output, view))
         losses = json.loads(self.good("convert", "cube.stl", "c.glb", "--json").stdout)["losses"]
         self.given |= self.new_files()
-        self.assertEqual([loss[:26] for loss in losses], ["the model has no materials"])
+        self.assertEqual(losses, [])
 
     def test_texture(self):
         """A texture's lower left corner is (0, 0); a missing picture causes a warning."""

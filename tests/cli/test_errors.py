@@ -38,7 +38,7 @@ class Models(Case):
         self.bad(2, "box", says="did you mean 'cube'?")
         self.bad(2, "*.3mf", says="no file matches this pattern")
         self.bad(2, "none.png", says="write the name of the picture after -o")
-        self.bad(2, "version", says="an option begins with dashes: --version")
+        self.bad(2, "zoom", says="an option begins with dashes: --zoom")
         self.bad(2, "missing.obj", "shapes", says="a command comes first: lambent shapes")
 
     def test_folder(self):
@@ -284,7 +284,7 @@ class Outputs(Case):
     def test_unknown_ending(self):
         for name in ("x.gif", "x.png.zip", ".png/x.gif"):
             self.bad(3, "cube.obj", "-o", name, says=name)
-        self.bad(3, "cube.obj", "-o", "x.3mf", says="lambent cannot write .3mf; use .png")
+        self.bad(3, "cube.obj", "-o", "x.step", says="lambent cannot write .step; use .png")
         self.bad(3, "cube.obj", "-o", "part-v1.0", says="the extension .0 is not a picture format; expected .png")
 
     def test_full_device(self):

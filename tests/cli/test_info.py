@@ -37,7 +37,7 @@ class Info(GltfCase):
                                             "memory_bytes": 0, "slots": []}])
         self.assertEqual(self.info(model, "--scene", "night")[0]["scenes"][1]["read"], True)
         text = self.good("info", model).stdout.decode()
-        for words in ("gltf 2.0, written by by?hand", "copyright   nobody", "2 × 2 × 0 m (2000 × 2000 × 0 mm), y up", "area 4e+06 mm², not closed", "2 triangles, 4 vertices", "0 'day', the scene that lambent reads",
+        for words in ("gltf 2.0, written by by?hand", "copyright   nobody", "2 × 2 × 0 m, y up", "area 4 m², not closed", "2 triangles, 4 vertices", "0 'day', the scene that lambent reads",
                       "1 'night'", "0 unlit: base 1/0/0", "1 'mint'", "0 'near', perspective, 5.73 degrees high, at 0 0 9", "KHR_materials_dispersion: ignored",
                       "NO_such: unknown", "0 'skin.png', png; not read"):
             self.assertIn(words, text)

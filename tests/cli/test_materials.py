@@ -213,7 +213,7 @@ class Methods(Pictures):
             self.bad(1, "sphere", "--shading", "normal", "--stage", stage, says="phong works with fragment")
         self.assertEqual(self.picture("--stage", "fragment", "--shading", "normal"), phong)
         self.bad(1, "sphere", "--stage", "fragment", "--shading", "gouraud", says="gouraud works with application or vertex")
-        self.bad(1, "sphere", "--stage", "pixel", says="expected auto, application, vertex or fragment")
+        self.bad(1, "sphere", "--stage", "pixl", says="expected auto, application, vertex or fragment")
 
     def test_switches(self):
         shiny = ("--material", "specular=1", "--light", "point:position=1/1/2,attenuation=0/0/1,ambient=1")

@@ -2,6 +2,7 @@
 // models.
 #include "command.h"
 
+#include <errno.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -16,7 +17,7 @@
 
 #define OF_BATCH(name) "option '--" name "' does not apply to this command; it belongs to batch: lambent batch --jobs -"
 
-static bool check_models(int count, char **models, lam_error *error)
+static bool check_models(int count, char **models, const struct options *o, lam_error *error)
 {
     for (int i = 0; i < count; i++) {
         if (!*models[i])
@@ -26,6 +27,12 @@ static bool check_models(int count, char **models, lam_error *error)
         if (strcmp(models[i], "-") == 0 && isatty(STDIN_FILENO))
             return complain(error, LAM_BAD_ARGUMENT,
                             "standard input is a terminal, expected a model: lambent - < FILE");
+        // A word without a dot or a slash is no model file, so nothing is drawn before it is refused.
+        if (!strpbrk(models[i], "./\\*?") && strcmp(models[i], "-") != 0 && access(models[i], F_OK) != 0 &&
+            !job_model_is_shape(models[i]) && !job_formula(o).text) {
+            complain(error, LAM_CANNOT_READ, "%s: cannot open: %s", models[i], strerror(ENOENT));
+            return model_guess(models[i], o, error), false;
+        }
     }
     return true;
 }
@@ -54,7 +61,7 @@ static bool check_together(int count, char **models, const struct options *o, la
     const struct batch_options *b = &o->batch;
     const char *scene = o->picture.save_scene;
     bool one_picture = !output_name_is_pattern(o->picture.output) && output_is_named(o->picture.output);
-    if (!job_check_options(o, error))
+    if (!check_models(count, models, o, error) || !job_check_options(o, error))
         return false;
     if (one_picture && count > 1)
         return complain(error, LAM_BAD_ARGUMENT,
@@ -76,7 +83,7 @@ static bool check_together(int count, char **models, const struct options *o, la
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
         if (refusals[i].applies)
             return complain(error, LAM_BAD_ARGUMENT, "%s", refusals[i].text);
-    return check_models(count, models, error) && check_terminal(count, o, error);
+    return check_terminal(count, o, error);
 }
 
 // Returns whether --journal requests a journal. With --dry-run, there is nothing to record.

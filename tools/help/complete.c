@@ -21,7 +21,19 @@ static const struct option *expects_value(const char *argument)
     return option && option->value ? option : NULL;
 }
 
-static void complete_option(const struct command *command, const char *argument)
+// Offers the synonyms of an option or a command. The caller offers them only for a typed beginning.
+static void complete_synonyms(const struct typed_word *typed, const char *also, const char *of)
+{
+    for (size_t length; also && *also; also += length + (also[length] == ' ')) {
+        char word[40], summary[60];
+        length = strcspn(also, " ");
+        snprintf(word, sizeof word, "%.*s", (int)strcspn(also, "= "), also);
+        snprintf(summary, sizeof summary, "same as %s", of);
+        complete_offer(typed, word, "", summary);
+    }
+}
+
+static void complete_option(const struct command *command, const char *argument, int count, char **words)
 {
     const char *equals = strchr(argument, '=');
     if (equals) {
@@ -29,7 +41,8 @@ static void complete_option(const struct command *command, const char *argument)
         snprintf(name, sizeof name, "%.*s", (int)(equals - argument - 2), argument + 2);
         const struct option *option = option_find(name);
         struct typed_word value = {argument, equals + 1, (int)(equals + 1 - argument)};
-        if (option && option->value && option_is_taken(option, command->groups))
+        if (option && option->value && option_is_taken(option, command->groups) &&
+            !complete_from_model(option, &value, count, words))
             complete_value(option, &value);
         return;
     }
@@ -37,12 +50,17 @@ static void complete_option(const struct command *command, const char *argument)
     for (const struct option *o = option_table; o->name; o++)
         if (option_is_taken(o, command->groups) && !o->now)
             complete_offer(&name, o->name, "", o->summary);
+    for (const struct option *o = option_table; *name.prefix && o->name; o++)
+        if (option_is_taken(o, command->groups))
+            complete_synonyms(&name, o->also, o->name);
 }
 
 static void complete_commands(const struct typed_word *typed)
 {
     for (const struct command *c = command_table; c->name; c++)
         complete_offer(typed, c->name, "", c->summary);
+    for (const struct command *c = command_table; *typed->prefix && c->name; c++)
+        complete_synonyms(typed, c->also, c->name);
 }
 
 static void complete_shapes(const struct typed_word *typed)
@@ -144,12 +162,12 @@ int run_complete(int count, char **words, const struct options *options)
     }
     struct typed_word typed = whole(last);
     if (waiting) {
-        if (option_is_taken(waiting, command->groups))
+        if (option_is_taken(waiting, command->groups) && !complete_from_model(waiting, &typed, count - 1, words))
             complete_value(waiting, &typed);
         return 0;
     }
     if (*last == '-' && !only_operands && !command->verbatim) {
-        complete_option(command, last);
+        complete_option(command, last, count - 1, words);
         return 0;
     }
     if (count <= 1)

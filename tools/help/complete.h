@@ -18,6 +18,10 @@ void complete_offer(const struct typed_word *typed, const char *candidate, const
 // Tells the shell to complete the names of files.
 void complete_files(void);
 
+// Prints the names in the model that `words` names, if they are candidates for the value of the option: --hide,
+// --material NAME@…, --animation. Returns false if they are not.
+bool complete_from_model(const struct option *option, const struct typed_word *typed, int count, char **words);
+
 // Prints the candidates for the value of an option.
 void complete_value(const struct option *option, const struct typed_word *typed);
 

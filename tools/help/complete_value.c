@@ -84,7 +84,7 @@ static void offer_key(const struct typed_word *typed, const char *key, const lam
 
 static void complete_material(const struct typed_word *typed)
 {
-    if (strchr(typed->prefix, '@')) // the model is not loaded, so the names of its objects are unknown
+    if (strchr(typed->prefix, '@')) // no model is on the command line, so the names of its objects are unknown
         return;
     struct typed_word pair = after_comma(typed);
     size_t equals = strcspn(pair.prefix, "=");

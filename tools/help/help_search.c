@@ -78,6 +78,7 @@ static void search_options(struct search *search)
         add(&texts, o->name);
         add(&texts, o->alias);
         add(&texts, o->others);
+        add(&texts, o->also);
         add(&texts, o->summary);
         for (const struct choice *w = o->words; w && w->name; w++) {
             add(&texts, w->name);

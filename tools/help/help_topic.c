@@ -7,6 +7,7 @@
 
 #include "console.h"
 #include "help_texts.h"
+#include "synonyms.h"
 
 enum { LIST_COLUMN = 15 };
 
@@ -40,7 +41,10 @@ static const struct option *find_option(const char *query)
     for (const struct option *o = option_table; o->name && letter; o++)
         if (o->letter == letter)
             return o;
-    const struct option *option = option_find(query + (strncmp(query, "--", 2) == 0 ? 2 : 0));
+    char meaning[MEANING_SIZE];
+    query += strncmp(query, "--", 2) == 0 ? 2 : 0;
+    const struct option *option = option_find(query);
+    option = option ? option : synonym_option(query, ~WRITES_NO_FILE, meaning);
     return option && option->now ? option_find(option->now) : option;
 }
 
@@ -147,6 +151,8 @@ int run_help(int operand_count, char **operands, const struct options *options)
     const struct topic *topic = query ? find_topic(query) : NULL;
     const struct command *command = query ? find_command(query) : NULL;
     const struct option *option = query ? find_option(query) : NULL;
+    if (query && !topic && !option && !command)
+        command = synonym_command(query);
     if (!operand_count) {
         print_list();
     } else if (topic) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "console.h"
+#include "synonyms.h"
 
 // Prints text, escaped for roff. A dash becomes \- (roff may show a plain '-' as another dash), `code` becomes bold,
 // and a control character at the start of a line is escaped.
@@ -67,6 +68,8 @@ static void roff_option(const struct option *o)
     }
     if (o->details)
         roff_line(o->details);
+    if (o->also)
+        roff(OTHER_NAMES), roff_line(o->also);
     for (const struct choice *w = o->words; w && w->name && w->summary; w++) {
         printf(".br\n\\fB");
         roff(w->name);
@@ -117,6 +120,8 @@ void generate_man(void)
             printf(" \\fI%s\\fR", c->operands);
         printf("\n");
         roff_line(c->summary);
+        if (c->also)
+            printf("Other names: %s\n", c->also);
     }
     for (const struct topic *t = topics; t->name; t++) {
         if (!t->text)
@@ -161,6 +166,8 @@ static void markdown_option(const struct option *o)
         putchar(' ');
         cell(o->details);
     }
+    if (o->also)
+        printf(" " OTHER_NAMES "`%s`.", o->also);
     for (const struct choice *w = o->words; w && w->name && w->summary; w++) {
         printf("<br>`%s`: ", w->name);
         cell(w->summary);
@@ -195,7 +202,7 @@ void generate_markdown(void)
         cell(c->operands ? c->operands : "");
         printf("` | ");
         cell(c->summary);
-        printf(" |\n");
+        printf("%s%s |\n", c->also ? " Other names: " : "", c->also ? c->also : "");
     }
     for (const struct topic *t = topics; t->name; t++) {
         if (!t->text)

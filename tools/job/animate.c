@@ -53,8 +53,10 @@ static bool check_sweeps(const struct options *o, lam_error *error)
 
 bool animation_check(const struct options *o, lam_error *error)
 {
+    char turn[60];
+    snprintf(turn, sizeof turn, "--sweep; a turn of the model is --turntable %d", o->animation.frames);
     if (!animation_wanted(o))
-        return only_with(o, "frames", "--sweep", error) && only_with(o, "fps", "--turntable or --sweep", error) &&
+        return only_with(o, "frames", turn, error) && only_with(o, "fps", "--turntable or --sweep", error) &&
                only_with(o, "turntable-light", "--turntable", error);
     if (o->animation.turntable && o->animation.frames)
         return complain(error, LAM_BAD_ARGUMENT,

@@ -51,8 +51,10 @@ static void guess_word(const char *model, char *advice)
         struct suggestion nearest = suggest_start(model);
         for (int i = 0; i < lam_shape_count(); i++)
             suggest_try(&nearest, lam_shape_name(i));
-        for (const struct command *c = command_table; c->name; c++)
+        for (const struct command *c = command_table; c->name; c++) {
             suggest_try(&nearest, c->name);
+            suggest_also(&nearest, c->name, c->also);
+        }
         if (nearest.best)
             snprintf(advice, ADVICE_SIZE, "; did you mean '%s'?", nearest.best);
         else

@@ -73,7 +73,8 @@ static bool unknown_name(struct reader *r, const struct place *place, const char
         spelling_try(&spelling, lam_color_name(i));
     shown_name(name, shown[0]);
     if (spelling.nearest)
-        return json_fail(&r->json, place, "no material is named '%s'; did you mean '%s'?", shown[0],
+        return json_fail(&r->json, place,
+                         "no material is named '%s'; did you mean '%s'? `lambent materials` lists the names", shown[0],
                          shown_name(spelling.nearest, shown[1]));
     return json_fail(&r->json, place,
                      "no material is named '%s'; expected a name of `lambent materials`, a colour or "

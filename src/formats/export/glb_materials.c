@@ -275,15 +275,9 @@ static json_t *material(struct glb *glb, const lam_material *source, bool double
 {
     json_t *object = json_object();
     lam_material m = lam_material_as_physical(source);
-    if (!source->physical && !source->unlit)
-        export_lose(
-            glb->e,
-            export_material_count(glb->e)
-                ? "classic materials become metallic-roughness materials, which lambent shades and lights differently: "
-                  "the whole model looks different"
-                : "the model has no materials, and lambent shades and lights such models differently in glTF: the "
-                  "whole "
-                  "model looks different");
+    if (!source->physical && !source->unlit && export_material_count(glb->e))
+        export_lose(glb->e, "classic materials become metallic-roughness materials, which lambent shades and lights "
+                            "differently: the whole model looks different");
     if (m.reflectivity.r > 0 || m.reflectivity.g > 0 || m.reflectivity.b > 0 || m.fibre ||
         m.roughness_angle_rad != lam_material_default().roughness_angle_rad)
         export_lose(glb->e, "the materials' reflectivity, Oren-Nayar roughness and fibre settings are omitted: glTF "

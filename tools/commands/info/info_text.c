@@ -57,17 +57,32 @@ static void print_color(lam_rgb c)
 
 // --- the sections
 
-// Prints areas and volumes in mm² and mm³ if the unit is known, otherwise in the model's units.
-static void print_measure(const lam_scene *scene, double millimetres)
+// A unit in which a model of this size is measured: lengths, or areas and volumes.
+struct readable_unit {
+    const char *symbol;
+    double millimetres;
+};
+
+static struct readable_unit readable_unit(double largest_mm, bool length)
+{
+    static const struct readable_unit units[] = {{" µm", 1e-3}, {" mm", 1}, {" cm", 10}, {" m", 1e3}, {" km", 1e6}};
+    int unit = largest_mm < 1 ? 0 : largest_mm < 1e3 ? 1 : largest_mm < 1e6 ? 3 : 4;
+    return units[unit == 1 && largest_mm >= 10 && !length ? 2 : unit];
+}
+
+// Prints areas and volumes, in the model's units if the file defines none (`largest_mm` is then 0).
+static void print_measure(const lam_scene *scene, double millimetres, double largest_mm)
 {
     struct info_measure measure = info_measure(scene);
-    double scale = millimetres > 0 ? millimetres : 1;
-    const char *unit = millimetres > 0 ? " mm" : " units";
+    struct readable_unit unit = {" units", 1};
+    if (largest_mm > 0)
+        unit = readable_unit(largest_mm, false);
+    double scale = largest_mm > 0 ? millimetres / unit.millimetres : 1;
     if (!lam_scene_triangle_count(scene))
         return;
-    printf("%-12sarea %.4g%s²", "surface", measure.area * scale * scale, unit);
+    printf("%-12sarea %.4g%s²", "surface", measure.area * scale * scale, unit.symbol);
     if (measure.closed)
-        printf(", closed: volume %.4g%s³\n", measure.volume * scale * scale * scale, unit);
+        printf(", closed: volume %.4g%s³\n", measure.volume * scale * scale * scale, unit.symbol);
     else
         printf(", not closed\n");
 }
@@ -92,14 +107,17 @@ static void print_geometry(const struct info *info)
     lam_scene_bounds(scene, &low, &high);
     struct info_unit unit = info_unit(scene);
     lam_vec3 size = {high.x - low.x, high.y - low.y, high.z - low.z};
-    double mm = unit.millimetres;
+    double mm = unit.millimetres, largest = size.x > size.y ? size.x : size.y;
+    largest = (largest > size.z ? largest : size.z) * mm;
+    struct readable_unit readable = readable_unit(largest, true);
+    double in = mm / readable.millimetres;
     printf("%-12s%.4g × %.4g × %.4g%s%s", "size", size.x, size.y, size.z, unit.name ? " " : " (unit unknown)",
            unit.name ? unit.symbol : "");
-    if (unit.name && mm != 1)
-        printf(" (%.4g × %.4g × %.4g mm)", size.x * mm, size.y * mm, size.z * mm);
+    if (largest > 0 && mm != readable.millimetres)
+        printf(" (%.4g × %.4g × %.4g%s)", size.x * in, size.y * in, size.z * in, readable.symbol);
     printf(", %s up\n", lam_up_name(lam_scene_up(scene)));
     printf("%-12sfrom %.6g %.6g %.6g to %.6g %.6g %.6g\n", "", low.x, low.y, low.z, high.x, high.y, high.z);
-    print_measure(scene, mm);
+    print_measure(scene, mm, largest);
     print_sections(info, mm);
     uint64_t triangles = lam_scene_triangle_count(scene), vertices = lam_scene_vertex_count(scene);
     uint64_t lines = lam_scene_line_count(scene), points = lam_scene_point_count(scene);

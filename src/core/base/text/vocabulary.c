@@ -6,8 +6,8 @@
 
 enum { LENGTH_MAX = 63 };
 
-// Common synonyms, separated by spaces, in lower case with '-' between words. If a user types a synonym, the error
-// message suggests the name, but the synonym is not accepted. If a name occurs in several rows, only the rows for the
+// Common synonyms, separated by spaces, in lower case with '-' between words. The command line accepts a synonym of a
+// value (program/options/synonyms.c); elsewhere, the error message suggests the name. If a name occurs in several rows, only the rows for the
 // current context are used.
 static const struct {
     const char *word, *others;
@@ -95,9 +95,6 @@ static const struct {
     {"fast", "low quick"},
     {"aces", "filmic film"},
     {"auto", "on yes automatic"},
-    // Commands.
-    {"view", "open show gui display viewer"},
-    {"info", "inspect describe stat"},
     // Devices.
     {"cpu", "software processor"},
     {"gl", "opengl gpu"},

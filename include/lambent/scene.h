@@ -251,6 +251,12 @@ LAM_API bool lam_scene_hide_mesh(lam_scene *scene, int index, bool hidden, lam_e
 LAM_API bool lam_scene_remove_object(lam_scene *scene, int index, lam_error *error);
 LAM_API bool lam_scene_remove_mesh(lam_scene *scene, int index, lam_error *error);
 
+// Moves the meshes, materials, objects, lights, cameras, warnings and file names of another scene into this scene, behind
+// its own, and frees the other scene, even on failure. The environment, the ambient light and the up axis of `scene`
+// stay. A scene file cannot describe the result. Returns false on failure: LAM_BAD_ARGUMENT (a scene has sections, a
+// mark, or normals that the device computes), LAM_LIMIT. After LAM_LIMIT, only lam_scene_free may be called.
+LAM_API bool lam_scene_add_scene(lam_scene *scene, lam_scene *other, lam_error *error);
+
 // Replaces each object that shows several parts by an object for each part, with the part's name, so that parts can be
 // hidden and moved alone. A scene file cannot describe the result. Returns false on failure and changes nothing:
 // LAM_BAD_ARGUMENT (the scene has sections), LAM_LIMIT.

@@ -66,6 +66,7 @@ struct model_options {
     double time_s;                           // valid if `has_time` is set
     bool has_time, lenient;
     struct texts sections; // as typed, checked
+    int arrange;           // 0: a row, 1: a grid, 2: as the files place the models
 };
 
 // The camera.

@@ -159,6 +159,11 @@ static const struct choice figure_words[] = {{"vectors", FIGURE_VECTORS, "the ve
                                              {"beam", FIGURE_BEAM, "the area that a beam of the light covers"},
                                              {NULL, 0, NULL}};
 
+static const struct choice arrange_words[] = {{"row", 0, "side by side, all on one plane"},
+                                              {"grid", 1, "in rows and columns"},
+                                              {"as-is", 2, "at the coordinates of their files"},
+                                              {NULL, 0, NULL}};
+
 static const struct choice captions_words[] = {{"full", CAPTIONS_FULL, "with the options of each picture"},
                                                {"plain", CAPTIONS_PLAIN, "only the captions, for slides"},
                                                {NULL, 0, NULL}};
@@ -396,6 +401,11 @@ struct option option_table[OPTIONS_MAX] = {
      "first pose; after the last keyframe, it shows the last pose.",
      NULL, .store = store_number, FIELD(model.time_s), .has_field = offsetof(struct options, model.has_time),
      .min = -1e9, .max = 1e9, .others = "seconds", .loads = true},
+    {"arrange", 0, GROUP_MODEL, "HOW", "row", "How to place the models of `a.stl + b.stl`: row, grid or as-is.",
+     "`lambent a.stl + b.stl -o both.png` draws several models in one picture, to scale. Models with another up axis "
+     "are "
+     "turned to the axis of the first model.",
+     arrange_words, .store = store_word, .others = "layout merge combine join", FIELD(model.arrange), .loads = true},
     {"section", 0, GROUP_MODEL, "PLANE", "none",
      "Cut the model by a plane, such as x=0 or z=40%, and close the cut surface; repeatable.",
      "The axis names the side that is removed: `x=0` removes x > 0, and `-x=0` removes x < 0. A percentage is a part "

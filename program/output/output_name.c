@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "console.h"
+#include "joined_models.h"
 
 static const struct {
     const char *name;
@@ -87,7 +88,8 @@ bool output_name_check(const char *pattern, unsigned known, lam_error *error)
 const char *output_stem(const char *model, int *length)
 {
     const char *name = strcmp(model, "-") == 0 ? "model" : model;
-    const char *end = name + strlen(name);
+    const char *next = joined_models_next(name);
+    const char *end = next ? next - strlen(JOINED_MODELS) : name + strlen(name);
     while (end > name && end[-1] == '/') // if the model's path is a folder, loading the model reports the error
         end--;
     const char *start = end;

@@ -11,6 +11,7 @@
 #include "console.h"
 #include "failure.h"
 #include "help.h"
+#include "joined_models.h"
 #include "sandbox.h"
 #include "synonyms.h"
 #include "writer.h"
@@ -48,6 +49,27 @@ static bool is_redirected(int stream)
 {
     struct stat found;
     return fstat(stream, &found) == 0 && (S_ISREG(found.st_mode) || S_ISFIFO(found.st_mode));
+}
+
+// Joins the words `a.stl + b.stl` to one operand. `*joined` receives the memory of all such operands.
+static int join_models(int count, char **operands, char **joined)
+{
+    size_t size = 1;
+    int kept = 0;
+    for (int i = 0; i < count; i++)
+        size += strlen(operands[i]) + sizeof JOINED_MODELS;
+    char *at = *joined = malloc(size);
+    for (int i = 0; at && i < count; kept++) {
+        char *start = at;
+        at += sprintf(at, "%s", operands[i++]);
+        while (i + 1 < count && strcmp(operands[i], "+") == 0) {
+            at += sprintf(at, JOINED_MODELS "%s", operands[i + 1]);
+            i += 2;
+        }
+        operands[kept] = start;
+        at++;
+    }
+    return at ? kept : count;
 }
 
 // Takes what new users write without an option: `a.stl 800x600`, `a.stl p.png`, and a model or a picture in a pipe.
@@ -127,10 +149,14 @@ static int run_words(int count, char **words, char **line, run_command_fn *run)
     int operands = ok ? parse(command, own.count, own.words, &options, &error) : -1;
     if (operands >= 0 && command == command_table && !options.report.help && !options.report.version)
         operands = take_plain_operands(operands, own.words, &options);
+    char *joined = NULL;
+    if (operands > 2 && !command->verbatim)
+        operands = join_models(operands, own.words, &joined);
     options.line = line;
     int code = operands < 0 ? report_failure(&error, &scanned) : execute(command, operands, own.words, &options, run);
     options_free(&options);
     synonyms_free(&own);
+    free(joined);
     return code;
 }
 

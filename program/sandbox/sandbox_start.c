@@ -10,6 +10,7 @@
 #include <lambent/path.h>
 
 #include "console.h"
+#include "joined_models.h"
 #include "limit_options.h"
 #include "file_io.h"
 
@@ -46,6 +47,15 @@ static bool is_scene_file(const char *model)
 
 void sandbox_add_input(struct sandbox_paths *paths, const char *model)
 {
+    const char *next = joined_models_next(model);
+    if (next) {
+        char *first = strndup(model, (size_t)(next - model) - strlen(JOINED_MODELS));
+        if (first)
+            sandbox_add_input(paths, first);
+        free(first);
+        sandbox_add_input(paths, next);
+        return;
+    }
     if (strcmp(model, "-") == 0 || lam_shape_find(model) >= 0)
         return;
     struct stat about;

@@ -177,3 +177,41 @@ class Parts(Case):
         """A physical material on one part leaves the parts without a material lit."""
         picture = self.png("a.obj", "-s", "64", "--material", "gold@lid")
         self.assertGreater(pixel(picture, 24, 40)[0], 60)
+
+
+class Several(Case):
+    """Several models in one picture: a.stl + b.stl."""
+
+    def setUp(self):
+        super().setUp()
+        self.given.update(("a.stl", "b.obj"))
+        (self.folder / "a.stl").write_bytes(stl(box((0, 0, 0), (1, 1, 2))))
+        (self.folder / "b.obj").write_text(obj(b=box((0, 0, 0), (1, 3, 1))))
+
+    def size(self, *words):
+        found = json.loads(self.good("info", *words, "--json").stdout)
+        return [round(x, 6) for x in found["size"]]
+
+    def test_places(self):
+        gap = 0.15 * 3
+        for words, size in ((("a.stl", "+", "a.stl"), [2 + 0.3, 1, 2]), (("a.stl", "+", "b.obj"), [2 + gap, 1, 3]), (("b.obj", "+", "a.stl"), [2 + gap, 3, 1]),
+                            (("a.stl", "+", "a.stl", "+", "a.stl", "--arrange", "grid"), [2.3, 2.3, 2]), (("a.stl", "+", "b.obj", "--arrange", "as-is"), [1, 3, 2]),
+                            (("sphere", "+", "cube"), [4.3, 2, 2])):
+            self.assertEqual(self.size(*words), size, words)
+
+    def test_pictures(self):
+        words = ("-s", "64", "-b", "white", "--camera", "eye=4/5/6,target=0.5/0.5/0.5")
+        both = self.png("a.stl", "+", "b.obj", "--arrange", "as-is", *words)
+        self.assertEqual(self.png("b.obj", "+", "a.stl", "--arrange", "as-is", "--up", "z", *words), self.png("a.stl", "+", "b.obj", "--arrange", "as-is", "--up", "z", *words))
+        scene = {"lambent": 1, "up": "z", "objects": [{"file": "a.stl"}, {"file": "b.obj"}]}
+        (self.folder / "s.json").write_text(json.dumps(scene))
+        self.given.add("s.json")
+        self.assertEqual(self.png("s.json", *words), both)
+        self.good("a.stl", "+", "b.obj", "-s", "8")
+        self.assertIn("a.png", self.new_files())
+        self.good("convert", "a.stl", "+", "b.obj", "c.glb")
+
+    def test_refused(self):
+        self.bad(2, "a.stl", "+", "c.stl", says=("c.stl",))
+        self.bad(2, "a.stl", "+", says=("+",))
+        self.bad(3, "a.stl", "+", "b.obj", "--save-scene", "s.json", "-o", "a.png", says=("scene file",), leaves={"a.png"})

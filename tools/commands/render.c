@@ -11,6 +11,7 @@
 #include "batch_shard.h"
 #include "console.h"
 #include "job.h"
+#include "joined_models.h"
 #include "output.h"
 #include "report.h"
 #include "terminal.h"
@@ -28,8 +29,8 @@ static bool check_models(int count, char **models, const struct options *o, lam_
             return complain(error, LAM_BAD_ARGUMENT,
                             "standard input is a terminal, expected a model: lambent - < FILE");
         // A word without a dot or a slash is no model file, so nothing is drawn before it is refused.
-        if (!strpbrk(models[i], "./\\*?") && strcmp(models[i], "-") != 0 && access(models[i], F_OK) != 0 &&
-            !job_model_is_shape(models[i]) && !job_formula(o).text) {
+        if (!strpbrk(models[i], "./\\*?") && !joined_models_next(models[i]) && strcmp(models[i], "-") != 0 &&
+            access(models[i], F_OK) != 0 && !job_model_is_shape(models[i]) && !job_formula(o).text) {
             complain(error, LAM_CANNOT_READ, "%s: cannot open: %s", models[i], strerror(ENOENT));
             return model_guess(models[i], o, error), false;
         }

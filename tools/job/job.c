@@ -15,11 +15,13 @@
 #include "environment_apply.h"
 #include "environment_option.h"
 #include "interrupt.h"
+#include "joined_models.h"
 #include "job.h"
 #include "light_markers.h"
 #include "limit_options.h"
 #include "output.h"
 #include "scene_settings.h"
+#include "several_models.h"
 #include "show_all.h"
 #include "show_option.h"
 #include "material_option.h"
@@ -172,44 +174,78 @@ static bool find_background(struct job *job, lam_error *error)
     return true;
 }
 
-// Reads the model, or makes the shape.
-static bool make_scene(struct job *job, struct progress *progress, lam_error *error)
+// Reads one model, or makes the shape.
+static lam_scene *load_one(const struct job *job, const char *name, bool only, const lam_control *control,
+                           lam_error *error)
 {
     const struct options *o = job->options;
+    const lam_bytes *bytes = job->model_bytes;
+    if (!bytes && (job_formula(o).text || lam_shape_find(name) >= 0))
+        return make_shape(name, o, control, error);
+    lam_load_params params = {.up = (lam_up)o->view.up,
+                              .color = (lam_color_mode)o->picture.color_mode,
+                              .override_color = option_given(o, "color-mode"),
+                              .models_anywhere = !o->limits.files_inside,
+                              .allowed_paths = o->limits.allow_paths.items,
+                              .allowed_path_count = o->limits.allow_paths.count,
+                              .normals = (lam_normals)o->shading.normals,
+                              .crease_angle_rad = crease_of(o),
+                              .threads = o->work.threads,
+                              .scene = o->model.scene,
+                              .variant = o->model.variant,
+                              .lenient = o->model.lenient,
+                              .animation = o->model.animation  ? o->model.animation
+                                           : o->model.has_time ? "0"
+                                                               : NULL,
+                              .time_s = o->model.time_s,
+                              .polygon_edges = o->draw.wireframe || o->draw.edges,
+                              .normals_when_drawn = only && draws_once(job)};
+    lam_scene *scene = bytes ? lam_scene_load_memory(bytes->data, bytes->size, name, &params, control, error)
+                             : lam_scene_load(name, &params, control, error);
+    if (!scene && !bytes)
+        model_guess(name, o, error);
+    return scene;
+}
+
+// Reads the models of `a.stl + b.stl`.
+static lam_scene *load_several(const struct job *job, const lam_control *control, lam_error *error)
+{
+    int count = 1, filled = 0;
+    for (const char *at = job->model; (at = joined_models_next(at));)
+        count++;
+    lam_scene **scenes = calloc((size_t)count, sizeof *scenes), *all = NULL;
+    char *names = strdup(job->model), *name = names;
+    bool ok = (scenes && names) || complain(error, LAM_MACHINE, "out of memory");
+    for (; ok && filled < count; filled++) {
+        char *next = (char *)(uintptr_t)joined_models_next(name);
+        if (next)
+            next[-(ptrdiff_t)strlen(JOINED_MODELS)] = 0;
+        scenes[filled] = load_one(job, name, false, control, error);
+        ok = scenes[filled] != NULL;
+        name = next;
+    }
+    if (ok)
+        all = several_models_join(scenes, count, (enum arrange)job->options->model.arrange, error);
+    for (int i = 0; !ok && scenes && i < filled; i++)
+        lam_scene_free(scenes[i]);
+    free(names);
+    free(scenes);
+    return all;
+}
+
+// Reads the model or models.
+static bool make_scene(struct job *job, struct progress *progress, lam_error *error)
+{
     lam_control control;
     progress_phase(progress, 0, 0.5);
     if (!job_control(job, progress, &control, error))
         return false;
-    if (!job->model_bytes && (job_formula(o).text || lam_shape_find(job->model) >= 0)) {
-        job->scene = make_shape(job->model, o, &control, error);
-        job->times.prepare = clock_ms() - job->times.start;
-    } else {
-        lam_load_params params = {.up = (lam_up)o->view.up,
-                                  .color = (lam_color_mode)o->picture.color_mode,
-                                  .override_color = option_given(o, "color-mode"),
-                                  .models_anywhere = !o->limits.files_inside,
-                                  .allowed_paths = o->limits.allow_paths.items,
-                                  .allowed_path_count = o->limits.allow_paths.count,
-                                  .normals = (lam_normals)o->shading.normals,
-                                  .crease_angle_rad = crease_of(o),
-                                  .threads = o->work.threads,
-                                  .scene = o->model.scene,
-                                  .variant = o->model.variant,
-                                  .lenient = o->model.lenient,
-                                  .animation = o->model.animation  ? o->model.animation
-                                               : o->model.has_time ? "0"
-                                                                   : NULL,
-                                  .time_s = o->model.time_s,
-                                  .polygon_edges = o->draw.wireframe || o->draw.edges,
-                                  .normals_when_drawn = draws_once(job)};
-        const lam_bytes *bytes = job->model_bytes;
-        job->scene = bytes ? lam_scene_load_memory(bytes->data, bytes->size, job->model, &params, &control, error)
-                           : lam_scene_load(job->model, &params, &control, error);
-        if (job->scene)
-            lam_scene_times(job->scene, &job->times.read, &job->times.prepare);
-        else if (!bytes)
-            model_guess(job->model, o, error);
-    }
+    bool several = !job->model_bytes && !job_formula(job->options).text && joined_models_next(job->model);
+    job->scene = several ? load_several(job, &control, error) : load_one(job, job->model, true, &control, error);
+    if (job->scene)
+        lam_scene_times(job->scene, &job->times.read, &job->times.prepare);
+    if (job->scene && job->times.prepare == 0)
+        job->times.prepare = clock_ms() - job->times.start; // a shape
     return job->scene != NULL;
 }
 

@@ -122,17 +122,18 @@ typedef struct lam_layer {
 LAM_API bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error);
 LAM_API bool lam_image_save_layers(const lam_layer *layers, int count, const char *path, lam_error *error);
 
-// Gets the pixel format for a file name: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png, .ppm, .jpg, .jpeg and
-// .webp. Another extension fails with LAM_UNSUPPORTED and a list of the writable formats.
+// Gets the pixel format for a file name: LAM_RGBA32F for .pfm and .exr, LAM_RGBA8 for .png, .ppm, .jpg, .jpeg, .webp
+// and .gif. Another extension fails with LAM_UNSUPPORTED and a list of the writable formats.
 LAM_API bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error *error);
 
 // These functions describe the picture format with this index (from 0): the name, which is also an extension ("png"); a
 // second extension, or NULL; and one line about the stored numbers ("8 bits, sRGB, with alpha"), or NULL if the format
-// is only read. Every format can be read. The strings are static. The functions return NULL if the index is out of
+// is only read. lam_image_format_is_read returns whether lam_image_load reads the format. The strings are static. The functions return NULL if the index is out of
 // range.
 LAM_API const char *lam_image_format_name(int format);
 LAM_API const char *lam_image_format_alias(int format);
 LAM_API const char *lam_image_format_written(int format);
+LAM_API bool lam_image_format_is_read(int format);
 
 // Reads a picture. PNG, JPEG (CMYK without its profile), WebP (LAM_UNSUPPORTED if libwebp is missing), BMP, TGA and
 // binary PPM become LAM_RGBA8: 16-bit numbers are reduced to 8 bits, and grey and palettes become RGB. PFM, EXR

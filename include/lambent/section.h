@@ -22,7 +22,7 @@ typedef struct lam_section {
     LAM_RESERVED(4);
 } lam_section;
 
-// Parses a section: `x=0`, `-z=40%` or `normal=1/1/0,distance=2.5`, optionally followed by `,color=red`. The axis names
+// Parses a section: `x=0`, `x` (the same as `x=50%`), `-z=40%` or `normal=1/1/0,distance=2.5`, optionally followed by `,color=red`. The axis names
 // the removed side: `x=0` removes x > 0, and `-x=0` removes x < 0. Returns false on failure: LAM_BAD_ARGUMENT.
 LAM_API bool lam_section_parse(const char *text, lam_color_mode mode, lam_section *section, lam_error *error);
 

@@ -144,6 +144,7 @@ struct animation_options {
     struct texts sweeps; // as typed
     int frames;          // frames in a sweep; 0 means the default
     double fps;          // frames per second; 0 means the library's default
+    bool stream;         // frames go to standard output, one after the other
     // Whether to add the rig's lights to the scene. Set by animations, not by an option.
     bool place_lights;
 };

@@ -275,13 +275,9 @@ struct option option_table[OPTIONS_MAX] = {
      "each picture separately, without scaling. If `--view` lists several sides, Lambent draws each side in each size. "
      "Without a pattern in `-o`, Lambent appends the size to the model's name: `bunny-256x128.png`.",
      .several = "sizes", .brief = "pixels: 800, 1920x1080, or a list", .store = store_size,
-     .others = "resolutions thumbnails viewport window",
-     .also = "resolution res image-size img-size pixels thumbnail thumb window-size", .max = 65535,
+     .others = "resolutions viewport window dpi ppi",
+     .also = "width height=x* resolution res image-size img-size pixels thumbnail thumb window-size", .max = 65535,
      .single = TAKES_SIZE, .not_in = IN_LOOK | IN_KEY},
-    {"width", 0, GROUP_PICTURE, "PIXELS", NULL, "The picture's width.", NULL, .store = store_side, .now = "size",
-     FIELD(picture.width), .min = 1, .max = 65535, .not_in = IN_LOOK | IN_KEY | IN_JOB},
-    {"height", 0, GROUP_PICTURE, "PIXELS", NULL, "The picture's height.", NULL, .store = store_side, .now = "size",
-     FIELD(picture.height), .min = 1, .max = 65535, .not_in = IN_LOOK | IN_KEY | IN_JOB},
     {"samples", 0, GROUP_PICTURE, "N", "16 up to 256x256 pixels, 8 up to 512x512, 4 above",
      "Samples per pixel: 1, 2, 4, 8 or 16.",
      "More samples give smoother edges, most visibly in small pictures. On a sheet, the default depends on the size of "
@@ -394,8 +390,10 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_text, .others = "material-variant skin", FIELD(model.variant)},
     {"animation", 0, GROUP_MODEL, "NAME|N", "none",
      "The animation that poses a glTF model: its name or number (the first animation is 0).",
-     "Lambent evaluates the animation of nodes, morph target weights and skins at the time given by `--time`.", NULL,
-     .store = store_text, .others = "action", .also = "anim clip animate=0 play=0", FIELD(model.animation)},
+     "Lambent evaluates the animation of nodes, morph target weights and skins at the time given by `--time`. Without "
+     "`--time`, the whole animation moves if the name of the picture ends in `.gif` or `.webp`, as with `--sweep "
+     "time`.",
+     NULL, .store = store_text, .others = "action", .also = "anim animate=0 play=0", FIELD(model.animation)},
     {"time", 0, GROUP_MODEL, "SECONDS", "0", "The time in the animation, in seconds.",
      "Without `--animation`, Lambent uses the file's first animation. Before the first keyframe, Lambent shows the "
      "first pose; after the last keyframe, it shows the last pose.",
@@ -408,15 +406,16 @@ struct option option_table[OPTIONS_MAX] = {
      arrange_words, .store = store_word, .others = "layout merge combine join", FIELD(model.arrange), .loads = true},
     {"section", 0, GROUP_MODEL, "PLANE", "none",
      "Cut the model by a plane, such as x=0 or z=40%, and close the cut surface; repeatable.",
-     "The axis names the side that is removed: `x=0` removes x > 0, and `-x=0` removes x < 0. A percentage is a part "
+     "The axis names the side that is removed: `x=0` removes x > 0, and `-x=0` removes x < 0. `x` alone means `x=50%`. "
+     "A percentage is a part "
      "of "
      "the model's extent along the axis, from its smallest coordinate. `normal=1/1/0,distance=2.5` is any other plane; "
      "it removes the side to which the normal points. The coordinates refer to the model before `--rotate`. Cut "
      "surfaces have the material of their part, or the colour of `,color=orange`. Lines, points, transparent parts and "
      "surfaces that are not closed are cut, but not closed. `lambent info` prints the area of each section. `none` "
      "shows the whole model of a scene file with sections.",
-     .brief = "cut the model: x=0, z=40% ...", .store = store_section,
-     .others = "clip clipping cut cutaway cut-away cross-section slice", FIELD(model.sections), .also_in = KEEPS_MODEL},
+     .brief = "cut the model: x=0, z=40% ...", .store = store_section, .others = "clipping cutaway cut-away slice",
+     .also = "clip cut cross-section", FIELD(model.sections), .also_in = KEEPS_MODEL},
     {"lenient", 0, GROUP_MODEL, NULL, NULL,
      "Draw all geometry that can be read: ignore unknown extensions that a glTF or 3MF file requires.",
      "Without this option, Lambent refuses such a file (exit 3), because the picture could be wrong without the "
@@ -449,8 +448,8 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "altitude tilt", .also = "pitch", FIELD(view.elevation_deg),
      .has_field = offsetof(struct options, view.has_elevation), .min = -90, .max = 90},
     {"zoom", 0, GROUP_VIEW, "FACTOR", "1", "Magnification: 2 shows the model twice as large.", NULL,
-     .store = store_number, .others = "magnification distance", .also = "magnify scale zoom-to-fit=1 fit=1",
-     FIELD(view.zoom), .min = 0.001, .max = 1000},
+     .store = store_number, .others = "magnification distance margin padding",
+     .also = "magnify scale zoom-to-fit=1 fit=1", FIELD(view.zoom), .min = 0.001, .max = 1000},
     {"fov", 0, GROUP_VIEW, "DEGREES", "30", "The camera's vertical field of view, above 0 and below 180.",
      "With a wide angle, Lambent moves the camera closer, so the model still fills the picture. The perspective is "
      "then stronger. `--fov 60` and `--camera fovy=60` are equivalent.",
@@ -601,7 +600,7 @@ struct option option_table[OPTIONS_MAX] = {
      "valid material: `--material '#ff8800@handle'`. For old scripts, `--color raw` means `--color-mode raw`, and "
      "`--color srgb` means `--color-mode srgb`.",
      .kind = VALUE_COLOR, .brief = "the model's colour: red, '#ff8800'", .store = store_opaque_color,
-     .others = "c albedo surface-color", .also = "colour paint tint model-color mesh-color",
+     .others = "c surface-color no-texture", .also = "colour paint tint model-color mesh-color",
      FIELD(material.model_color), .former = "color-mode"},
     {"back-material", 0, GROUP_MATERIALS, "NAME|KEYS[@OBJECT]", "the front's",
      "The material of back faces, with the syntax of `--material`; properties that you do not list keep the front's "
@@ -618,7 +617,8 @@ struct option option_table[OPTIONS_MAX] = {
     {"explode", 0, GROUP_VIEW, "FACTOR", "0", "Move the objects and parts of the model apart; 0.5 is a good start.",
      "Lambent moves each part away from the middle of the model by FACTOR times the distance between both middles. "
      "`z=0.5` moves the parts only along the z axis.",
-     .store = store_explode, .others = "exploded explosion explode-view", FIELD(view.explode), .loads = true},
+     .store = store_explode, .others = "explosion explode-view", .also = "exploded=0.5", FIELD(view.explode),
+     .loads = true},
     {"shininess", 0, GROUP_MATERIALS, "ALPHA", NULL,
      "The exponent of all highlights: 10 gives wide highlights, 1000 gives sharp highlights.",
      "The value replaces the shininess of every material, including materials set by `--material`.", .now = "material",
@@ -785,6 +785,11 @@ struct option option_table[OPTIONS_MAX] = {
     {"fps", 0, GROUP_ANIMATION, "N", "24", "Frames per second of an animation, 0.1 to 240.", NULL,
      .store = store_number, .others = "speed delay", .also = "framerate frame-rate", FIELD(animation.fps), .min = 0.1,
      .max = 240},
+    {"stream", 0, GROUP_ANIMATION, NULL, NULL,
+     "Write each frame to standard output as a PNG, for a program that encodes videos.",
+     "For example, `lambent koala.obj --turntable 48 -b white --stream | ffmpeg -f image2pipe -framerate 24 -i - "
+     "-pix_fmt yuv420p turn.mp4`.",
+     .store = store_switch, .others = "pipe video mp4 ffmpeg", FIELD(animation.stream), .not_in = IN_JOB},
 
     {"threads", 'j', GROUP_WORK, "N", "one per processor", "The number of threads. It does not affect the picture.",
      NULL, .store = store_integer, .others = "jobs parallel", .also = "cores cpus", FIELD(work.threads), .min = 1,

@@ -272,19 +272,6 @@ bool store_size(const struct option *option, const char *value, struct options *
     return true;
 }
 
-// One side of the picture; the other side follows, until the command line gives it too.
-bool store_side(const struct option *option, const char *value, struct options *options, lam_error *error)
-{
-    double pixels;
-    if (!number_between(option, value, true, &pixels, error))
-        return false;
-    if (!options->picture.has_size)
-        options->picture.width = options->picture.height = (int)pixels;
-    options->picture.has_size = true;
-    *(int *)field_of(options, option->field) = (int)pixels;
-    return true;
-}
-
 // Parses "1024,256x128".
 bool store_sizes(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
@@ -499,10 +486,7 @@ bool store_jobs(const struct option *option, const char *value, struct options *
 
 bool store_light(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
-    const char *text = value + (*value == '+');
-    if (*text && !text[strspn(text, "0123456789.-,/ ")])
-        return wrong(error, value, "a kind of light: point:position=x/y/z, or directional:direction=x/y/z");
-    bool ok = strcmp(value, "none") == 0 || lam_scene_add_light_text(NULL, text, NULL, error) == 0;
+    bool ok = strcmp(value, "none") == 0 || lam_scene_add_light_text(NULL, value + (*value == '+'), NULL, error) == 0;
     return ok && append(option, value, options, error);
 }
 

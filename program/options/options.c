@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <lambent/animation.h>
 #include <lambent/render.h>
 
 #include "command_table.h"
@@ -192,18 +193,6 @@ static bool option_store(const struct option *option, const char *value, struct 
     return option->store(option, own, options, error);
 }
 
-// Options that other programs use to specify the model.
-static const char *const model_names[] = {"i", "in", "input", "infile", "model", "mesh", "shape", "load", "open", NULL};
-
-static bool is_one_of(const char *argument, const char *const *words)
-{
-    while (*words && strcmp(*words, argument) != 0)
-        words++;
-    return *words;
-}
-
-bool option_names_model(const char *name) { return is_one_of(name, model_names); }
-
 static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_error *error)
 {
     char typed[64];
@@ -216,9 +205,6 @@ static bool unknown_long(const char *name, size_t length, uint64_t groups, lam_e
             suggest_also(&nearest, o->name, o->others);
             suggest_also(&nearest, o->name, o->also);
         }
-    if (nearest.distance > 0 && is_one_of(typed, model_names))
-        return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; a model needs no option: lambent MODEL",
-                        typed);
     const struct option *meant = nearest.best ? option_find(nearest.best) : NULL;
     if (meant && meant->now && meant->key)
         return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; did you mean '--%s %s=%s'?", typed, meant->now,
@@ -237,9 +223,6 @@ static bool unknown_letter(const char *argument, char letter, uint64_t groups, l
         return complain(error, LAM_BAD_ARGUMENT,
                         "unknown option '%s'; the size of the picture is --size WIDTHxHEIGHT, such as -s 640x480",
                         argument);
-    if (is_one_of(typed, model_names))
-        return complain(error, LAM_BAD_ARGUMENT, "unknown option '-%c'; a model needs no option: lambent MODEL",
-                        letter);
     if (strchr(argument, '.') && access(argument, F_OK) == 0)
         return complain(error, LAM_BAD_ARGUMENT,
                         "unknown option '-%c'; for the file '%s' write './%s', or '--' before it", letter, argument,
@@ -559,6 +542,18 @@ static bool has_long_dash(const char *argument)
 
 static bool is_number(const char *argument) { return *argument && !argument[strspn(argument, "0123456789")]; }
 
+// A picture moves if an animation of the file is given without a time and its format is for moving pictures.
+static bool move(struct options *o, lam_error *error)
+{
+    o->picture.output = o->picture.output || !o->animation.stream ? o->picture.output : "-";
+    const char *format = o->picture.output ? lam_animation_format(o->picture.output) : NULL;
+    bool moves = (format && strcmp(format, "png") != 0) || o->animation.stream;
+    bool otherwise = o->model.has_time || o->animation.turntable || o->animation.sweeps.count ||
+                     o->picture.save_scene || o->batch.view_count > 1 || o->batch.size_count > 1 || o->work.repeat > 1;
+    const struct option *sweep = option_find("sweep");
+    return !moves || otherwise || !o->model.animation || sweep->store(sweep, "time", o, error);
+}
+
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error)
 {
     int operands = 0;
@@ -586,5 +581,5 @@ int options_parse(int count, char **words, uint64_t groups, struct options *opti
             return -1;
         }
     }
-    return operands;
+    return groups & 1ull << GROUP_ANIMATION && !move(options, error) ? -1 : operands;
 }

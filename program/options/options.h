@@ -194,8 +194,6 @@ void options_drop_settings(struct options *options);
 // Returns the option with a long name, or NULL if there is no such option.
 const struct option *option_find(const char *name);
 
-bool option_names_model(const char *name); // whether other programs give the model with an option of this name
-
 // Returns the index of the first operand: an argument that is neither an option nor an option's value. Returns −1 if
 // there is no operand, or if "--" or an unknown option precedes it.
 int options_first_operand(int count, char **words);
@@ -233,8 +231,8 @@ option_parser store_light, store_material, store_rotation, store_section; // str
 option_parser store_texts, store_path, store_list, store_across; // struct texts; store_across: at most ACROSS_MAX
 option_parser store_reflectivity;                                // lam_rgb
 // Store several members of struct options.
-option_parser store_exposure, store_size, store_side, store_views, store_azimuths, store_sizes, store_segments,
-    store_ground, store_back_faces;
+option_parser store_exposure, store_size, store_views, store_azimuths, store_sizes, store_segments, store_ground,
+    store_back_faces;
 
 // Reads a plain decimal number such as "-1.5e3" at the start of `text`; hexadecimal numbers and "inf" are rejected.
 // Returns the rest of the text, or NULL if there is no number or it is too large.

@@ -142,20 +142,19 @@ static int run_words(int count, char **words, char **line, run_command_fn *run)
 {
     struct options options = option_defaults();
     lam_error error = {0};
-    struct own_words own;
     struct options scanned = scan_report_options(count, words);
-    bool ok = synonyms_replace(count, words, &own, &error);
-    const struct command *command = take_command(&own.count, own.words);
-    int operands = ok ? parse(command, own.count, own.words, &options, &error) : -1;
+    char **own = synonyms_replace(&count, words, &error);
+    const struct command *command = own ? take_command(&count, own) : command_table;
+    int operands = own ? parse(command, count, own, &options, &error) : -1;
     if (operands >= 0 && command == command_table && !options.report.help && !options.report.version)
-        operands = take_plain_operands(operands, own.words, &options);
+        operands = take_plain_operands(operands, own, &options);
     char *joined = NULL;
     if (operands > 2 && !command->verbatim)
-        operands = join_models(operands, own.words, &joined);
+        operands = join_models(operands, own, &joined);
     options.line = line;
-    int code = operands < 0 ? report_failure(&error, &scanned) : execute(command, operands, own.words, &options, run);
+    int code = operands < 0 ? report_failure(&error, &scanned) : execute(command, operands, own, &options, run);
     options_free(&options);
-    synonyms_free(&own);
+    free(own);
     free(joined);
     return code;
 }

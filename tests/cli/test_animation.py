@@ -1,13 +1,16 @@
 # test_animation.py: --turntable and --sweep: the files; each frame must equal the still picture of its values.
 import ctypes
 import ctypes.util
+import hashlib
 import json
 import os
+import shutil
 import signal
 import struct
 import subprocess
 import unittest
 
+from gif import read_gif
 from harness import PROGRAM, SHARED_MODELS, Case, covered, decode_png, pixel, png_chunks, read_png, wait_until_caught
 
 SMALL = ["-s", "64", "-q"]
@@ -353,6 +356,82 @@ class Sweep(Animated):
             self.assertLessEqual(max(abs(a - b) for a, b in zip(animation.pictures[k][2], still[2])), 1, k)
 
 
+class Gif(Animated):
+    def gif(self, *words):
+        self.good(*words, "-o", "a.gif", *SMALL)
+        return read_gif((self.folder / "a.gif").read_bytes())
+
+    def test_frames_are_the_still_pictures(self):
+        """The colours differ by less than the dither and half a box of the palette; the transparent pixels are those below half of alpha."""
+        words = ("torus", "--color", "orange", "--turntable", "6")
+        width, height, loops, frames = self.gif(*words)
+        self.assertEqual((width, height, loops, len(frames)), (64, 64, 0, 6))
+        self.good(*words, "-o", "{frame}.png", *SMALL)
+        for i, (_, pixels) in enumerate(frames):
+            _, _, still = read_png((self.folder / f"{i}.png").read_bytes())
+            for at in range(0, len(still), 4):
+                beside = [still[near + 3] for near in (at - 4, at + 4, at - 256, at + 256) if 0 <= near < len(still)]
+                if still[at + 3] in (0, 255) or 255 in beside:
+                    self.assertEqual(pixels[at + 3], 255 * (still[at + 3] >= 128))
+                if pixels[at + 3]:
+                    self.assertLessEqual(max(abs(a - b) for a, b in zip(pixels[at:at + 3], still[at:at + 3])), 24, (i, at))
+        self.assertGreater(len({frames[0][1][at:at + 3] for at in range(0, len(frames[0][1]), 4)}), 100)
+
+    def test_delays_add_up(self):
+        for fps, delays in ((24, [4, 4, 5, 4, 4, 4, 4, 4, 5]), (12, [8, 9, 8, 8, 9, 8]), (50, [2] * 8), (0.5, [200, 200])):
+            found = [delay for delay, _ in self.gif("cube", "--turntable", len(delays), "--fps", fps)[3]]
+            self.assertEqual(sum(found), round(100 * len(delays) / fps))
+            self.assertEqual(sorted(found), sorted(delays))
+        self.bad(1, "cube", "--turntable", "4", "--fps", "60", "-o", "b.gif", says="GIF: 60 frames a second, expected at most 50", leaves={"a.gif"})
+
+    def test_transparency(self):
+        soft = self.gif("cube", "--look", "catalog", "--turntable", "2")[3][0][1]
+        colors = {bytes(soft[at:at + 4]) for at in range(0, len(soft), 4)}
+        self.assertIn(bytes(4), colors)
+        self.assertGreater(sum(soft[at:at + 4] == b"\0\0\0\xff" for at in range(0, len(soft), 4)), 20)  # the dithered shadow
+        self.assertTrue(all(alpha == 255 for alpha in self.gif("cube", "-b", "white", "--turntable", "2")[3][0][1][3::4]))
+        self.assertEqual(self.gif("cube", "--hide", "cube", "--turntable", "2")[3][0][1], bytes(4 * 64 * 64))
+
+    def test_still_and_small(self):
+        _, _, loops, frames = self.gif("cube")
+        self.assertEqual((loops, len(frames)), (None, 1))
+        for size in ("1", "1x7", "300x1"):
+            self.good("cube", "-s", size, "-o", "b.gif")
+            read_gif((self.folder / "b.gif").read_bytes())
+        self.good("teapot", "-s", "700x500", "--material", "gold", "-o", "b.gif")  # more codes than the table of LZW holds
+        read_gif((self.folder / "b.gif").read_bytes())
+
+    def test_same_bytes_everywhere(self):
+        hashes = set()
+        for words in ((), ("--threads", 1), ("--isa", "scalar")):
+            self.gif("teapot", "--material", "gold", "--turntable", "3", *words)
+            hashes.add(hashlib.sha256((self.folder / "a.gif").read_bytes()).hexdigest())
+        self.assertEqual(hashes, {"0f8af58eaf312776b630d14cbcb0a7b76a69cb511471ea0a8d969e8955bea11b"})
+
+    def test_stream(self):
+        words = ("cube", "--turntable", "3", "-s", "16")
+        stream = self.good(*words, "--stream", "-q").stdout
+        self.good(*words, "-o", "{frame}.png")
+        self.assertEqual(stream, b"".join((self.folder / f"{i}.png").read_bytes() for i in range(3)))
+        self.bad(1, *words, "--stream", "-o", "x.png", says="expected -o -", leaves=self.new_files())
+        self.bad(1, "cube", "--stream", says="needs --turntable", leaves=self.new_files())
+        if shutil.which("ffmpeg"):
+            video = subprocess.run(["ffmpeg", "-v", "error", "-f", "image2pipe", "-i", "-", "-f", "framemd5", "-"], input=stream, stdout=subprocess.PIPE, check=True).stdout
+            self.assertEqual(sum(not line.startswith(b"#") for line in video.splitlines()), 3)
+
+    @unittest.skipUnless((SHARED_MODELS / "glb/kaykit_adventurers/Knight.glb").exists(), "no models")
+    def test_an_animation_moves(self):
+        knight = SHARED_MODELS / "glb/kaykit_adventurers/Knight.glb"
+        length = next(row["seconds"] for row in json.loads(self.good("info", knight, "--json").stdout)["animations"] if row["name"] == "Walking_A")
+        frames = self.gif(knight, "--animation", "Walking_A", "--fps", "10")[3]
+        self.assertEqual(len(frames), round(10 * length))
+        self.assertGreater(len({pixels for _, pixels in frames}), len(frames) // 2)
+        for words in (("--time", "0.3", "-o", "b.gif"), ("-o", "b.png")):
+            self.good(knight, "--animation", "Walking_A", *words, *SMALL)
+        self.assertEqual(len(read_gif((self.folder / "b.gif").read_bytes())[3]), 1)
+        self.assertNotIn(b"acTL", (self.folder / "b.png").read_bytes())
+
+
 class Reports(Animated):
     def test_json(self):
         report = self.report("cube.obj", "--turntable", "12", "--fps", "6", "-s", "64", "-o", "{frame}.png")
@@ -416,7 +495,7 @@ class Errors(Animated):
 
     def test_formats(self):
         for format in ("jpg", "ppm", "pfm"):
-            done = self.bad(3, "cube.obj", "--turntable", "4", "-o", f"a.{format}", says=f"a file of format {format} contains one picture; expected .png or .webp, or {{frame}}")
+            done = self.bad(3, "cube.obj", "--turntable", "4", "-o", f"a.{format}", says=f"a file of format {format} contains one picture; expected .png, .webp or .gif, or {{frame}}")
             self.assertEqual(done.stderr.decode().count("\n"), 1)
 
     def test_sweeps(self):

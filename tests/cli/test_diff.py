@@ -125,7 +125,7 @@ class Diff(Case):
         self.bad(1, "cube.obj", "--tolerance", 4, says="does not apply")
         self.bad(1, "diff", a, b, "--tolerance", -1, says="--tolerance")
         self.bad(1, "diff", a, b, "-o", "d.pfm", says="bytes")
-        self.bad(3, "diff", a, b, "-o", "d.gif", says="d.gif")
+        self.bad(3, "diff", a, b, "-o", "d.tif", says="d.tif")
         self.bad(5, "diff", a, b, "-o", "nowhere/d.png", says="nowhere")
         done = self.run_program("diff", a, c, "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)["error"]["exit"]), (1, 1))

@@ -282,7 +282,7 @@ class Outputs(Case):
         self.bad(5, "missing.obj", "-o", "no/x.png", says="no/x.png")
 
     def test_unknown_ending(self):
-        for name in ("x.gif", "x.png.zip", ".png/x.gif"):
+        for name in ("x.giff", "x.png.zip", ".png/x.bmp"):
             self.bad(3, "cube.obj", "-o", name, says=name)
         self.bad(3, "cube.obj", "-o", "x.step", says="lambent cannot write .step; use .png")
         self.bad(3, "cube.obj", "-o", "part-v1.0", says="the extension .0 is not a picture format; expected .png")

@@ -3,7 +3,7 @@ import os
 
 from harness import Case, covered, read_png
 
-ANIMATION = "use .webp, which supports animations"
+ANIMATION = "use .gif or .webp, which support animations; for a video, pipe frames to ffmpeg"
 SIZE = "-s 640x480"
 
 
@@ -39,7 +39,7 @@ class Sentences(Case):
 
     def test_pictures(self):
         self.check({
-            "cube.obj -o t.mp4": (3, "lambent cannot write .mp4", ANIMATION), "cube.obj -o t.GIF": (3, ANIMATION),
+            "cube.obj -o t.mp4": (3, "lambent cannot write .mp4", ANIMATION), "cube.obj -o t.webm": (3, ANIMATION),
             "cube.obj -o t.pdf": (3, "use .png"), "cube.obj -o t.hdr": (3, "use .exr"), "cube.obj -o t.pgn": (3, "use .png"),
             "shape cube -o t.glb": (3, ".obj, .stl or .ply"),
             "cube.obj --output=~/t.png": (1, "--output ~/t.png"), "cube.obj --watch -o t.png": (1, "the command is: lambent view"),
@@ -52,9 +52,9 @@ class Sentences(Case):
             "cube.obj -c red": (1, "'--color'"), "cube.obj -l point": (1, "'--light'"), "-V": (1, "'--version'"),
             "-?": (1, "'--help'"), "cube.obj –size 640": (1, "a typographic dash"), "cube.obj —size 640": (1, "a typographic dash"),
             "cube.obj --ao": (1, "needs a value: auto, off, screen or rays"), "cube.obj --turntable 0": (1, "from 2"),
-            "cube.obj --opacity 50%": (1, "50% is 0.5"), "cube.obj --light 1,1,1": (1, "point:position=x/y/z"),
-            "cube.obj --dpi 300": (1, "a size in pixels"), "cube.obj --texture x.png": (1, "names its textures"), "cube.obj --material wood": (1, "`lambent materials` lists"),
-            "cube.obj -s 80,60 -o t.png": (1, "-s 80x60"),
+            "cube.obj --opacity 50%": (1, "50% is 0.5"), "cube.obj --light 1,1,1": (1, "point, directional or spot"),
+            "cube.obj --dpi 300": (1, "'--size'"), "cube.obj --margin 3": (1, "'--zoom'"), "cube.obj --material wood": (1, "`lambent materials` lists"),
+            "cube.obj -s 80,60 -o t.png": (1, "one size is 800x600"),
             "cube.obj --color 255,128,0": (1, "'#ff8000'"), "cube.obj --color rgb(255,128,0)": (1, "'#ff8000'"),
             "cube.obj --color 0xff8800": (1, "'#ff8800'"),
             "compare cube.obj cube.stl": (1, "lambent diff"), "explain cube.obj 5 4": (1, "such as 512,400"),

@@ -191,7 +191,7 @@ class Patterns(Case):
             self.bad(1, "cube.obj", "-o", pattern, says=[says, "option '--output'"])
         self.bad(1, "a/cube.stl", "b/deep/cube.stl", "-o", "{stem}.png",
                  says=["'a/cube.stl' and 'b/deep/cube.stl' would both be written to 'cube.png'", "{dir}"])
-        self.bad(3, "cube.obj", "-o", "{stem}.gif", says="gif")
+        self.bad(3, "cube.obj", "-o", "{stem}.tif", says="tif")
 
 
 class Streams(Case):
@@ -354,7 +354,7 @@ class Report(Case):
         self.assertIn(b"png, 33x22, ", self.good("s.json", "--dry-run", "-o", "s.png").stdout)
         self.assertFalse((self.folder / "s.png").exists())
         (self.folder / "cube.png").write_bytes(b"not ours")
-        for more, code in (((), 5), (("-o", "a.gif"), 3), (("-o", "cube.obj/a.png"), 5)):
+        for more, code in (((), 5), (("-o", "a.tif"), 3), (("-o", "cube.obj/a.png"), 5)):
             drawn, planned = self.run_program("cube.obj", *more), self.run_program("cube.obj", "--dry-run", *more)
             self.assertEqual((drawn.returncode, drawn.stderr), (code, planned.stderr))
             self.assertEqual(planned.returncode, code)
@@ -363,7 +363,7 @@ class Report(Case):
             self.bad(1, *command, "--dry-run", says="dry-run")
 
     def test_errors_are_reported(self):
-        for words, code, name in ((("missing.obj",), 2, "cannot-read"), (("cube.obj", "-o", "x.gif"), 3, "unsupported"),
+        for words, code, name in ((("missing.obj",), 2, "cannot-read"), (("cube.obj", "-o", "x.tif"), 3, "unsupported"),
                                   (("cube.obj", "--memory-limit", "1k"), 4, "limit"),
                                   (("cube.obj", "-o", "no/x.png"), 5, "cannot-write"), (("--size", "x"), 1, "usage")):
             done = self.run_program(*words, "--json")

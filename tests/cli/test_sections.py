@@ -101,7 +101,7 @@ class Sections(Case):
         warnings = self.report("sphere", "-s", "32", "--section", "x=0", "--opacity", "0.5", "-o", "a.png")["warnings"]
         self.assertIn("transparent", " ".join(warnings))
         self.bad(1, "sphere", "--section", "x=-3", says=("remove the whole model",))
-        for wrong in ("q=1", "x", "x=", "x=1k", "x=nan", "normal=0/0/0", "normal=1/2", "x=0,y=0", "x=0,color=quux", "distance=3", "normal=1/0/0,normal=0/1/0"):
+        for wrong in ("q=1", "q", "x=", "x=1k", "x=nan", "normal=0/0/0", "normal=1/2", "x=0,y=0", "x=0,color=quux", "distance=3", "normal=1/0/0,normal=0/1/0"):
             self.bad(1, "sphere", "--section", wrong, says=("--section",))
         self.bad(1, "sphere", *("--section", "x=0") * 9, says=("at most 8",))
 

@@ -51,7 +51,7 @@ class Errors(unittest.TestCase):
                 (lambent.BadValue, ValueError, "^vertices: found an array of the shape 4 and", lambda: lambent.Mesh([1, 2, 3, 4])),
                 (lambent.BadValue, ValueError, "[0-9]+", lambda: lambent.render(([[0, 0, 0]], [[0, 1, 2]]))),
                 (lambent.BadValue, ValueError, "^Scene.add: found int", lambda: lambent.render(5)),
-                (lambent.Unsupported, NotImplementedError, "gif", lambda: lambent.render("cube", 16).encode("gif")),
+                (lambent.Unsupported, NotImplementedError, "tif", lambda: lambent.render("cube", 16).encode("tif")),
                 (lambent.CannotWrite, OSError, "/none/", lambda: lambent.render("cube", 16).save("/none/a.png")),
                 (lambent.LimitReached, lambent.Error, "triangles, expected at most 3", lambda: lambent.render("tests/models/cube.obj", triangle_limit=3)),
                 (lambent.OutOfMemory, MemoryError, "memory limit", lambda: lambent.render("examples/models/spot.glb", memory_limit=1000)),

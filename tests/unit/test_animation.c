@@ -22,13 +22,14 @@ TEST(test_formats)
 {
     assert_string_equal(lam_animation_format("a/b.PNG"), "png");
     assert_string_equal(lam_animation_format("b.webp"), "webp");
+    assert_string_equal(lam_animation_format("b.gif"), "gif");
     assert_null(lam_animation_format("b.jpg"));
     assert_null(lam_animation_format("png"));
     assert_null(lam_animation_format(NULL));
     lam_error error;
     assert_null(lam_animation_make("jpg", 10, 10, NULL, &error));
     assert_int_equal(error.code, LAM_UNSUPPORTED);
-    assert_string_equal(error.text, "animation: 'jpg' is not a format for animations, expected png or webp");
+    assert_string_equal(error.text, "animation: 'jpg' is not a format for animations, expected png, webp or gif");
 }
 
 TEST(test_arguments)

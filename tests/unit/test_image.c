@@ -114,7 +114,7 @@ TEST(names_pick_formats)
     assert_int_equal(format, LAM_RGBA8);
     assert_true(lam_image_format_for("x.y.pfm", &format, NULL));
     assert_int_equal(format, LAM_RGBA32F);
-    expect_error(lam_image_format_for("a.gif", &format, &error), &error, LAM_UNSUPPORTED,
+    expect_error(lam_image_format_for("a.tif", &format, &error), &error, LAM_UNSUPPORTED,
                  ".png, .ppm, .pfm, .exr, .jpg");
     expect_error(lam_image_format_for("a.pngg", &format, &error), &error, LAM_UNSUPPORTED, "use .png");
     expect_error(lam_image_format_for("dir.png/a", &format, &error), &error, LAM_UNSUPPORTED, "no extension");
@@ -128,7 +128,7 @@ TEST(formats_that_are_written_are_read)
     lam_pixel_format pixels;
     lam_error error, unknown;
     int written = 0, format = 0;
-    assert_false(lam_image_format_for("a.gif", &pixels, &unknown));
+    assert_false(lam_image_format_for("a.bmp", &pixels, &unknown));
     for (const char *name; (name = lam_image_format_name(format)); format++) {
         snprintf(path, sizeof path, "%s/a.%s", folder, name);
         snprintf(wanted, sizeof wanted, ".%s", name);
@@ -144,7 +144,11 @@ TEST(formats_that_are_written_are_read)
             assert_true(lam_image_format_for(wanted, &pixels, &error));
         }
         lam_image image = pixels == LAM_RGBA8 ? bytes_picture(40, 30) : floats_picture(40, 30), again;
-        if (lam_image_save(&image, path, NULL, &error)) {
+        if (lam_image_save(&image, path, NULL, &error) && !lam_image_format_is_read(format)) {
+            assert_false(lam_image_load(&again, path, NULL, &error));
+            assert_int_equal(error.code, LAM_UNSUPPORTED);
+            unlink(path);
+        } else if (access(path, F_OK) == 0) {
             SUCCEEDS(lam_image_load(&again, path, NULL, &error));
             assert_true(again.width == 40 && again.height == 30 && again.format == pixels);
             lam_image_free(&again);
@@ -165,7 +169,7 @@ TEST(encode_checks_its_arguments)
     lam_image bytes = bytes_picture(3, 2), floats = floats_picture(3, 2), none = {0};
     AUTO_BYTES out = {&out, 5};
     lam_error error;
-    expect_error(lam_image_encode(&bytes, "gif", NULL, &out, &error), &error, LAM_UNSUPPORTED,
+    expect_error(lam_image_encode(&bytes, "tif", NULL, &out, &error), &error, LAM_UNSUPPORTED,
                  "png, ppm, pfm, exr, jpg");
     assert_null(out.data);
     expect_error(lam_image_encode(&bytes, "pfm", NULL, &out, &error), &error, LAM_BAD_ARGUMENT, "LAM_RGBA32F");

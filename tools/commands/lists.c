@@ -51,7 +51,8 @@ int run_formats(int operand_count, char **operands, const struct options *option
     }
     printf("Pictures that are read (environments, textures):\n ");
     for (int i = 0; (name = lam_image_format_name(i)); i++)
-        printf("%s %s", i ? "," : "", name);
+        if (lam_image_format_is_read(i))
+            printf("%s %s", i ? "," : "", name);
     printf("\n");
     return 0;
 }

@@ -25,11 +25,10 @@ static const struct option *expects_value(const char *argument)
 static void complete_synonyms(const struct typed_word *typed, const char *also, const char *of)
 {
     for (size_t length; also && *also; also += length + (also[length] == ' ')) {
-        char word[40], summary[60];
+        char word[40];
         length = strcspn(also, " ");
         snprintf(word, sizeof word, "%.*s", (int)strcspn(also, "= "), also);
-        snprintf(summary, sizeof summary, "same as %s", of);
-        complete_offer(typed, word, "", summary);
+        complete_offer(typed, word, "", of);
     }
 }
 

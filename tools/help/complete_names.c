@@ -19,26 +19,13 @@
 enum { SECONDS_MAX = 3 };
 
 // Offers a name that needs no quotes in a shell. A shell would run a command in other names.
-static void offer(const struct typed_word *typed, const char *name, const char *kind)
+static void offer(const struct typed_word *typed, const char *name)
 {
     bool plain = name && *name && *name != '-';
     for (const char *c = name; plain && *c; c++)
         plain = isalnum((unsigned char)*c) || strchr("._-+", *c) || (unsigned char)*c >= 0x80;
     if (plain)
-        complete_offer(typed, name, "", kind);
-}
-
-static void offer_names(const struct typed_word *typed, const lam_scene *scene)
-{
-    struct info_names names = {0};
-    lam_error unused;
-    if (!info_names_list(scene, &names, &unused))
-        return;
-    for (int i = 0; i < names.count; i++)
-        offer(typed, names.items[i].name, names.items[i].objects ? "an object" : "a part");
-    for (int i = 0; i < lam_scene_material_count(scene); i++)
-        offer(typed, lam_scene_material(scene, i)->name, "a material");
-    free(names.items);
+        complete_offer(typed, name, "", "a name in the model");
 }
 
 bool complete_from_model(const struct option *option, const struct typed_word *typed, int count, char **words)
@@ -62,9 +49,14 @@ bool complete_from_model(const struct option *option, const struct typed_word *t
     if (sandbox_start(&options, &paths, &error) && job_load(&job, &progress, &error)) {
         const lam_file_info *file = lam_scene_file_info(job.scene);
         for (int i = 0; animation && i < file->animation_count; i++)
-            offer(&name, file->animations[i].name, "an animation");
-        if (!animation)
-            offer_names(&name, job.scene);
+            offer(&name, file->animations[i].name);
+        struct info_names names = {0};
+        bool listed = !animation && info_names_list(job.scene, &names, &error);
+        for (int i = 0; i < names.count; i++)
+            offer(&name, names.items[i].name);
+        for (int i = 0; listed && i < lam_scene_material_count(job.scene); i++)
+            offer(&name, lam_scene_material(job.scene, i)->name);
+        free(names.items);
     }
     job_free(&job);
     options_free(&options);

@@ -53,11 +53,13 @@ static bool check_sweeps(const struct options *o, lam_error *error)
 
 bool animation_check(const struct options *o, lam_error *error)
 {
-    char turn[60];
-    snprintf(turn, sizeof turn, "--sweep; a turn of the model is --turntable %d", o->animation.frames);
     if (!animation_wanted(o))
-        return only_with(o, "frames", turn, error) && only_with(o, "fps", "--turntable or --sweep", error) &&
-               only_with(o, "turntable-light", "--turntable", error);
+        return only_with(o, "frames", "--sweep; or write --turntable N", error) &&
+               only_with(o, "fps", "--turntable or --sweep", error) &&
+               only_with(o, "turntable-light", "--turntable", error) &&
+               only_with(o, "stream", "--turntable, --sweep or --animation", error);
+    if (o->animation.stream && strcmp(o->picture.output, "-") != 0)
+        return complain(error, LAM_BAD_ARGUMENT, "option '--stream' writes to standard output, expected -o -");
     if (o->animation.turntable && o->animation.frames)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--frames' applies only to --sweep; --turntable sets the number of frames itself");
@@ -73,8 +75,8 @@ static bool check_format(const struct job *job, const struct options *o, lam_err
     if (job->frames.first || strcmp(job->format, "png") == 0 || lam_animation_format(job->output))
         return true;
     return complain(error, LAM_UNSUPPORTED,
-                    "option '--%s': a file of format %s contains one picture; expected .png or .webp, or {frame} in "
-                    "the name: -o '{stem}-{frame}.%s'",
+                    "option '--%s': a file of format %s contains one picture; expected .png, .webp or .gif, or "
+                    "{frame} in the name: -o '{stem}-{frame}.%s'",
                     animation_option(o), job->format, job->format);
 }
 
@@ -140,10 +142,11 @@ static bool name_frames(struct job *job, const struct animation *a, lam_error *e
 {
     free(job->frames.first);
     free(job->frames.last);
+    bool stream = a->given->animation.stream;
     job->frames.first = path_of_frame(a, 0);
-    job->frames.last = path_of_frame(a, a->count - 1);
+    job->frames.last = stream ? NULL : path_of_frame(a, a->count - 1);
     job->output = job->frames.first;
-    return (job->frames.first && job->frames.last) || complain(error, LAM_MACHINE, "out of memory");
+    return (job->frames.first && (stream || job->frames.last)) || complain(error, LAM_MACHINE, "out of memory");
 }
 
 // --- the options of a frame
@@ -287,9 +290,10 @@ static bool find_length(const struct job *job, double *length_s, lam_error *erro
         if (strcmp(name, number) == 0 || (other && strcmp(name, other) == 0))
             *length_s = file->animations[i].length_s;
     }
-    return *length_s > 0 || complain(error, LAM_BAD_ARGUMENT,
-                                     "option '--sweep time': the file does not state how long its animation is; "
-                                     "expected time=FROM..TO");
+    return *length_s > 0 || !option_given(job->options, "sweep") ||
+           complain(error, LAM_BAD_ARGUMENT,
+                    "option '--sweep time': the file does not state how long its animation is; "
+                    "expected time=FROM..TO");
 }
 
 // Sets the number of frames. For a time sweep without a range, sets the range to the whole animation.
@@ -377,6 +381,8 @@ static bool begin(struct job *job, const struct options *o, lam_error *error)
     a->count = animation_count(o);
     job->frames.count = a->count;
     job->frames.frames_per_second = o->animation.fps > 0 ? o->animation.fps : 24;
+    if (o->animation.stream && !name_frames(job, a, error))
+        return false;
     if (has_frame_names(o) &&
         (!name_frames(job, a, error) || !output_check(job->output, job->model, OUTPUT_PATTERN, error)))
         return false;

@@ -13,7 +13,7 @@
 static const struct {
     const char *name;
     const struct animation_codec *codec;
-} formats[] = {{"png", &animation_png}, {"webp", &animation_webp}};
+} formats[] = {{"png", &animation_png}, {"webp", &animation_webp}, {"gif", &animation_gif}};
 
 struct lam_animation {
     const struct animation_codec *codec;
@@ -60,7 +60,8 @@ lam_animation *lam_animation_make(const char *format, int width, int height, con
     if (!format)
         return fail(error, LAM_BAD_ARGUMENT, "animation: a format is needed"), NULL;
     if (index < 0) {
-        fail(error, LAM_UNSUPPORTED, "animation: '%s' is not a format for animations, expected png or webp", format);
+        fail(error, LAM_UNSUPPORTED, "animation: '%s' is not a format for animations, expected png, webp or gif",
+             format);
         return NULL;
     }
     if (!check(width, height, p, error))

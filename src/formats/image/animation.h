@@ -34,6 +34,6 @@ struct animation_codec {
     void (*free)(void *state);
 };
 
-extern const struct animation_codec animation_png, animation_webp;
+extern const struct animation_codec animation_png, animation_webp, animation_gif;
 
 #endif

@@ -58,6 +58,8 @@ enum { CODEC_HEAD = 512 };
 #define CODEC(name) extern const struct codec codec_##name;
 CODECS(CODEC)
 #undef CODEC
+// A format that Lambent only writes: its row has no probe and no read.
+extern const struct codec codec_gif;
 
 // Returns the codec of a file that starts with these bytes, or NULL if no format matches. If the bytes match several
 // formats, the extension of `name` (may be NULL) selects the format.

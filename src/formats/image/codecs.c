@@ -16,12 +16,14 @@
 #include <unistd.h>
 
 #define ROW(name) &codec_##name,
-static const struct codec *const codecs[] = {CODECS(ROW)};
+static const struct codec *const codecs[] = {CODECS(ROW) & codec_gif};
 enum { COUNT = sizeof codecs / sizeof *codecs, MAX_THREADS = 1024, LIST_BYTES = 128 };
 
 const char *lam_image_format_name(int format) { return (unsigned)format < COUNT ? codecs[format]->name : NULL; }
 
 const char *lam_image_format_alias(int format) { return (unsigned)format < COUNT ? codecs[format]->alias : NULL; }
+
+bool lam_image_format_is_read(int format) { return (unsigned)format < COUNT && codecs[format]->read; }
 
 const char *lam_image_format_written(int format) { return (unsigned)format < COUNT ? codecs[format]->written : NULL; }
 
@@ -66,8 +68,8 @@ static const char *instead_of(const char *word)
     static const struct {
         const char *words[12], *instead;
     } rows[] = {
-        {{"mp4", "mov", "avi", "mkv", "webm", "m4v", "mpg", "mpeg", "ogv", "gif", "apng"},
-         "webp, which supports animations"},
+        {{"mp4", "mov", "avi", "mkv", "webm", "m4v", "mpg", "mpeg", "ogv", "apng"},
+         "gif or .webp, which support animations; for a video, pipe frames to ffmpeg: -o - (docs/animation.md)"},
         {{"bmp", "tga", "tif", "tiff", "heic", "avif", "jp2", "svg", "pdf", "eps", "ico"}, "png"},
         {{"hdr", "rgbe"}, "exr"},
         {{"obj", "stl", "ply", "gltf", "glb", "3mf", "json", "step", "fbx"}, "png"}, // models
@@ -225,7 +227,7 @@ bool lam_image_format_for(const char *path, lam_pixel_format *format, lam_error 
 const struct codec *codec_of(const uint8_t *bytes, size_t size, const char *name)
 {
     for (int i = 0; i < COUNT; i++)
-        if (codecs[i]->probe(bytes, size))
+        if (codecs[i]->probe && codecs[i]->probe(bytes, size))
             return codecs[i];
     for (int i = 0; name && i < COUNT; i++)
         if (codecs[i]->unmarked && strcasecmp(path_ending(name), codecs[i]->name) == 0)

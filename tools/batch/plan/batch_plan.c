@@ -20,16 +20,12 @@ static bool make_pattern(struct batch_plan *plan, lam_error *error)
     if (output_name_is_pattern(output)) {
         plan->pattern = strdup(output);
     } else if (plan->view_count > 1) {
-        char one[80] = "";
-        if (o->batch.size_count == 2 && !*side && o->batch.sizes[0][0] == o->batch.sizes[0][1])
-            snprintf(one, sizeof one, "; one picture of this width and height is -s %dx%d", o->batch.sizes[0][0],
-                     o->batch.sizes[1][0]);
         if (output_is_named(output))
             return complain(
                 error, LAM_BAD_ARGUMENT,
                 "option '--output' names one picture, but each model has %d%s; name a folder, -o pictures/, or a "
                 "pattern, -o '{stem}%s%s.png'",
-                plan->view_count, one, side, size);
+                plan->view_count, *size ? " (one size is 800x600)" : "", side, size);
         bool slash = output && output[strlen(output) - 1] != '/';
         if (asprintf(&plan->pattern, "%s%s{stem}%s%s.png", output ? output : "", slash ? "/" : "", side, size) < 0)
             plan->pattern = NULL;

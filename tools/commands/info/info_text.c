@@ -57,32 +57,31 @@ static void print_color(lam_rgb c)
 
 // --- the sections
 
-// A unit in which a model of this size is measured: lengths, or areas and volumes.
-struct readable_unit {
-    const char *symbol;
-    double millimetres;
-};
-
-static struct readable_unit readable_unit(double largest_mm, bool length)
+// Returns the millimetres of a unit for a model of this size, for lengths or for areas and volumes.
+static double readable_unit(double largest_mm, bool length, const char **symbol)
 {
-    static const struct readable_unit units[] = {{" µm", 1e-3}, {" mm", 1}, {" cm", 10}, {" m", 1e3}, {" km", 1e6}};
-    int unit = largest_mm < 1 ? 0 : largest_mm < 1e3 ? 1 : largest_mm < 1e6 ? 3 : 4;
-    return units[unit == 1 && largest_mm >= 10 && !length ? 2 : unit];
+    static const char *const symbols[] = {" µm", " mm", " cm", " m", " km"};
+    static const double millimetres[] = {1e-3, 1, 10, 1e3, 1e6};
+    int unit = largest_mm < 1                     ? 0
+               : largest_mm < (length ? 1e3 : 10) ? 1
+               : largest_mm < 1e3                 ? 2
+               : largest_mm < 1e6                 ? 3
+                                                  : 4;
+    *symbol = symbols[unit];
+    return millimetres[unit];
 }
 
 // Prints areas and volumes, in the model's units if the file defines none (`largest_mm` is then 0).
 static void print_measure(const lam_scene *scene, double millimetres, double largest_mm)
 {
     struct info_measure measure = info_measure(scene);
-    struct readable_unit unit = {" units", 1};
-    if (largest_mm > 0)
-        unit = readable_unit(largest_mm, false);
-    double scale = largest_mm > 0 ? millimetres / unit.millimetres : 1;
+    const char *unit = " units";
+    double scale = largest_mm > 0 ? millimetres / readable_unit(largest_mm, false, &unit) : 1;
     if (!lam_scene_triangle_count(scene))
         return;
-    printf("%-12sarea %.4g%s²", "surface", measure.area * scale * scale, unit.symbol);
+    printf("%-12sarea %.4g%s²", "surface", measure.area * scale * scale, unit);
     if (measure.closed)
-        printf(", closed: volume %.4g%s³\n", measure.volume * scale * scale * scale, unit.symbol);
+        printf(", closed: volume %.4g%s³\n", measure.volume * scale * scale * scale, unit);
     else
         printf(", not closed\n");
 }
@@ -109,12 +108,12 @@ static void print_geometry(const struct info *info)
     lam_vec3 size = {high.x - low.x, high.y - low.y, high.z - low.z};
     double mm = unit.millimetres, largest = size.x > size.y ? size.x : size.y;
     largest = (largest > size.z ? largest : size.z) * mm;
-    struct readable_unit readable = readable_unit(largest, true);
-    double in = mm / readable.millimetres;
+    const char *symbol;
+    double in = mm / readable_unit(largest, true, &symbol);
     printf("%-12s%.4g × %.4g × %.4g%s%s", "size", size.x, size.y, size.z, unit.name ? " " : " (unit unknown)",
            unit.name ? unit.symbol : "");
-    if (largest > 0 && mm != readable.millimetres)
-        printf(" (%.4g × %.4g × %.4g%s)", size.x * in, size.y * in, size.z * in, readable.symbol);
+    if (largest > 0 && in != 1)
+        printf(" (%.4g × %.4g × %.4g%s)", size.x * in, size.y * in, size.z * in, symbol);
     printf(", %s up\n", lam_up_name(lam_scene_up(scene)));
     printf("%-12sfrom %.6g %.6g %.6g to %.6g %.6g %.6g\n", "", low.x, low.y, low.z, high.x, high.y, high.z);
     print_measure(scene, mm, largest);

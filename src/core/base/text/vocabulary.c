@@ -7,7 +7,7 @@
 enum { LENGTH_MAX = 63 };
 
 // Common synonyms, separated by spaces, in lower case with '-' between words. The command line accepts a synonym of a
-// value (program/options/synonyms.c); elsewhere, the error message suggests the name. If a name occurs in several rows, only the rows for the
+// value (program/help/synonyms.c); elsewhere, the error message suggests the name. If a name occurs in several rows, only the rows for the
 // current context are used.
 static const struct {
     const char *word, *others;

@@ -70,10 +70,10 @@ bool lam_section_parse(const char *text, lam_color_mode mode, lam_section *secti
     strcpy(copy, text);
     bool plane = false, distance = false;
     for (char *pair; (pair = strsep(&rest, ","));) {
-        char *value = strchr(pair, '=');
-        if (!value)
-            return fail_section(text, pair, error);
-        *value++ = 0;
+        char *end = strpbrk(pair, "=:");
+        const char *value = end ? end + 1 : "50%"; // an axis alone
+        if (end)
+            *end = 0;
         bool ok = true;
         if (strcmp(pair, "color") == 0) {
             if (!lam_color_parse(value, mode, &section->color, error))

@@ -4,29 +4,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <lambent/export.h>
 #include <lambent/material.h>
 #include <lambent/mesh.h>
 #include <lambent/scene.h>
 #include <lambent/words.h>
 
 #include "console.h"
-
-// Wishes that Lambent does not fulfil as typed, with the answer.
-static const struct {
-    const char *names, *answer;
-} answers[] = {
-    {"texture map-kd", "the model's file names its textures (MTL, glTF): lambent help formats"},
-    {"no-texture no-textures",
-     "--color white draws the model in one colour, --show base-color its colours without light"},
-    {"logo watermark overlay", "lambent draws no pictures into a picture; ImageMagick's `composite` does"},
-    {"dpi ppi", "a picture has a size in pixels; 10 cm at 300 dpi are -s 1181"},
-    {"margin padding border", "--zoom 0.9 leaves a margin; 1 fills 92 % of the picture"},
-};
+#include "output.h"
 
 // Finds `name` in a list such as "bg top=top eye=eye=*". Sets `meaning` to the text after the first equals sign.
 static bool find(const char *list, const char *name, char meaning[MEANING_SIZE])
@@ -62,32 +49,29 @@ const struct command *synonym_command(const char *name)
 
 // A command line while its words are replaced.
 struct replacing {
-    struct own_words *own;
+    char **words, *made; // `made`: memory for new words
+    int count;
     const struct command *command; // the command that a word names, or NULL
     uint64_t groups;               // of the command
     bool draws;                    // whether the command line names an output
-    bool ok;                       // false if memory ran out
 };
 
-static void add(struct replacing *r, char *word) { r->own->words[r->own->count++] = word; }
+static void add(struct replacing *r, const char *word) { r->words[r->count++] = (char *)(uintptr_t)word; }
 
-// Adds a new string, formatted as "HEAD" followed by `meaning`, in which `value` replaces *. A value of numbers and
-// commas gets slashes, as in Lambent's positions.
+// Makes a word: `head`, followed by `meaning`, in which `value` replaces *. A value of numbers and commas gets slashes, as
+// in Lambent's positions.
+enum { HEAD_SIZE = 200 };
 static char *make(struct replacing *r, const char *head, const char *meaning, const char *value)
 {
     const char *star = strchr(meaning, '*');
-    int before = star ? (int)(star - meaning) : (int)strlen(meaning);
     size_t end = strlen(value);
     bool twice = star && star[1] && end && value[end - 1] == star[1]; // "pictures/" and "*/"
-    char *text;
-    if (asprintf(&text, "%s%.*s%s%s", head, before, meaning, star ? value : "", star && !twice ? star + 1 : "") < 0) {
-        r->ok = false;
-        return NULL;
-    }
-    if (star && !value[strspn(value, "0123456789.,+-eE")])
-        for (char *c = strchr(text + strlen(head), ','); c; c = strchr(c, ','))
-            *c = '/';
-    return r->own->made[r->own->made_count++] = text;
+    char *word = r->made, *after = word + strlen(head);
+    r->made += 1 + sprintf(word, "%s%.*s%s%s", head, (int)strcspn(meaning, "*"), meaning, star ? value : "",
+                           star && !twice ? star + 1 : "");
+    for (char *c = after; star && !value[strspn(value, "0123456789.,+-eE")] && *c; c++)
+        *c = *c == ',' ? '/' : *c;
+    return word;
 }
 
 // Returns Lambent's word for a value, if the value is a synonym of exactly one of the option's words or materials.
@@ -118,18 +102,19 @@ static void add_option(struct replacing *r, const struct option *option, const c
         option = material;
     add(r, make(r, "--", option->name, ""));
     if (value)
-        add(r, (char *)(uintptr_t)own_value(option, value));
+        add(r, own_value(option, value));
 }
 
-// Adds a synonym with a meaning such as "top" or "eye=*". A second synonym with keys of the same option joins the first
-// one's value: `--eye 3,2,1 --look-at 0,0,0` becomes `--camera eye=3/2/1,target=0/0/0`.
+// Adds a synonym with a meaning such as "top" or "eye=*". A second part of the same value joins the first: `--eye 3,2,1
+// --look-at 0,0,0` becomes `--camera eye=3/2/1,target=0/0/0`, and `--width 8 --height 6` becomes `--size 8x6`.
 static void add_meaning(struct replacing *r, const struct option *option, const char *meaning, const char *value)
 {
-    char head[200] = "";
-    for (int i = 0; i + 1 < r->own->count && strstr(meaning, "=*"); i++)
-        if (strncmp(r->own->words[i], "--", 2) == 0 && strcmp(r->own->words[i] + 2, option->name) == 0) {
-            snprintf(head, sizeof head, "%s,", r->own->words[i + 1]);
-            r->own->words[i + 1] = make(r, head, meaning, value);
+    char head[HEAD_SIZE];
+    const char *joint = strstr(meaning, "=*") ? "," : *meaning == 'x' && meaning[1] == '*' ? "" : NULL;
+    for (int i = 0; joint && i + 1 < r->count; i++)
+        if (strncmp(r->words[i], "--", 2) == 0 && strcmp(r->words[i] + 2, option->name) == 0) {
+            snprintf(head, sizeof head, "%s%s", r->words[i + 1], joint);
+            r->words[i + 1] = make(r, head, meaning, value);
             return;
         }
     if (strcmp(meaning, "-") == 0) // Lambent always does this
@@ -139,15 +124,6 @@ static void add_meaning(struct replacing *r, const struct option *option, const 
 }
 
 static bool is_option(const char *word) { return word && word[0] == '-' && word[1] && !strchr("0123456789.", word[1]); }
-
-static bool answer(const char *name, lam_error *error)
-{
-    char unused[MEANING_SIZE];
-    for (size_t i = 0; i < sizeof answers / sizeof *answers; i++)
-        if (find(answers[i].names, name, unused))
-            return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; %s", name, answers[i].answer);
-    return true;
-}
 
 // Replaces one option with its value, `words[*at]` and maybe the next word.
 static bool replace_option(struct replacing *r, char **words, int *at, lam_error *error)
@@ -178,21 +154,12 @@ static bool replace_option(struct replacing *r, char **words, int *at, lam_error
         if (r->draws)
             return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; the command is: lambent %s %s", name,
                             r->command->name, r->command->operands ? r->command->operands : "");
-    } else if (!option && !answer(name, error)) {
-        return false;
-    } else if (!option && option_names_model(name)) {
-        if (value)
-            add(r, word + (value - word));
-    } else {
+    } else if (option || !find("in input infile model mesh load", name, meaning)) { // otherwise, the value is the model
         add(r, word);
+    } else if (value) {
+        add(r, value);
     }
     return true;
-}
-
-static bool is_there(const char *word)
-{
-    struct stat found;
-    return stat(word, &found) == 0 || lam_shape_find(word) >= 0;
 }
 
 // Returns the word for the first word of a command line if it means a command or an option without a value, otherwise
@@ -200,7 +167,7 @@ static bool is_there(const char *word)
 static const char *first_word(struct replacing *r, const char *word)
 {
     char meaning[MEANING_SIZE];
-    if (is_option(word) || find_command(word) || is_there(word))
+    if (is_option(word) || find_command(word) || access(word, F_OK) == 0 || lam_shape_find(word) >= 0)
         return NULL;
     if (synonym_command(word))
         return synonym_command(word)->name;
@@ -210,78 +177,65 @@ static const char *first_word(struct replacing *r, const char *word)
     return alone ? make(r, "--", word, "") : NULL;
 }
 
-static bool is_exported(const char *path)
+static void insert(struct replacing *r, const char *word)
 {
-    const char *dot = strrchr(path, '.'), *format;
-    for (int i = 0; dot && (format = lam_export_format(i)); i++)
-        if (strcasecmp(dot + 1, format) == 0)
-            return true;
-    return false;
-}
-
-static void insert(struct own_words *own, const char *word)
-{
-    memmove(own->words + 1, own->words, (size_t)own->count++ * sizeof *own->words);
-    own->words[0] = (char *)(uintptr_t)word;
+    memmove(r->words + 1, r->words, (size_t)r->count++ * sizeof *r->words);
+    r->words[0] = (char *)(uintptr_t)word;
 }
 
 // Names the command that the output implies: a model is converted, and a folder of models is drawn to a folder.
-static void imply_command(struct own_words *own)
+static void imply_command(struct replacing *r)
 {
     struct stat found;
-    int first = options_first_operand(own->count, own->words), output = own->count - 2;
-    while (output >= 0 && strcmp(own->words[output], "-o") != 0 && strcmp(own->words[output], "--output") != 0)
+    int first = options_first_operand(r->count, r->words), output = r->count - 2;
+    while (output >= 0 && strcmp(r->words[output], "-o") != 0 && strcmp(r->words[output], "--output") != 0)
         output--;
-    if (output < 0 || first < 0 || find_command(own->words[first]))
+    if (output < 0 || first < 0 || find_command(r->words[first]))
         return;
-    char *name = own->words[output + 1];
-    if (is_exported(name)) {
-        memmove(own->words + output, own->words + output + 2, (size_t)(own->count - output - 2) * sizeof name);
-        own->words[own->count-- - 2] = name;
-        insert(own, "convert");
-    } else if ((name[strlen(name) - 1] == '/' || strchr(name, '{')) && stat(own->words[first], &found) == 0 &&
-               S_ISDIR(found.st_mode)) {
-        insert(own, "batch");
+    char *name = r->words[output + 1];
+    if (is_model_name(name)) {
+        memmove(r->words + output, r->words + output + 2, (size_t)(r->count - output - 2) * sizeof name);
+        r->words[r->count-- - 2] = name;
+        insert(r, "convert");
+    } else if ((*name && name[strlen(name) - 1] == '/') || strchr(name, '{')) {
+        if (stat(r->words[first], &found) == 0 && S_ISDIR(found.st_mode))
+            insert(r, "batch");
     }
 }
 
-bool synonyms_replace(int count, char **given, struct own_words *own, lam_error *error)
+char **synonyms_replace(int *count, char **given, lam_error *error)
 {
-    struct replacing r = {own, NULL, command_table->groups, false, true};
-    *own = (struct own_words){calloc(2 * (size_t)count + 3, sizeof *own->words), 0,
-                              calloc(2 * (size_t)count + 1, sizeof *own->made), 0};
-    if (!own->words || !own->made)
-        return complain(error, LAM_MACHINE, "out of memory");
-    const char *first = count ? first_word(&r, given[0]) : NULL;
+    struct replacing r = {.groups = command_table->groups};
+    size_t size = 0;
+    for (int i = 0; i < *count; i++) {
+        size += 2 * strlen(given[i]) + 2 * (HEAD_SIZE + MEANING_SIZE + 4);
+        r.draws |= strncmp(given[i], "-o", 2) == 0 || strncmp(given[i], "--out", 5) == 0;
+    }
+    r.words = malloc((2 * (size_t)*count + 3) * sizeof *r.words + size);
+    if (!r.words)
+        return complain(error, LAM_MACHINE, "out of memory"), NULL;
+    r.made = (char *)(r.words + 2 * (size_t)*count + 3);
+    const char *first = *count ? first_word(&r, given[0]) : NULL;
     if (first)
         given[0] = (char *)(uintptr_t)first;
-    int operand = options_first_operand(count, given);
+    int operand = options_first_operand(*count, given), at = 0;
     r.command = operand >= 0 ? find_command(given[operand]) : NULL;
     if (r.command)
         r.groups = r.command->groups;
-    for (int i = 0; i < count; i++)
-        r.draws |= strncmp(given[i], "-o", 2) == 0 || strncmp(given[i], "--out", 5) == 0;
-    bool ok = r.ok, verbatim = r.command && r.command->verbatim, named = r.command;
-    int at = 0;
-    for (; ok && at < count && !verbatim && strcmp(given[at], "--") != 0; at++)
+    bool named = r.command, verbatim = named && r.command->verbatim, ok = true;
+    for (; ok && at < *count && !verbatim && strcmp(given[at], "--") != 0; at++)
         if (strncmp(given[at], "--", 2) == 0)
-            ok = replace_option(&r, given, &at, error) && (r.ok || complain(error, LAM_MACHINE, "out of memory"));
+            ok = replace_option(&r, given, &at, error);
         else if (strcmp(given[at], "-i") != 0)
             add(&r, given[at]);
-    for (; ok && at < count; at++)
+    for (; at < *count; at++)
         add(&r, given[at]);
-    if (ok && r.command && !named)
-        insert(own, r.command->name);
-    else if (ok && !r.command)
-        imply_command(own);
-    own->words[own->count] = NULL;
-    return ok;
-}
-
-void synonyms_free(struct own_words *own)
-{
-    for (int i = 0; i < own->made_count; i++)
-        free(own->made[i]);
-    free(own->made);
-    free(own->words);
+    if (r.command && !named)
+        insert(&r, r.command->name);
+    else if (!r.command)
+        imply_command(&r);
+    r.words[ *count = r.count] = NULL;
+    if (!ok)
+        free(r.words);
+    return ok ? r.words : NULL;
 }

@@ -4,20 +4,12 @@
 
 #include "command_table.h"
 
-// A command line in Lambent's own words. The caller frees it with synonyms_free.
-struct own_words {
-    char **words; // ends with NULL
-    int count;
-    char **made; // the strings that `words` contains and the given command line does not
-    int made_count;
-};
-
 // Replaces the synonyms that the rows of options and commands list (option.also, command.also): `--bg white` becomes
 // `--background white`, `stats a.stl` becomes `info a.stl`, and `a.stl -o a.glb` becomes `convert a.stl a.glb`. `given`
-// excludes the program's name. Fails only if memory runs out, with LAM_MACHINE, or with LAM_BAD_ARGUMENT for an option
-// that Lambent lacks and for which it knows an answer.
-bool synonyms_replace(int count, char **given, struct own_words *own, lam_error *error);
-void synonyms_free(struct own_words *own);
+// excludes the program's name. Returns the words, which end with NULL and which the caller frees with free(), and sets
+// `count`. Returns NULL if memory runs out (LAM_MACHINE), or for an option that Lambent lacks and for which it knows an
+// answer (LAM_BAD_ARGUMENT).
+char **synonyms_replace(int *count, char **given, lam_error *error);
 
 // Finds the option that a synonym means, among the options that a command with these groups accepts. Sets `meaning` to
 // the value that the synonym means: "" if the synonym only renames the option. Returns NULL if there is none.

@@ -4,7 +4,7 @@
 
 #include <lambent/camera.h>
 
-enum { ACROSS_MAX = 2, SIZES_MAX = 16 };
+enum { ACROSS_MAX = 2, SIZES_MAX = 16, SHOW_SIZE = 48 };
 
 // The values of a repeatable option, in order.
 struct texts {
@@ -182,6 +182,8 @@ struct batch_options {
     const char *views;  // as typed: a list of views, or of azimuths if by_azimuth
     int view_count;     // 0 means --view
     bool by_azimuth;
+    const char *shows; // as typed: a list of quantities
+    int show_count;    // 0 means --show
     int sizes[SIZES_MAX][2], size_count;
     const char *journal;     // NULL means the command's default; "none" disables it
     const char *shard;       // as typed (batch_shard.h); NULL means all models

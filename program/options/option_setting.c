@@ -133,7 +133,7 @@ void option_settings_fill(struct option table[OPTIONS_MAX])
     if (pool_used)
         return; // already filled
     for (int i = 0; i < rows; i++)
-        if (table[i].store == store_show)
+        if (table[i].store == store_show || table[i].store == store_shows)
             table[i].words = outputs();
     for (int i = 0; (setting = lam_draw_setting(i)); i++) {
         struct option *o = row_of(setting, open, count);

@@ -368,8 +368,11 @@ struct option option_table[OPTIONS_MAX] = {
      "`n.h` use the first light that has a direction; `n.l:key` and `n.h:key` select another light. Other names, such "
      "as `normals` and `depth`, show surface quantities. `all` writes the picture, every term and every light as "
      "layers of one `.exr` file. `.pfm` and `.exr` files store surface quantities unchanged. `docs/show.md` explains "
-     "how 8-bit pictures encode these quantities.",
-     .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
+     "how 8-bit pictures encode these quantities.\n`render` and `batch` also accept a list, such as "
+     "`color,depth,normals`, and draw a picture of each quantity; `color` is the usual picture. `{show}` in `-o` is "
+     "the "
+     "quantity.",
+     .several = "shows", .brief = "one term or quantity: diffuse, normals, depth ...", .store = store_show,
      .others = "layer debug term only",
      .also = "aov pass render-pass channel depth=depth mask=coverage silhouette=coverage normals=normals "
              "normal-map=normals unlit=base-color albedo=base-color",
@@ -899,6 +902,8 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(batch.views), .also_in = IN_JOB},
     {"azimuths", 0, GROUP_BATCH, "DEGREES", NULL, "Several angles.", NULL, .store = store_azimuths, .now = "azimuth",
      FIELD(batch.views), .min = -3600, .max = 3600, .also_in = IN_JOB},
+    {"shows", 0, GROUP_BATCH, "QUANTITIES", NULL, "Several quantities.", NULL, .store = store_shows, .now = "show",
+     FIELD(batch.shows), .also_in = IN_JOB},
     {"sizes", 0, GROUP_BATCH, "SIZES", NULL, "Several sizes.", NULL, .store = store_sizes, .now = "size",
      FIELD(batch.sizes), .max = 65535, .also_in = IN_JOB},
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE lists, one per line; repeatable.",

@@ -17,6 +17,8 @@ static lam_output split(const char *text, const char **light)
     *light = NULL;
     const char *colon = strchr(text, ':');
     size_t length = colon ? (size_t)(colon - text) : strlen(text);
+    if (strcmp(text, "color") == 0)
+        return LAM_OUTPUT_PICTURE;
     for (int i = LAM_OUTPUT_PICTURE; i < LAM_OUTPUT_COUNT; i++) {
         const char *name = lam_output_name((lam_output)i);
         if (strlen(name) != length || memcmp(name, text, length) != 0 ||
@@ -28,7 +30,7 @@ static lam_output split(const char *text, const char **light)
     return LAM_OUTPUT_COUNT;
 }
 
-bool store_show(const struct option *option, const char *value, struct options *options, lam_error *error)
+static bool check(const struct option *option, const char *value, lam_error *error)
 {
     const char *light;
     lam_output show = split(value, &light);
@@ -37,10 +39,8 @@ bool store_show(const struct option *option, const char *value, struct options *
     if (light && !*light)
         return complain(error, LAM_BAD_ARGUMENT,
                         "found '%.100s', expected a light's name or its number after the colon", value);
-    if (show < LAM_OUTPUT_COUNT || strcmp(value, "all") == 0) {
-        options->picture.show = value;
+    if (show < LAM_OUTPUT_COUNT || strcmp(value, "all") == 0)
         return true;
-    }
     char known[400] = "";
     struct suggestion nearest = suggest_start(value);
     for (const struct choice *w = option->words; w->name; w++) {
@@ -50,6 +50,30 @@ bool store_show(const struct option *option, const char *value, struct options *
     }
     return complain(error, LAM_BAD_ARGUMENT, "found '%.100s', expected %s%s%s%s", value, known,
                     nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
+}
+
+bool store_show(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    options->picture.show = value;
+    return check(option, value, error);
+}
+
+// Parses "color,depth,normals".
+bool store_shows(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    options->batch.shows = value;
+    options->batch.show_count = 0;
+    for (const char *at = value; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        char name[SHOW_SIZE];
+        if (strcspn(at, ",") >= SHOW_SIZE)
+            return complain(error, LAM_BAD_ARGUMENT, "'%.100s' has a name of more than %d letters", value,
+                            SHOW_SIZE - 1);
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
+        if (!check(option, name, error))
+            return false;
+        options->batch.show_count++;
+    }
+    return true;
 }
 
 lam_output show_option_what(const char *text)

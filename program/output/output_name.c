@@ -11,8 +11,9 @@
 static const struct {
     const char *name;
     unsigned bit; // 0 if the placeholder always has a value
-} words[] = {{"stem", 0},         {"ext", 0},           {"dir", 0}, {"view", NAME_VIEW}, {"azimuth", NAME_VIEW},
-             {"size", NAME_SIZE}, {"frame", NAME_FRAME}};
+} words[] = {
+    {"stem", 0},         {"ext", 0},          {"dir", 0},           {"view", NAME_VIEW}, {"azimuth", NAME_VIEW},
+    {"show", NAME_VIEW}, {"size", NAME_SIZE}, {"frame", NAME_FRAME}};
 
 enum { WORDS = sizeof words / sizeof words[0] };
 
@@ -139,6 +140,8 @@ static void print_word(FILE *out, const struct part *part, const struct output_w
         print_folder(out, w);
     } else if (is_placeholder(part, "view")) {
         fputs(w->view ? w->view : "", out);
+    } else if (is_placeholder(part, "show")) {
+        fputs(w->show ? w->show : "", out);
     } else if (is_placeholder(part, "azimuth")) {
         fprintf(out, "%.6g", w->azimuth_deg);
     } else if (is_placeholder(part, "size") && w->width == w->height) {

@@ -10,6 +10,7 @@ struct output_words {
     const char *model;  // {stem} is the model's file name without its extension, or "model" for "-"
     const char *root;   // {dir} is the model's folder relative to this folder; may be NULL or ""
     const char *view;   // {view}; NULL if the pattern does not contain it
+    const char *show;   // {show}
     double azimuth_deg; // {azimuth}, at most six digits
     int width, height;  // {size}: "256" for a square, otherwise "256x128"
     int frame, digits;  // {frame} with at least `digits` digits; OUTPUT_FRAME_OPEN keeps the placeholder

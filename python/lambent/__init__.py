@@ -7,14 +7,14 @@
 >>> picture.save("/tmp/teapot.png")
 """
 from ._core import (BadModel, BadValue, CannotRead, CannotWrite, Cancelled, Error, FileNotFound, LimitReached, OutOfMemory, TimeLimit, Unsupported, text_of)
-from ._fields import Camera, Light, Material
+from ._fields import Camera, Light, Material, views
 from ._mesh import Mesh
 from ._native import lib as _lib
 from ._picture import Picture
 from ._scene import Scene, load, render
 
 __version__ = text_of(_lib.lam_version())
-__all__ = ["render", "load", "Scene", "Mesh", "Material", "Light", "Camera", "Picture", "Error", "BadValue", "CannotRead", "FileNotFound", "BadModel",
+__all__ = ["render", "load", "views", "Scene", "Mesh", "Material", "Light", "Camera", "Picture", "Error", "BadValue", "CannotRead", "FileNotFound", "BadModel",
            "Unsupported", "LimitReached", "OutOfMemory", "TimeLimit", "CannotWrite", "Cancelled"]
 for _name in __all__:  # so that error messages and help show the public names of the classes
     getattr(__import__(__name__), _name).__module__ = __name__

@@ -231,6 +231,14 @@ class Light(type("Fields", (Described,), fields_of(lib.lam_light_field))):
         self.struct[0] = changed[0]
 
 
+def views(wanted) -> "list[dict[str, float]]":
+    """Directions as keyword arguments of `render`: for 24 (evenly distributed on a sphere), "ring:8@30", or "front,left"."""
+    view, text = ffi.new("lam_view *"), text_bytes("views", str(wanted))
+    count = call(lib.lam_views_parse, text, -1, ffi.NULL, ffi.NULL)
+    return [{name: math.degrees(getattr(view, name + "_rad")) for name in ("azimuth", "elevation")}
+            for index in range(count) if lib.lam_views_parse(text, index, view, ffi.NULL, ffi.NULL) > 0]
+
+
 class Part:
     """An attribute of a camera: a key of lam_camera_parse, and the member of lam_camera that it sets."""
 

@@ -75,6 +75,7 @@ def main():
     for name in lambent.__all__:
         if inspect.isclass(getattr(lambent, name)):
             print("\n".join(of_class(getattr(lambent, name))))
+    print("\ndef views(wanted: int | str) -> list[dict[str, float]]: ...")
     start = "model: Model, %s*, name: str | None = None, progress: Progress = None"
     print("\ndef load(%s%s) -> Scene: ..." % (start % "", keywords((), {"lam_load_params", "lam_control"})))
     print("def render(%s%s) -> Picture: ..." % (start % "size: int | tuple[int, int] | None = None, ", keywords((_options.OTHERS, _options.CHANGES))))

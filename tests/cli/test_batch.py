@@ -176,7 +176,7 @@ class Sources(Batch):
                                   ([], 1, "no model given"), (["empty"], 2, "found no model"), (["@none"], 2, "none: cannot read the list"),
                                   (["@zero"], 2, "zero byte"), (["a/x.stl", "-o", "-"], 1, "cannot write several pictures"),
                                   (["a/x.stl", "--views", "front,left", "-o", "x.png"], 1, "names one picture"),
-                                  (["a/x.stl", "--views", "front,left", "-o", "{stem}.png"], 1, "needs {view} or {size}"),
+                                  (["a/x.stl", "--views", "front,left", "-o", "{stem}.png"], 1, "needs {view}, {size} or {show}"),
                                   (["a/x.stl", "--views", "front,front"], 1, "a side twice"),
                                   (["a/x.stl", "--views", "front,side"], 1, "found 'side'"),
                                   (["a/x.stl", "--sizes", "16,0"], 1, "such as 1024,256x128"),

@@ -153,6 +153,23 @@ class Views(Case):
         self.assertEqual(len(self.drawn("cube.obj", "--view", 300)), 301)
         self.assertEqual(self.transforms()["frames"][299]["file_path"], "cube-299.png")
 
+    def test_quantities(self):
+        """A list of quantities draws each of them, and a frame of transforms.json belongs to the first."""
+        self.assertEqual(self.drawn("cube.obj", "--show", "color,depth", "--view", "front,top"),
+                         ["cube-front-color.png", "cube-front-depth.png", "cube-top-color.png", "cube-top-depth.png"])
+        self.good("batch", "cube.obj", "--views", 2, "--show", "color,ids,normals,light:key", "-s", 24, "-o", "d/{stem}/{view}-{show}.exr")
+        self.assertEqual([frame["file_path"] for frame in self.transforms("d/cube/transforms.json")["frames"]], ["0-color.exr", "1-color.exr"])
+        for show in "ids", "normals", "light:key", "color":
+            self.good("cube.obj", "--view", "front", "-s", 24, "-o", "one.exr", *(["--show", show] if show != "color" else []))
+            self.good("cube.obj", "--view", "front", "-s", 24, "-o", "two-{show}.exr", "--show", show + ",depth")
+            self.assertEqual((self.folder / "one.exr").read_bytes(), (self.folder / f"two-{show}.exr").read_bytes())
+        words = ("batch", "cube.obj", "-s", 16, "-o", "same/{show}.png", "--skip-same", "--show")
+        self.good(*words, "ids,depth")
+        self.assertIn("2 unchanged", self.good(*words, "ids,depth").stderr.decode())
+        for words, says in ((("--show", "color,deph"), "did you mean 'depth'?"), (("--show", "ids,ids"), "{show}"), (("--show", "ids,color", "-o", "a.png"), "names one picture"),
+                            (("--show", "ids,color", "--save-scene", "a.json"), "single picture"), (("--show", "ids,color", "--turntable", "4"), "--show")):
+            self.bad(1, "cube.obj", *words, says=says)
+
     def test_angles(self):
         """A direction is drawn as --azimuth and --elevation draw it, and the directions of a sphere have equal heights and the golden angle."""
         self.good("cube.obj", "--view", "ring:4@30", "-s", 64, "-o", "{azimuth}.png", "-q")

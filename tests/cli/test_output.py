@@ -184,7 +184,7 @@ class Patterns(Case):
         read_png((self.folder / "cube.png").read_bytes())
 
     def test_mistakes(self):
-        for pattern, says in (("{name}.png", "found '{name}' in the name, expected one of {stem}, {ext}, {dir}, {view}, {size};"),
+        for pattern, says in (("{name}.png", "found '{name}' in the name, expected one of {stem}, {ext}, {dir}, {view}, {azimuth}, {show}, {size};"),
                               ("{frame}.png", "found '{frame}'"), ("{stem.png", "'{stem.png' in the name, an unmatched brace"),
                               ("stem}.png", "'}.png' in the name, an unmatched brace"), ("{}.png", "found '{}'"),
                               ("{a{b}}.png", "an unmatched brace")):

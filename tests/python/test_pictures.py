@@ -137,6 +137,17 @@ class Arrays(unittest.TestCase):
         for wrong in ({"K": np.eye(4)}, {"K": K, "pose": -np.eye(4)}, {"K": [[90, 1, 2], [0, 80, 3], [0, 0, 1]]}, {"K": K, "fovy": 3}):
             self.assertRaises(lambent.BadValue, lambent.Camera, **wrong)
 
+    def test_views(self):
+        """The directions of a number are those of --view; depth is an array of distances."""
+        ways = lambent.views("ring:4@30")
+        np.testing.assert_allclose([ways[1]["azimuth"], ways[1]["elevation"]], [90, 30])
+        self.assertEqual(len(lambent.views(24)), 24)
+        self.assertRaises(lambent.BadValue, lambent.views, "ring:0")
+        scene = lambent.Scene().add("cube")
+        depths = [scene.render(33, show="depth", floats=True, **way)[..., 0] for way in ways]
+        self.assertEqual(depths[0].shape, (33, 33))
+        np.testing.assert_allclose(depths[0], depths[2], rtol=1e-5)
+
     def test_camera_of_a_picture(self):
         first = lambent.render("teapot", 64, azimuth=70)
         self.assertEqual(first.hash, lambent.render("teapot", 64, camera=first.camera).hash)

@@ -43,7 +43,7 @@ static bool check_models(int count, char **models, const struct options *o, lam_
 static bool check_terminal(int count, const struct options *o, lam_error *error)
 {
     bool alone = count == 1 && !o->batch.lists.count && o->batch.view_count <= 1 && o->batch.size_count <= 1 &&
-                 !animation_wanted(o);
+                 o->batch.show_count <= 1 && !animation_wanted(o);
     if (!terminal_start(o, alone, error))
         return false;
     if (o->picture.output && strcmp(o->picture.output, "-") == 0 && isatty(STDOUT_FILENO) && !terminal_shows())

@@ -63,9 +63,11 @@ bool animation_check(const struct options *o, lam_error *error)
     if (o->animation.turntable && o->animation.frames)
         return complain(error, LAM_BAD_ARGUMENT,
                         "option '--frames' applies only to --sweep; --turntable sets the number of frames itself");
-    if (o->batch.view_count > 1 || o->batch.size_count > 1)
+    if (o->batch.view_count > 1 || o->batch.size_count > 1 || o->batch.show_count > 1)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs one %s; found several", animation_option(o),
-                        o->batch.view_count > 1 ? "--view" : "--size");
+                        o->batch.view_count > 1   ? "--view"
+                        : o->batch.size_count > 1 ? "--size"
+                                                  : "--show");
     return not_with(o, "repeat", error) && not_with(o, "save-scene", error) && check_sweeps(o, error) &&
            (o->animation.turntable || only_with(o, "turntable-light", "--turntable", error));
 }

@@ -43,7 +43,8 @@ struct job_view {
     bool given;                    // `view` is set; otherwise the options select the view
     bool numbered;                 // one of many directions, whose cameras are written to transforms.json
     lam_view view;
-    int width, height; // pixels
+    char show[SHOW_SIZE]; // {show}; "" if the options select the quantity
+    int width, height;    // pixels
 };
 
 // Data shared by two jobs whose pictures are compared.

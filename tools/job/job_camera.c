@@ -50,6 +50,8 @@ void job_choose_view(struct job *job, const struct job_view *view)
 {
     job->own.picture.width = view->width;
     job->own.picture.height = view->height;
+    if (*view->show)
+        job->own.picture.show = view->show;
     job->own.view.chosen = view->given ? &view->view : NULL;
 }
 

@@ -158,8 +158,9 @@ static bool read_output(struct batch_job *job, const json_t *root, lam_error *er
         job->output = strdup(output);
     else if (format && (strlen(format) > 10 || strspn(format, "abcdefghijklmnopqrstuvwxyz") != strlen(format)))
         return refuse(error, "format", "expected the format of a picture, such as png");
-    else if (asprintf(&job->output, "{stem}%s%s.%s", o->batch.view_count > 1 ? "-{view}" : "",
-                      o->batch.size_count > 1 ? "-{size}" : "", format ? format : "png") < 0)
+    else if (asprintf(&job->output, "{stem}%s%s%s.%s", o->batch.view_count > 1 ? "-{view}" : "",
+                      o->batch.size_count > 1 ? "-{size}" : "", o->batch.show_count > 1 ? "-{show}" : "",
+                      format ? format : "png") < 0)
         job->output = NULL;
     o->picture.output = job->output;
     return job->output || complain(error, LAM_MACHINE, "out of memory");

@@ -220,6 +220,8 @@ uint64_t batch_key(const struct batch_key_parts *p)
         snprintf(numbers, sizeof numbers, "%.17g %.17g %dx%d", v->view.azimuth_rad, v->view.elevation_rad, v->width,
                  v->height);
     xxh64_add_text(&hash, numbers);
+    if (*v->show)
+        xxh64_add_text(&hash, v->show);
     for (int i = 0; i < p->file_count; i++)
         xxh64_add_text(&hash, p->files[i]);
     return xxh64_end(&hash);

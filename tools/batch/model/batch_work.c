@@ -209,7 +209,7 @@ static struct batch_drawing drawing_of(struct batch_work *u, const struct batch 
                                   // if some pictures were drawn before, the file is complete
                                   .transforms = count == task->plan->view_count && !u->contents ? u->transforms : NULL,
                                   .one_of_many = task->plan->count > 1,
-                                  .several = o->batch.view_count || o->batch.size_count};
+                                  .several = o->batch.view_count || o->batch.size_count || o->batch.show_count};
 }
 
 void batch_work_draw(struct batch_work *u, const struct batch *b, const struct options *o, lam_device *device,

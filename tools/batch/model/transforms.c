@@ -46,8 +46,9 @@ bool transforms_write(const struct job *job, const char *path, char *const *pict
     json_object_set_new(root, "model", json_string(job->model));
     set_lens(root, &job->cameras[0], job->views[0].width, job->views[0].height);
     for (int i = 0; i < job->view_count; i++)
-        json_array_append_new(frames,
-                              frame_of(job, i, pictures[i] + (strncmp(pictures[i], path, folder) == 0 ? folder : 0)));
+        if (strcmp(job->views[i].show, job->views[0].show) == 0) // one frame for all quantities
+            json_array_append_new(
+                frames, frame_of(job, i, pictures[i] + (strncmp(pictures[i], path, folder) == 0 ? folder : 0)));
     json_object_set_new(root, "frames", frames);
     char *text = json_dumps(root, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
     uint64_t size;

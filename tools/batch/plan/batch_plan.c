@@ -16,7 +16,7 @@ static bool make_pattern(struct batch_plan *plan, lam_error *error)
 {
     const struct options *o = plan->options;
     const char *output = o->picture.output, *side = o->batch.view_count > 1 ? "-{view}" : "",
-               *size = o->batch.size_count > 1 ? "-{size}" : "";
+               *size = o->batch.size_count > 1 ? "-{size}" : "", *show = o->batch.show_count > 1 ? "-{show}" : "";
     if (output_name_is_pattern(output)) {
         plan->pattern = strdup(output);
     } else if (plan->view_count > 1) {
@@ -24,10 +24,11 @@ static bool make_pattern(struct batch_plan *plan, lam_error *error)
             return complain(
                 error, LAM_BAD_ARGUMENT,
                 "option '--output' names one picture, but each model has %d%s; name a folder, -o pictures/, or a "
-                "pattern, -o '{stem}%s%s.png'",
-                plan->view_count, *size ? " (one size is 800x600)" : "", side, size);
+                "pattern, -o '{stem}%s%s%s.png'",
+                plan->view_count, *size ? " (one size is 800x600)" : "", side, size, show);
         bool slash = output && output[strlen(output) - 1] != '/';
-        if (asprintf(&plan->pattern, "%s%s{stem}%s%s.png", output ? output : "", slash ? "/" : "", side, size) < 0)
+        if (asprintf(&plan->pattern, "%s%s{stem}%s%s%s.png", output ? output : "", slash ? "/" : "", side, size, show) <
+            0)
             plan->pattern = NULL;
     } else {
         return true;
@@ -59,7 +60,10 @@ static bool check_together(const struct options *o, lam_error *error)
         return complain(error, LAM_BAD_ARGUMENT, "option '--shard-by' requires --shard K/N");
     if (o->batch.size_count && option_given(o, "size"))
         return complain(error, LAM_BAD_ARGUMENT, "option '--size': give all sizes in one list, such as 256,512");
-    if (o->picture.save_scene && (o->batch.view_count > 1 || o->batch.size_count > 1))
+    if (o->batch.show_count && option_given(o, "show"))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--show': give all quantities in one list, such as color,depth");
+    if (o->picture.save_scene && (o->batch.view_count > 1 || o->batch.size_count > 1 || o->batch.show_count > 1))
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' works only with a single picture");
     return true;
 }
@@ -93,16 +97,23 @@ bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_erro
     if (!check_together(o, error) || (o->batch.shard && !batch_shard_of(o->batch.shard, &plan->shard, error)))
         return false;
     plan->by_list = o->batch.shard_by == SHARD_BY_LIST;
-    int views = o->batch.view_count ? o->batch.view_count : 1, sizes = o->batch.size_count ? o->batch.size_count : 1;
-    if (!(plan->views = calloc((size_t)views * (size_t)sizes, sizeof *plan->views)))
+    const int views = o->batch.view_count ? o->batch.view_count : 1,
+              sizes = o->batch.size_count ? o->batch.size_count : 1,
+              shows = o->batch.show_count ? o->batch.show_count : 1;
+    if (!(plan->views = calloc((size_t)views * (size_t)sizes * (size_t)shows, sizeof *plan->views)))
         return complain(error, LAM_MACHINE, "out of memory");
-    for (int v = 0; v < views; v++)
-        for (int s = 0; s < sizes; s++) {
-            struct job_view *view = &plan->views[plan->view_count++];
-            set_view(view, o, v);
-            view->width = o->batch.size_count ? o->batch.sizes[s][0] : o->picture.width;
-            view->height = o->batch.size_count ? o->batch.sizes[s][1] : o->picture.height;
-        }
+    for (; plan->view_count < views * sizes * shows; plan->view_count++) {
+        struct job_view *view = &plan->views[plan->view_count];
+        const int s = plan->view_count / shows % sizes;
+        const char *show = o->batch.shows;
+        set_view(view, o, plan->view_count / (shows * sizes));
+        view->width = o->batch.size_count ? o->batch.sizes[s][0] : o->picture.width;
+        view->height = o->batch.size_count ? o->batch.sizes[s][1] : o->picture.height;
+        for (int i = plan->view_count % shows; i > 0; i--)
+            show = strchr(show, ',') + 1;
+        if (show)
+            snprintf(view->show, sizeof view->show, "%.*s", (int)strcspn(show, ","), show);
+    }
     return make_pattern(plan, error);
 }
 
@@ -141,6 +152,9 @@ char *batch_plan_output(const struct batch_plan *plan, size_t index, int view)
     struct output_words words = {.model = model->path,
                                  .root = model->root,
                                  .view = v->name,
+                                 .show = *v->show                      ? v->show
+                                         : plan->options->picture.show ? plan->options->picture.show
+                                                                       : "color",
                                  .azimuth_deg = in_degrees(v->view.azimuth_rad),
                                  .width = v->width,
                                  .height = v->height,
@@ -215,7 +229,7 @@ static bool find_doubles(const struct batch_plan *plan, const struct named_outpu
         if (named[i].model == named[i - 1].model)
             return complain(
                 error, LAM_BAD_ARGUMENT,
-                "several pictures of '%.150s' would be written to '%.200s'; the name needs {view} or {size}", a,
+                "several pictures of '%.150s' would be written to '%.200s'; the name needs {view}, {size} or {show}", a,
                 named[i].output);
         return batch_same_output(a, b, named[i].output, error);
     }

@@ -22,12 +22,14 @@ typedef struct lam_camera {
     // Distances along the view of the nearest and farthest drawn points; near < far, and near > 0 for perspective. Both
     // 0: fitted to the scene.
     double near_plane, far_plane;
-    // The intrinsics of a calibrated perspective camera, in pixels of the drawn picture. fx > 0: a point at (X, Y, Z) of
+    // The intrinsics of a calibrated perspective camera, in pixels. fx > 0: a point at (X, Y, Z) of
     // eye space is drawn at x = cx + fx X/−Z, y = cy − fy Y/−Z, measured from the picture's upper left corner (the centre
     // of the first pixel is at 0.5, 0.5). `fovy_rad` is then ignored, and fy must be above 0. fx = 0: `fovy_rad` or
     // `ortho_half_height`, with the axis in the middle of the picture.
     double fx, fy, cx, cy;
-    LAM_RESERVED(12);
+    // The size of the pictures that the intrinsics are for; another size scales them. 0, 0: the size of the drawn picture.
+    int width, height;
+    LAM_RESERVED(11);
 } lam_camera;
 
 // Returns a perspective camera at (0, 0, 4) that looks at the origin with a field of view of 30°.
@@ -166,7 +168,7 @@ LAM_API void lam_orbit_pan(lam_orbit *orbit, double right, double up);
 // Factors of 0 or less are ignored.
 LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 
-// Parses a camera from text: pairs key=value, separated by commas, of
+// Parses a camera from text: an object of JSON with the keys of scene files, or pairs key=value, separated by commas, of
 //   eye=x/y/z     required: its position
 //   target=x/y/z  default: the middle of the scene's box
 //   up=x/y/z      default: the scene's up axis
@@ -174,10 +176,11 @@ LAM_API void lam_orbit_zoom(lam_orbit *orbit, double factor);
 //   near=d,far=d  default: fitted to the scene
 // or of a calibrated camera:
 //   fx=,fy=,cx=,cy=     all four, in pixels, instead of fovy; or K=fx/0/cx/0/fy/cy/0/0/1
+//   width=,height=      the size that they are for; default: the drawn picture's
 //   pose=               instead of eye, target and up: 16 numbers separated by /, row by row, from the camera to the world
 //   convention=opencv   the meaning of cx, cy and pose (lam_camera_convention): opencv or opengl
-// such as "eye=2/1/4,fovy=40". If `scene` is NULL, the target is the origin and y is up. The text has at most 1023
-// bytes. Fails with LAM_BAD_ARGUMENT; the error states what was found and what was expected.
+// such as "eye=2/1/4,fovy=40". If `scene` is NULL, the target is the origin and y is up. Pairs have at most
+// 1023 bytes. Fails with LAM_BAD_ARGUMENT; the error states what was found and what was expected.
 LAM_API bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *camera, lam_error *error);
 
 // Returns the key of lam_camera_parse with this index (from 0), or NULL if the index is out of range.

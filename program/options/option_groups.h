@@ -178,9 +178,10 @@ struct limits_options {
 
 // Many models (render, batch).
 struct batch_options {
-    struct texts lists; // files that list models
-    const char *views;  // as typed: a list of views, or of azimuths if by_azimuth
-    int view_count;     // 0 means --view
+    struct texts lists;  // files that list models
+    const char *views;   // as typed: a list of views, or of azimuths if by_azimuth
+    const char *cameras; // a file of cameras instead, or NULL
+    int view_count;      // 0 means --view; 2 for a file of cameras, which has not been read yet
     bool by_azimuth;
     const char *shows; // as typed: a list of quantities
     int show_count;    // 0 means --show

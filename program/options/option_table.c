@@ -904,6 +904,11 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(batch.views), .min = -3600, .max = 3600, .also_in = IN_JOB},
     {"shows", 0, GROUP_BATCH, "QUANTITIES", NULL, "Several quantities.", NULL, .store = store_shows, .now = "show",
      FIELD(batch.shows), .also_in = IN_JOB},
+    {"cameras", 0, GROUP_BATCH, "FILE", NULL, "Draw one picture of each model for each camera of a file.",
+     "The file is JSON, CSV or the `transforms.json` of NeRF programs. Each row has the keys of `--camera`. If it has "
+     "`width` and `height`, the picture has this size, unless you give `--size`. `{view}` in `-o` is the number of the "
+     "row, from 0. For the formats, see `docs/cameras.md`.",
+     .kind = VALUE_FILE, .store = store_cameras, .others = "poses trajectory camera-file", FIELD(batch.cameras)},
     {"sizes", 0, GROUP_BATCH, "SIZES", NULL, "Several sizes.", NULL, .store = store_sizes, .now = "size",
      FIELD(batch.sizes), .max = 65535, .also_in = IN_JOB},
     {"files-from", 0, GROUP_BATCH, "FILE", NULL, "Draw the models that FILE lists, one per line; repeatable.",

@@ -339,6 +339,12 @@ bool store_azimuths(const struct option *option, const char *value, struct optio
     return true;
 }
 
+bool store_cameras(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    options->batch.view_count = 2;
+    return store_text(option, value, options, error);
+}
+
 // Parses "64" or "64x32".
 bool store_segments(const struct option *option, const char *value, struct options *options, lam_error *error)
 {

@@ -231,8 +231,8 @@ option_parser store_light, store_material, store_rotation, store_section; // str
 option_parser store_texts, store_path, store_list, store_across; // struct texts; store_across: at most ACROSS_MAX
 option_parser store_reflectivity;                                // lam_rgb
 // Store several members of struct options.
-option_parser store_exposure, store_size, store_views, store_azimuths, store_shows, store_sizes, store_segments,
-    store_ground, store_back_faces;
+option_parser store_exposure, store_size, store_views, store_azimuths, store_shows, store_cameras, store_sizes,
+    store_segments, store_ground, store_back_faces;
 
 // Reads a plain decimal number such as "-1.5e3" at the start of `text`; hexadecimal numbers and "inf" are rejected.
 // Returns the rest of the text, or NULL if there is no number or it is too large.

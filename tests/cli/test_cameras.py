@@ -211,3 +211,60 @@ class Views(Case):
         self.good(*words, "2")
         self.assertIn("2 unchanged", self.good(*words, "2").stderr.decode())
         self.assertNotIn("2 unchanged", self.good(*words, "ring:2").stderr.decode())
+
+
+class Files(Case):
+    def test_round_trip(self):
+        """A transforms.json that Lambent wrote draws the same bytes; so does the program's picture of one of its cameras."""
+        for words in ((), ("--projection", "orthographic"), ("--zoom", "1.3", "--rotate", "x:20"), ("--light", "point:frame=camera,position=1r/1r/0r", "--shadows")):
+            with self.subTest(words):
+                self.good("cube.obj", *words, "--view", "5,iso", "-s", "48x40", "-o", "a/{view}.png", "-q")
+                kept = [word for word in words if word not in ("--projection", "orthographic", "--zoom", "1.3")]
+                self.good("cube.obj", *kept, "--cameras", "a/transforms.json", "-o", "b/{view}.png", "-q")
+                for i, name in enumerate(["0", "1", "2", "3", "4", "iso"]):
+                    self.assertEqual((self.folder / f"a/{name}.png").read_bytes(), (self.folder / f"b/{i}.png").read_bytes(), name)
+        self.assertEqual(read_png((self.folder / "b/0.png").read_bytes())[:2], (48, 40))
+
+    def test_formats(self):
+        """JSON, CSV and frames of other programs are the same cameras as words; --size scales the intrinsics."""
+        K, pose = (60, 50, 30.5, 22), turned(10, 20, (1, 0.5, 4))
+        self.good("cube.obj", "-s", "64x48", "-o", "one.png", "--camera", words(K, pose))
+        one = (self.folder / "one.png").read_bytes()
+        flat = "/".join(repr(float(n)) for row in pose for n in row)
+        files = {"list.json": json.dumps([{"K": [[K[0], 0, K[2]], [0, K[1], K[3]], [0, 0, 1]], "pose": pose, "width": 64, "height": 48}]),
+                 "named.json": json.dumps({"cameras": [dict(zip(("fx", "fy", "cx", "cy"), K), pose=[n for row in pose for n in row], width=64, height=48)]}),
+                 "rows.csv": "fx,fy,cx,cy,pose,convention,width,height\n" + ",".join(map(repr, K)) + f",{flat},,64,48\r\n",
+                 "nerf.json": json.dumps({"fl_x": K[0], "fl_y": K[1], "cx": K[2] + 0.5, "cy": K[3] + 0.5, "w": 64, "h": 48, "k1": 0, "aabb_scale": 4,
+                                          "frames": [{"file_path": "./r_0", "sharpness": 3, "transform_matrix": opengl(pose)}]})}
+        for name, text in files.items():
+            (self.folder / name).write_text(text)
+            self.good("cube.obj", "--cameras", name, "-o", "two-{view}.png")
+            self.assertEqual(one, (self.folder / "two-0.png").read_bytes(), name)
+        self.good("cube.obj", "-s", "128x96", "-o", "one.png", "--camera", words((120, 100, 61.5, 44.5), pose))
+        self.good("cube.obj", "--cameras", "list.json", "-s", "128x96", "-o", "two-{view}.png")
+        self.assertEqual((self.folder / "one.png").read_bytes(), (self.folder / "two-0.png").read_bytes())
+        self.bad(1, "cube.obj", "--cameras", "list.json", "-s", "96", "-o", "three-{view}.png", says=("64x48", "96x96", "another ratio"))
+        (self.folder / "angle.json").write_text(json.dumps({"camera_angle_x": math.radians(40), "frames": [{"transform_matrix": opengl(pose)}]}))
+        self.good("cube.obj", "--cameras", "angle.json", "-s", 40, "-o", "two-{view}.png")
+        self.good("cube.obj", "--camera", "fovy=40,pose=" + flat, "-s", 40, "-o", "one.png")
+        for a, b in zip(*(read_png((self.folder / name).read_bytes())[2] for name in ("one.png", "two-0.png"))):
+            self.assertLessEqual(abs(a - b), 1)
+
+    def test_refused(self):
+        """Errors name the file, the row and the field."""
+        row = {"fx": 60, "fy": 60, "cx": 30, "cy": 20, "pose": [n for line in turned(0, 0, (0, 0, 4)) for n in line]}
+        for name, text, says in (("a.json", json.dumps([row, {**row, "fx": -1}]), ("a.json: row 2: fx", "-1")), ("a.json", json.dumps([row, {**row, "k1": 0.1}]), ("row 2", "k1")),
+                                 ("a.json", json.dumps([{**row, "f": 1}]), ("row 1", "'f'")), ("a.json", "[1]", "row 1"), ("a.json", "[]", "no cameras"), ("a.json", "{", "a.json:1"),
+                                 ("a.csv", "eye,fovy\n0/0/4,30\n0/0/4,200\n", ("a.csv: row 2: ", "fovy")), ("a.csv", "eye,fovy\n1/2/3,4,5\n", "row 1"), ("a.csv", "eye\n", "no cameras"),
+                                 ("a.json", json.dumps({"frames": [{"transform_matrix": turned(0, 0, (0, 0, 4))[:3]}]}), ("row 1: pose", "3 rows")),
+                                 ("a.json", json.dumps([{**row, "width": 3}]), ("row 1", "has only width"))):
+            with self.subTest(says):
+                (self.folder / name).write_text(text)
+                found = self.run_program("cube.obj", "--cameras", name)
+                self.assertIn(found.returncode, (1, 2))
+                for part in (says,) if isinstance(says, str) else says:
+                    self.assertIn(part, found.stderr.decode())
+        self.bad(2, "cube.obj", "--cameras", "none.json", says="none.json: cannot open")
+        (self.folder / "a.json").write_text(json.dumps([row]))
+        for word in ("--view", "front"), ("--camera", "eye=0/0/4"), ("--zoom", "2"), ("--views", "3"):
+            self.bad(1, "cube.obj", "--cameras", "a.json", *word, says="several cameras")

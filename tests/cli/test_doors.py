@@ -44,7 +44,7 @@ INVISIBLE = {
     **{f"{subject}: name": "reports and --show use it" for subject in doors.LIGHTS},
     **{f"{subject}: object": "the object is at the origin" for subject in doors.LIGHTS},
     "ambient: frame": "ambient light has no direction",
-    **{f"camera: {key}": "needs other keys; rows of MORE, and test_cameras.py" for key in ("fx", "fy", "cx", "cy", "pose")},
+    **{f"camera: {key}": "needs other keys; rows of MORE, and test_cameras.py" for key in ("fx", "fy", "cx", "cy", "pose", "width", "height")},
     "directional: target": "rows of MORE contain it together with position",
     "environment: faces": "pictures: test_environment.py",
     "environment: equirectangular": "pictures: test_environment.py",

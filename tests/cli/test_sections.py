@@ -119,7 +119,7 @@ class Sections(Case):
         self.file("b.json", json.dumps({**scene, "sections": []}))
         self.assertEqual(self.png("b.json"), whole)
         self.assertNotEqual(whole, both)
-        for wrong, place in (("x", "sections"), (["x=0", 3], "sections[1]"), (["x=0"] * 9, "sections")):
+        for wrong, place in (("q", "sections"), (["x=0", 3], "sections[1]"), (["x=0"] * 9, "sections")):
             self.file("c.json", json.dumps({**scene, "sections": wrong}))
             self.bad(2, "c.json", says=(place,))
 

@@ -267,7 +267,7 @@ static char *pictures_text(const struct batch *b)
         fprintf(out, "shard-by=list of %" PRIu64 " bytes\n", plan->list_bytes);
     for (int i = 0; i < plan->view_count; i++) {
         const struct job_view *v = &plan->views[i];
-        fprintf(out, "picture=%s %dx%d%s\n", v->name, v->width, v->height, v->show);
+        fprintf(out, "picture=%s %dx%d%s%s\n", v->name, v->width, v->height, v->show, v->camera ? v->camera : "");
     }
     if (fclose(out) == 0)
         return text;

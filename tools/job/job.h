@@ -44,6 +44,7 @@ struct job_view {
     bool numbered;                 // one of many directions, whose cameras are written to transforms.json
     lam_view view;
     char show[SHOW_SIZE]; // {show}; "" if the options select the quantity
+    char *camera;         // text for lam_camera_parse instead of `view`, allocated with malloc, or NULL
     int width, height;    // pixels
 };
 

@@ -189,7 +189,11 @@ bool job_place_camera(struct job *job, lam_error *error)
     if (o->view.camera && strchr(o->view.camera, '='))
         // The text is always valid, because store_camera has parsed it.
         lam_camera_parse(o->view.camera, job->scene, &job->camera, NULL);
-    for (int i = 0; o->view.camera && i < job->view_count; i++)
-        job->cameras[i] = job->camera;
+    for (int i = job->view_count - 1; i >= 0; i--) {
+        if (job->views[i].camera) // also checked before
+            lam_camera_parse(job->views[i].camera, job->scene, &job->camera, NULL);
+        if (job->views[i].camera || o->view.camera)
+            job->cameras[i] = job->camera;
+    }
     return true;
 }

@@ -8,12 +8,34 @@
 #include <string.h>
 
 // After WORDS follow "ortho_half_height", the name of "ortho" in scene files, and keys of other programs that must be 0.
-static const char *const keys[] = {"eye",  "target", "up",   "fovy",       "ortho",
-                                   "near", "far",    "fx",   "fy",         "cx",
-                                   "cy",   "K",      "pose", "convention", "ortho_half_height",
-                                   "skew", "k1",     "k2",   "k3",         "k4",
-                                   "k5",   "k6",     "p1",   "p2",         NULL};
-enum { WORDS = 14, ZEROS = WORDS + 1 };
+static const char *const keys[] = {"eye",
+                                   "target",
+                                   "up",
+                                   "fovy",
+                                   "ortho",
+                                   "near",
+                                   "far",
+                                   "fx",
+                                   "fy",
+                                   "cx",
+                                   "cy",
+                                   "K",
+                                   "pose",
+                                   "convention",
+                                   "width",
+                                   "height",
+                                   "ortho_half_height",
+                                   "skew",
+                                   "k1",
+                                   "k2",
+                                   "k3",
+                                   "k4",
+                                   "k5",
+                                   "k6",
+                                   "p1",
+                                   "p2",
+                                   NULL};
+enum { WORDS = 16, ZEROS = WORDS + 1 };
 
 const char *lam_camera_key(int index) { return index >= 0 && index < WORDS ? keys[index] : NULL; }
 
@@ -82,6 +104,12 @@ static bool read_intrinsics(struct reader *r, const struct place *place, const j
             return json_unexpected(&r->json, KEY_OF(place, keys[i]), json_object_get(value, keys[i]),
                                    "0: Lambent draws neither distortion nor skew; undistort the pictures");
     }
+    if (!take_whole(r, place, value, "width", 1, 65535, &camera->width) ||
+        !take_whole(r, place, value, "height", 1, 65535, &camera->height))
+        return false;
+    if (!camera->width != !camera->height)
+        return json_fail(&r->json, place, "has only %s, expected both of width and height, or neither",
+                         camera->width ? "width" : "height");
     if (!given && !matrix)
         return true;
     for (int i = 0; i < 3; i++)
@@ -160,7 +188,9 @@ bool lam_camera_parse(const char *text, const lam_scene *scene, lam_camera *came
     struct reader r = {.json = {.error = error}, .scene = (lam_scene *)(uintptr_t)scene};
     if (!text || !camera)
         return fail(error, LAM_BAD_ARGUMENT, "lam_camera_parse: %s is NULL", text ? "camera" : "text");
-    json_t *value = words_parse(text, NULL, 0, NULL, error);
+    json_t *value = *text == '{' ? json_loads(text, 0, NULL) : words_parse(text, NULL, 0, NULL, error);
+    if (!value && *text == '{')
+        fail(error, LAM_BAD_ARGUMENT, "found '%.60s', expected an object of JSON", text);
     // Without a position, the words describe no camera; a scene file has a default eye.
     const bool placed = json_object_get(value, "eye") || json_object_get(value, "pose");
     bool ok = value && (placed ? read_camera(&r, NULL, value, camera)

@@ -551,6 +551,10 @@ static void put_camera(struct scene_writer *w, json_t *root, const lam_camera *c
         put(w, out, "fy", number(camera->fy));
         put(w, out, "cx", number(camera->cx));
         put(w, out, "cy", number(camera->cy));
+        if (camera->width) {
+            put(w, out, "width", json_integer(camera->width));
+            put(w, out, "height", json_integer(camera->height));
+        }
         put(w, out, "convention", json_string("opengl")); // cx and cy then need no rounding
     } else if (camera->ortho_half_height > 0)
         put(w, out, "ortho_half_height", number(camera->ortho_half_height));

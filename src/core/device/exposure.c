@@ -65,20 +65,17 @@ bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_came
     drawn.wireframe = drawn.no_surfaces = false;
     drawn.edges = 0;
     lam_camera smaller = *camera;
-    const int full_width = width, full_height = height;
+    if (!camera->width) {
+        smaller.width = width;
+        smaller.height = height;
+    }
     int longer = width > height ? width : height;
     if (longer > SIDE_MAX) {
         width = (int)((int64_t)width * SIDE_MAX / longer);
         height = (int)((int64_t)height * SIDE_MAX / longer);
     }
-    width = width > 0 ? width : 1;
-    height = height > 0 ? height : 1;
-    smaller.fx *= (double)width / full_width; // intrinsics are in pixels
-    smaller.cx *= (double)width / full_width;
-    smaller.fy *= (double)height / full_height;
-    smaller.cy *= (double)height / full_height;
     lam_image image = {0};
-    if (!lam_image_make(&image, width, height, LAM_RGBA32F, error))
+    if (!lam_image_make(&image, width > 0 ? width : 1, height > 0 ? height : 1, LAM_RGBA32F, error))
         return false;
     bool ok = lam_draw(device, scene, &smaller, &drawn, &image, control, error);
     size_t count = ok ? luminances(&image) : 0;

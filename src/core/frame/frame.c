@@ -421,6 +421,11 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
 {
     if (!frame_camera_check(camera, error) || !frame_params_check(params, error))
         return false;
+    const double ratio = camera->width ? (double)camera->width * height / ((double)camera->height * width) : 1;
+    if (!(ratio > 0.99 && ratio < 1.01))
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "camera: is for pictures of %dx%d pixels, but this one has %dx%d, another ratio", camera->width,
+                    camera->height, width, height);
     resolve_settings(frame, params, width, height);
     const lam_draw_params *settings = &frame->settings;
     if (!allocate_arrays(frame, scene, call, error))

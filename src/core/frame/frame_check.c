@@ -31,6 +31,9 @@ bool frame_camera_check(const lam_camera *camera, lam_error *error)
         return fail(error, LAM_BAD_ARGUMENT, "camera: fy is %g, expected a positive number", camera->fy);
     if (camera->fx > 0 && !(math_finite(camera->cx) && math_finite(camera->cy)))
         return fail(error, LAM_BAD_ARGUMENT, "camera: cx or cy is not finite");
+    if (camera->width < 0 || camera->height < 0 || !camera->width != !camera->height)
+        return fail(error, LAM_BAD_ARGUMENT, "camera: the size of its pictures is %d x %d, expected both above 0 or 0",
+                    camera->width, camera->height);
     if (half == 0 && camera->fx == 0 && !(camera->fovy_rad > 0 && camera->fovy_rad < PI))
         return fail(error, LAM_BAD_ARGUMENT, "camera: fovy is %g°, expected more than 0° and less than 180°",
                     math_degrees(camera->fovy_rad));

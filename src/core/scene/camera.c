@@ -36,8 +36,11 @@ bool lam_camera_project(const lam_camera *camera, int width, int height, lam_vec
 
 struct camera_lens camera_lens_of(const lam_camera *camera, int width, int height)
 {
-    if (camera_is_calibrated(camera))
-        return (struct camera_lens){{1 / camera->fx, 1 / camera->fy}, {camera->cx, camera->cy}};
+    if (camera_is_calibrated(camera)) {
+        const double x = camera->width ? (double)width / camera->width : 1,
+                     y = camera->height ? (double)height / camera->height : 1;
+        return (struct camera_lens){{1 / (camera->fx * x), 1 / (camera->fy * y)}, {camera->cx * x, camera->cy * y}};
+    }
     const double half = camera->ortho_half_height > 0 ? camera->ortho_half_height : math_tan(0.5 * camera->fovy_rad),
                  size = 2 * half / height;
     return (struct camera_lens){{size, size}, {0.5 * width, 0.5 * height}};
@@ -50,11 +53,12 @@ lam_mat4 camera_projection(const lam_camera *camera, int width, int height, doub
         return mat4_orthographic(camera->ortho_half_height, aspect, near_plane, far_plane);
     if (!camera_is_calibrated(camera))
         return mat4_perspective(camera->fovy_rad, aspect, near_plane, far_plane);
+    const double w = camera->width ? camera->width : width, h = camera->height ? camera->height : height;
     lam_mat4 m = mat4_perspective(PI / 2, 1, near_plane, far_plane);
-    m.m[0][0] = 2 * camera->fx / width;
-    m.m[1][1] = 2 * camera->fy / height;
-    m.m[0][2] = 1 - 2 * camera->cx / width;
-    m.m[1][2] = 2 * camera->cy / height - 1;
+    m.m[0][0] = 2 * camera->fx / w;
+    m.m[1][1] = 2 * camera->fy / h;
+    m.m[0][2] = 1 - 2 * camera->cx / w;
+    m.m[1][2] = 2 * camera->cy / h - 1;
     return m;
 }
 
@@ -68,7 +72,7 @@ bool lam_camera_intrinsics(const lam_camera *camera, int width, int height, lam_
     uint64_t state = float_state_enter();
     const struct camera_lens lens = camera_lens_of(camera, width, height);
     const double corner = convention == LAM_CONVENTION_OPENCV ? 0.5 : 0; // from the first pixel's centre to its corner
-    const bool given = camera_is_calibrated(camera);
+    const bool given = camera_is_calibrated(camera) && !camera->width;   // not rounded
     intrinsics[0] = given ? camera->fx : 1 / lens.pixel[0];
     intrinsics[1] = given ? camera->fy : 1 / lens.pixel[1];
     intrinsics[2] = lens.middle[0] - corner;
@@ -96,20 +100,16 @@ lam_mat4 lam_camera_pose(const lam_camera *camera, lam_camera_convention convent
 
 static bool pose_check(const lam_mat4 *pose, lam_error *error)
 {
-    enum { ROTATION = 3 };
     const double near = 1e-3; // six digits in a text file are enough
     static const char *const names[] = {"first", "second", "third"};
-    for (int i = 0; i < 16; i++)
-        if (!math_finite(pose->m[i / 4][i % 4]))
-            return fail(error, LAM_BAD_ARGUMENT, "pose: number %d is not finite", i + 1);
-    for (int j = 0; j < 4; j++)
-        if (pose->m[3][j] != (j == 3))
-            return fail(error, LAM_BAD_ARGUMENT, "pose: the last row is %g, %g, %g, %g, expected 0, 0, 0, 1",
-                        pose->m[3][0], pose->m[3][1], pose->m[3][2], pose->m[3][3]);
-    for (int i = 0; i < ROTATION; i++)
-        for (int j = i; j < ROTATION; j++) {
+    const double *last = pose->m[3];
+    if (last[0] != 0 || last[1] != 0 || last[2] != 0 || last[3] != 1)
+        return fail(error, LAM_BAD_ARGUMENT, "pose: the last row is %g, %g, %g, %g, expected 0, 0, 0, 1", last[0],
+                    last[1], last[2], last[3]);
+    for (int i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++) {
             double product = 0;
-            for (int k = 0; k < ROTATION; k++)
+            for (int k = 0; k < 3; k++)
                 product += pose->m[k][i] * pose->m[k][j];
             if (i == j && !(product > 1 - 2 * near && product < 1 + 2 * near))
                 return fail(error, LAM_BAD_ARGUMENT, "pose: the %s column has the length %.6g, expected 1", names[i],
@@ -125,9 +125,6 @@ static bool pose_check(const lam_mat4 *pose, lam_error *error)
 
 bool lam_camera_set_pose(lam_camera *camera, const lam_mat4 *pose, lam_camera_convention convention, lam_error *error)
 {
-    if ((unsigned)convention > LAM_CONVENTION_OPENGL)
-        return fail(error, LAM_BAD_ARGUMENT, "lam_camera_set_pose: convention %d is not one of lam_camera_convention",
-                    (int)convention);
     uint64_t state = float_state_enter();
     const bool ok = pose_check(pose, error);
     if (ok) {

@@ -222,6 +222,8 @@ uint64_t batch_key(const struct batch_key_parts *p)
     xxh64_add_text(&hash, numbers);
     if (*v->show)
         xxh64_add_text(&hash, v->show);
+    if (v->camera)
+        xxh64_add_text(&hash, v->camera);
     for (int i = 0; i < p->file_count; i++)
         xxh64_add_text(&hash, p->files[i]);
     return xxh64_end(&hash);

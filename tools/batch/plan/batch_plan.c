@@ -41,13 +41,17 @@ static bool make_pattern(struct batch_plan *plan, lam_error *error)
 
 static bool check_together(const struct options *o, lam_error *error)
 {
-    const bool angles = o->batch.by_azimuth; // these have the elevation of the other options
-    const char *const others[] = {angles ? "views" : "view",   "camera",   "azimuth",
-                                  angles ? NULL : "elevation", "azimuths", NULL};
-    for (int i = 0; o->batch.view_count && others[i]; i++)
-        if (option_given(o, others[i]))
+    static const char *const others[] = {"camera", "azimuth", "view", "elevation", "azimuths",
+                                         "views",  "zoom",    "fov",  "projection"};
+    const bool file = o->batch.cameras, angles = !file && o->batch.by_azimuth;
+    const int count = file ? 9 : angles ? 6 : o->batch.view_count ? 5 : 0;
+    for (int i = 0; i < count; i++)
+        if ((!angles || i < 2 || i == 5) && option_given(o, others[i])) // azimuths have an elevation
             return complain(error, LAM_BAD_ARGUMENT, "several %s and the option '--%s' cannot be used together",
-                            angles ? "azimuths" : "sides", others[i]);
+                            file     ? "cameras"
+                            : angles ? "azimuths"
+                                     : "sides",
+                            others[i]);
     const char *wants = o->batch.resume ? "resume" : o->batch.skip_same ? "skip-same" : NULL;
     if (wants && o->batch.journal && strcmp(o->batch.journal, "none") == 0)
         return complain(error, LAM_BAD_ARGUMENT, "option '--%s' needs a journal, but '--journal none' disables it",
@@ -91,30 +95,56 @@ static void set_view(struct job_view *out, const struct options *o, int index)
     }
 }
 
+// Sets the view of a camera of a file. The picture has the camera's size, unless the user gave a size.
+static bool set_camera(struct job_view *out, const struct options *o, const char *text, int index, int count,
+                       lam_error *error)
+{
+    lam_camera camera = {0};
+    lam_error reason;
+    if (!lam_camera_parse(text, NULL, &camera, &reason))
+        return complain(error, LAM_BAD_ARGUMENT, "%s: row %d: %.300s", o->batch.cameras, index + 1, reason.text);
+    if (camera.width && !o->batch.size_count && !o->picture.has_size) {
+        out->width = camera.width;
+        out->height = camera.height;
+    }
+    out->given = true;
+    snprintf(out->name, sizeof out->name, "%0*d", snprintf(NULL, 0, "%d", count - 1), index);
+    return (out->camera = strdup(text)) || complain(error, LAM_MACHINE, "out of memory");
+}
+
 bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_error *error)
 {
     *plan = (struct batch_plan){.options = o};
     if (!check_together(o, error) || (o->batch.shard && !batch_shard_of(o->batch.shard, &plan->shard, error)))
         return false;
     plan->by_list = o->batch.shard_by == SHARD_BY_LIST;
-    const int views = o->batch.view_count ? o->batch.view_count : 1,
+    json_t *cameras = o->batch.cameras ? cameras_file_read(o->batch.cameras, error) : NULL;
+    if (o->batch.cameras && !cameras)
+        return false;
+    const int views = cameras               ? (int)json_array_size(cameras)
+                      : o->batch.view_count ? o->batch.view_count
+                                            : 1,
               sizes = o->batch.size_count ? o->batch.size_count : 1,
               shows = o->batch.show_count ? o->batch.show_count : 1;
-    if (!(plan->views = calloc((size_t)views * (size_t)sizes * (size_t)shows, sizeof *plan->views)))
-        return complain(error, LAM_MACHINE, "out of memory");
-    for (; plan->view_count < views * sizes * shows; plan->view_count++) {
+    plan->views = calloc((size_t)views * (size_t)sizes * (size_t)shows, sizeof *plan->views);
+    bool ok = plan->views || complain(error, LAM_MACHINE, "out of memory");
+    for (; ok && plan->view_count < views * sizes * shows; plan->view_count++) {
         struct job_view *view = &plan->views[plan->view_count];
-        const int s = plan->view_count / shows % sizes;
+        const int s = plan->view_count / shows % sizes, v = plan->view_count / (shows * sizes);
         const char *show = o->batch.shows;
-        set_view(view, o, plan->view_count / (shows * sizes));
         view->width = o->batch.size_count ? o->batch.sizes[s][0] : o->picture.width;
         view->height = o->batch.size_count ? o->batch.sizes[s][1] : o->picture.height;
+        if (cameras)
+            ok = set_camera(view, o, json_string_value(json_array_get(cameras, (size_t)v)), v, views, error);
+        else
+            set_view(view, o, v);
         for (int i = plan->view_count % shows; i > 0; i--)
             show = strchr(show, ',') + 1;
         if (show)
             snprintf(view->show, sizeof view->show, "%.*s", (int)strcspn(show, ","), show);
     }
-    return make_pattern(plan, error);
+    json_decref(cameras);
+    return ok && make_pattern(plan, error);
 }
 
 bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root, lam_error *error)
@@ -306,6 +336,8 @@ void batch_plan_free(struct batch_plan *plan)
     while (plan->count)
         batch_plan_drop_last(plan);
     free(plan->models);
+    for (int i = 0; i < plan->view_count; i++)
+        free(plan->views[i].camera);
     free(plan->views);
     free(plan->pattern);
     *plan = (struct batch_plan){0};

@@ -3,6 +3,8 @@
 #define BATCH_SHARD_H
 
 #include "job.h"
+
+#include <jansson.h>
 #include "options.h"
 
 // Shard `number` of `count`, counted from 1. If both are 0, there are no shards.
@@ -54,6 +56,9 @@ struct batch_plan {
     size_t listed;            // number of models from lists
     uint64_t list_bytes;      // the size of the list if by_list is set
 };
+
+// Reads a file of cameras. Returns a list of texts for lam_camera_parse, or NULL on failure, with LAM_CANNOT_READ.
+json_t *cameras_file_read(const char *path, lam_error *error);
 
 // Starts a plan without models, and checks combinations of options. Fails with LAM_BAD_ARGUMENT.
 bool batch_plan_start(struct batch_plan *plan, const struct options *options, lam_error *error);

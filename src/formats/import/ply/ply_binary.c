@@ -96,6 +96,22 @@ static bool read_triangles(void *user, size_t index, const uint8_t *rows, lam_er
     return true;
 }
 
+// Checks only that each row of a chunk has three items.
+static bool check_counts(void *user, size_t index, const uint8_t *rows, lam_error *error)
+{
+    (void)error;
+    struct ply_reader *reader = user;
+    const struct row_bytes *all = &reader->table->rows;
+    size_t first, last;
+    parallel_rows_range(all->count, index, &first, &last);
+    const uint8_t *at = rows + reader->list_offset;
+    for (size_t row = first; row < last; row++, at += all->stride)
+        if (ply_load_integer(at, reader->element->properties[reader->request->list].count_type,
+                             reader->table->swapped) != 3)
+            __atomic_store_n(&reader->mixed, 1, __ATOMIC_RELAXED);
+    return true;
+}
+
 // Returns whether the rest of the file has the right size for rows with three items each, followed by the remaining
 // elements.
 static bool may_be_triangles(const struct ply_reader *reader, const struct ply_header *header)
@@ -139,6 +155,9 @@ static bool try_triangles(struct ply_reader *reader, struct arena *keep, struct 
 
     lam_error wrong;
     bool good = parallel_rows_read(reader->source, &table->rows, read_triangles, reader, &wrong);
+    // After an error, the number of threads decides which other chunks were read.
+    if (!good && !reader->mixed && !parallel_rows_read(reader->source, &table->rows, check_counts, reader, error))
+        return false;
     if (reader->mixed)
         return true; // errors found with the wrong stride are meaningless
     if (!good) {

@@ -108,12 +108,14 @@ LAM_API lam_side lam_side_find(const char *name);
 // Returns the view of a side, in perspective, or the three-quarter view if `side` is out of range.
 LAM_API lam_view lam_view_of_side(lam_side side);
 
+// The size of a view's name, with its final zero.
+enum { LAM_VIEW_NAME_SIZE = 32 };
+
 // Parses a list of views, separated by commas: names of sides; N or sphere:N, N directions that are evenly distributed on
 // a sphere, from the top to the bottom; ring:N@E, N directions at equal angles from the front to the right, E degrees
 // above the horizon (default: 20). Returns the number of views, or −1 on failure, with LAM_BAD_ARGUMENT. If the list has
 // a view with this index (from 0), stores it in *view, and its name in `name`: the side's name, or the index with leading
 // zeros, "007". Both may be NULL.
-enum { LAM_VIEW_NAME_SIZE = 32 };
 LAM_API int lam_views_parse(const char *text, int index, lam_view *view, char name[LAM_VIEW_NAME_SIZE],
                             lam_error *error);
 

@@ -13,12 +13,14 @@ enum { LAM_SECTIONS_MAX = 8 };
 
 // A plane that removes everything on the side to which its normal points.
 typedef struct lam_section {
-    lam_vec3 normal; // any length except 0; in the axes of the scene before lam_scene_transform and lam_scene_rotate
+    // Any length except 0; in the axes of the scene before lam_scene_transform and lam_scene_rotate.
+    lam_vec3 normal;
     // The distance of the plane from the origin along the unit normal, in the model's units, or, if `relative` is true,
-    // as a fraction (0..1) of the bounding box's extent along the normal.
+    // as a fraction (0..1) of the model's extent along the normal.
     double distance;
-    bool relative;
-    lam_rgba color; // colour of the cut surfaces, as a material's `diffuse`; alpha 0: the cut part's own material
+    bool relative; // whether `distance` is a fraction
+    // The colour of the cut surfaces, as a material's `diffuse`. Alpha 0, the default: the cut part's own material.
+    lam_rgba color;
     LAM_RESERVED(4);
 } lam_section;
 

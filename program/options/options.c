@@ -248,7 +248,7 @@ static bool is_known_option(const char *argument)
 // a word; option->former if it accepts the value; or otherwise `option`.
 static const struct option *meant_by(const struct option *option, const char *value)
 {
-    if (option->several && (strchr(value, ',') || (option->words && strpbrk(value, "0123456789:"))))
+    if (option->several && (strchr(value, ',') || (option->store == store_word && strpbrk(value, "0123456789:"))))
         return option_find(option->several);
     const struct option *former = option->former ? option_find(option->former) : NULL;
     for (const struct choice *w = former ? former->words : NULL; w && w->name; w++)

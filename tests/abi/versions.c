@@ -148,6 +148,8 @@ static void refusals(const char *path)
     parted.parts = &part;
     parted.part_count = 1;
     REFUSES("lam_part", lam_scene_add_mesh(scene, &parted, &error) >= 0);
+    REFUSES("lam_section",
+            lam_scene_set_sections(scene, &(lam_section){.normal = {1, 0, 0}, .newest = 1}, 1, NULL, &error));
     lam_orbit orbit = lam_orbit_of(&good, scene);
     orbit.newest = 1;
     camera = lam_orbit_camera(&orbit);

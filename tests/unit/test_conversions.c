@@ -39,7 +39,8 @@ static void save(const lam_export *files)
     }
 }
 
-// Compares the pictures of a model and of its conversion if there are no losses.
+// Compares the pictures of a model and of its conversion if there are no losses. glTF draws a model without materials in
+// white plastic, under other lights; convert says nothing about this, because the model has lost nothing.
 static void check_format(const char *path, const lam_scene *scene, const lam_image *before, int format)
 {
     char name[32];
@@ -62,8 +63,12 @@ static void check_format(const char *path, const lam_scene *scene, const lam_ima
         lam_image_free(&after);
         counts[format].whole++;
         compared++;
-        differing += largest > 1;
-        if (largest > 1)
+        bool classic = lam_scene_material_count(scene) == 0;
+        for (int i = 0; i < lam_scene_material_count(scene); i++)
+            classic |= !lam_scene_material(scene, i)->physical;
+        const bool other = largest > 1 && !(classic && strcmp(name, "model.glb") == 0);
+        differing += other;
+        if (other)
             print_message("%s as %s: no loss is reported, and the pictures differ by %d/255\n", path,
                           lam_export_format(format), largest);
     }

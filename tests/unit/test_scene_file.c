@@ -156,7 +156,8 @@ TEST(test_errors)
                                                      "back_material, two_sided, cull, tangents, normals, crease_angle, "
                                                      "file, materials, parts, scene, variant, animation, time"),
         OBJECT(SPHERE "\"material\": {\"shinines\": 4}", ".material.shinines: unknown key; did you mean 'shininess'?"),
-        OBJECT(SPHERE "\"material\": \"glod\"", ".material: no material is named 'glod'; did you mean 'gold'? `lambent materials` lists the names"),
+        OBJECT(SPHERE "\"material\": \"glod\"",
+               ".material: no material is named 'glod'; did you mean 'gold'? `lambent materials` lists the names"),
         OBJECT(SPHERE "\"transform\": [[\"rotate\", 3, 0, 0, 0]]",
                ".transform[0]: the axis of the rotation is 0, 0, 0, expected a direction"),
         OBJECT(SPHERE "\"transform\": [[\"scale\", 1, 0, 1]]",

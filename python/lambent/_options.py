@@ -140,6 +140,7 @@ CHANGES = {
     "light": ("Light | str | Sequence[Light | str]", "Lights in place of the file's and the studio's, which `rig` names."),
     "ambient": ("Color", "Light from everywhere, in addition to the lights."),
     "environment": ("str", "A picture, or a built-in environment, that surfaces mirror and that lights physical materials."),
+    "section": ("str | Sequence[str]", "Planes that cut the model: \"x=0\", \"z=40%\" (docs/sections.md)."),
     "environment_rotation": ("float", "Its angle about the up axis, in degrees."),
 }
 

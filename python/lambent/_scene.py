@@ -46,8 +46,16 @@ class Scene:
         self._access, self._path = Access(), None
 
     def add(self, model: "Model", material: "Material | str | None" = None, transform: "Array | None" = None, name: "str | None" = None) -> "Scene":
-        """Adds an object: a Mesh or an object of meshio, trimesh …, arrays (vertices, faces), or the name of a built-in shape. `transform` is a 4×4
-        matrix for column vectors. Returns the scene."""
+        """Adds an object: a Mesh or an object of meshio, trimesh …, arrays (vertices, faces), the name of a built-in shape, or the path of a model file,
+        whose objects keep their materials and names. `transform` is a 4×4 matrix for column vectors. Returns the scene."""
+        if isinstance(model, (str, os.PathLike)) and lib.lam_shape_find(path_bytes(model)) < 0:
+            if material is not None or name is not None:
+                raise BadValue("Scene.add: a file keeps its own materials and names")
+            other = call(lib.lam_scene_load, path_bytes(model), ffi.NULL, ffi.NULL, path=os.fspath(model))
+            if transform is not None:
+                call(lib.lam_scene_transform, other, ffi.new("lam_mat4 *", {"m": matrix_of("transform", transform).tolist()}))
+            call(lib.lam_scene_add_scene, self._handle, other)
+            return self
         meshes = [(model, None)] if isinstance(model, str) else meshes_of(model)
         placed = np.eye(4) if transform is None else matrix_of("transform", transform)
         if meshes is None:
@@ -135,6 +143,15 @@ class Scene:
             call(lib.lam_scene_set_environment, self._handle, made, angle)
         finally:
             lib.lam_environment_free(made)
+
+    def set_sections(self, *sections: str, _mode=lib.LAM_COLOR_SRGB) -> "list[float]":
+        """Cuts the scene by planes such as "x=0" and "z=40%,color=orange", in place of earlier ones; without planes, the scene is whole again. Returns the
+        area of each cut surface."""
+        made = ffi.new("lam_section[]", len(sections) + 1)
+        for index, text in enumerate(sections):
+            call(lib.lam_section_parse, text_bytes("section", text), _mode, made + index)
+        call(lib.lam_scene_set_sections, self._handle, made, len(sections), ffi.NULL)
+        return [lib.lam_scene_section_area(self._handle, index) for index in range(len(sections))]
 
     @property
     def bounds(self) -> "tuple[tuple[float, float, float], tuple[float, float, float]]":
@@ -315,6 +332,9 @@ def draw_lit(scene, options, size, task, changes):
         with scene._access.alone():
             call(lib.lam_scene_make_tangents, handle, task.control)
     camera = camera_of(scene, options, settings, params, size)
+    if "section" in options:
+        cut = options.get("section")
+        scene.set_sections(*(cut if isinstance(cut, (list, tuple)) else [cut]), _mode=params.color)
     if changes and "light" in options:
         scene._light(options.get("light"), camera, params.color)
     if changes and "ambient" in options:

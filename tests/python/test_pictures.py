@@ -27,6 +27,7 @@ CASES = [
     ("examples/models/spot.glb", {"reflection": "phong"}, ["--reflection", "phong"]),
     ("examples/models/spot.glb", {"environment": "sky", "environment_rotation": 40, "tone": "aces", "exposure": -1},
      ["--environment", "sky", "--environment-rotation", "40", "--tone", "aces", "--exposure", "-1"]),
+    ("torus", {"section": ["x=0", "z=60%,color=orange"]}, ["--section", "x=0", "--section", "z=60%,color=orange"]),
     ("teapot", {"show": "n.l"}, ["--show", "n.l"]),
     ("teapot", {"camera": lambent.Camera(eye=(2, 1, 4), fovy=40), "exposure": "auto"}, ["--camera", "eye=2/1/4,fovy=40", "--exposure", "auto"]),
     ("teapot", {"stage": "vertex", "color_mode": "raw", "samples": 1, "background": "#456", "material": "#fa0", "ambient": "#111"},
@@ -86,6 +87,23 @@ class SameAsTheProgram(unittest.TestCase):
         for kind in (bytes, bytearray, memoryview):
             self.assertEqual(lambent.render(kind(data), 64, name="cube.stl").png(), lambent.render("tests/models/cube.stl", 64).png())
         self.assertEqual(lambent.render(pathlib.Path("tests/models/cube.stl"), 64).png(), lambent.render("tests/models/cube.stl", 64).png())
+
+
+class Scenes(unittest.TestCase):
+    def test_sections_and_files(self):
+        scene = lambent.Scene().add("sphere")
+        self.assertAlmostEqual(scene.set_sections("z=0.1", "x")[0], np.pi * 0.99, 2)
+        cut = scene.triangles
+        self.assertEqual(scene.set_sections(), [])
+        self.assertNotEqual(scene.triangles, cut)
+        with self.assertRaises(lambent.BadValue):
+            scene.set_sections("q=1")
+        scene = lambent.Scene().add("examples/models/spot.glb").add("tests/models/cube.obj", transform=[[1, 0, 0, 3], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        self.assertEqual(scene.triangles, lambent.load("examples/models/spot.glb").triangles + lambent.load("tests/models/cube.obj").triangles)
+        self.assertGreater(scene.bounds[1][0], 3)
+        self.assertGreater(scene.render(64, background="white")[..., 0].std(), 10)
+        with self.assertRaises(lambent.BadValue):
+            lambent.Scene().add("examples/models/spot.glb", material="gold")
 
 
 class Arrays(unittest.TestCase):

@@ -93,7 +93,7 @@ const struct exit_code exit_codes[] = {
      "the output cannot be written, or would overwrite a file that lambent did not write"},
     {EXIT_DIFFERS, -1, NULL,
      "`diff`: the pictures differ by more than the tolerance; `hash --check`: pictures differ from the hashes in the "
-     "file; `check`: the shader does not pass"},
+     "file; `check`: the shader does not pass; `info --print`: the model cannot be printed"},
     {EXIT_SOME_FAILED, -1, NULL,
      "`batch`, `diff` of folders, `hash`: some pictures failed (0 with `--failures-ok`, unless the machine failed); "
      "the "

@@ -9,8 +9,8 @@
     (((1ull << GROUP_COUNT) - 1) &                                                                                     \
      ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
        1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_FIGURE | 1ull << GROUP_EXERCISES |                   \
-       1ull << GROUP_VIEWER | 1ull << GROUP_HASH | 1ull << GROUP_CONVERT | 1ull << GROUP_SETTINGS |                    \
-       1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
+       1ull << GROUP_VIEWER | 1ull << GROUP_HASH | 1ull << GROUP_CONVERT | 1ull << GROUP_PRINT |                       \
+       1ull << GROUP_SETTINGS | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {{"output", "MODEL-SHEET.png", NULL},
                                                       {"size", "480x400 each", NULL},
@@ -75,7 +75,8 @@ const struct command command_table[] = {
     [COMMAND_info] =
         {"info", "MODEL...",
          "Print the contents of models: size, triangles, materials, pictures, lights, cameras, animations, extensions.",
-         ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | TAKES_JSON | TAKES_QUIET,
+         ABOUT | 1ull << GROUP_MODEL | 1ull << GROUP_WORK | 1ull << GROUP_LIMITS | 1ull << GROUP_PRINT | TAKES_JSON |
+             TAKES_QUIET,
          .also = "stats stat size measure inspect describe list volume bbox bounds dimensions area validate verify "
                  "count list-animations animations",
          .min_operands = 1, .max_operands = -1},

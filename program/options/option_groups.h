@@ -221,6 +221,12 @@ struct convert_options {
     bool thumbnail;
 };
 
+// Checks for 3D printing (info).
+struct print_options {
+    bool wanted;
+    double overhang_deg;
+};
+
 // Captions (compare, plot, materials, check, explain).
 struct captions_options {
     const char *font; // NULL means the system's font

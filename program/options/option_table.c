@@ -26,6 +26,7 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_DIFF] = "Comparing pictures (diff, check)",
     [GROUP_HASH] = "Hashes of pictures (hash)",
     [GROUP_CONVERT] = "Models in another format (convert)",
+    [GROUP_PRINT] = "Checks for 3D printing (info)",
     [GROUP_SETTINGS] = "Settings (render, explain, shape, config)",
     [GROUP_PLOT] = "Plots (plot)",
     [GROUP_CAPTIONS] = "Captions (compare, plot, materials, check, explain)",
@@ -1036,6 +1037,16 @@ struct option option_table[OPTIONS_MAX] = {
      "the index of the picture in `images`, as in the draft of glTF 2.1. Programs that do not support this property "
      "ignore it.",
      .store = store_switch, .others = "preview icon", FIELD(convert.thumbnail)},
+
+    {"print", 0, GROUP_PRINT, NULL, NULL,
+     "Check whether the model can be printed: holes, edges with too many faces, faces that are turned.",
+     "Lambent lists the largest holes with their places, the area of overhangs and the centre of mass. The exit code "
+     "is 6 if "
+     "the model cannot be printed as it is.",
+     .store = store_switch, .others = "printable watertight manifold check-mesh", FIELD(print.wanted)},
+    {"overhang", 0, GROUP_PRINT, "DEGREES", "45",
+     "The angle from the vertical above which `--print` counts a face as an overhang.", NULL, .store = store_number,
+     FIELD(print.overhang_deg), .max = 90},
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,

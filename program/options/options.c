@@ -21,6 +21,7 @@ struct options option_defaults(void)
                             .shading.crease_angle_deg = -1,
                             .lighting.light_scale = 1,
                             .work.repeat = 1,
+                            .print.overhang_deg = 45,
                             .diff.gain = 16,
                             .check.stop_after_s = 10,
                             .check.search_limit = 10000};

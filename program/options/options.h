@@ -28,6 +28,7 @@ struct options {
     struct viewer_options viewer;
     struct diff_options diff;
     struct hash_options hash;
+    struct print_options print;
     struct convert_options convert;
     struct captions_options captions;
     struct sheet_options sheet;
@@ -91,6 +92,7 @@ enum option_group {
     GROUP_VIEWER,
     GROUP_HASH,
     GROUP_CONVERT,
+    GROUP_PRINT,
     GROUP_SETTINGS,
     GROUP_ABOUT, // accepted by every command
     GROUP_COUNT,

@@ -215,3 +215,37 @@ class Several(Case):
         self.bad(2, "a.stl", "+", "c.stl", says=("c.stl",))
         self.bad(2, "a.stl", "+", says=("+",))
         self.bad(3, "a.stl", "+", "b.obj", "--save-scene", "s.json", "-o", "a.png", says=("scene file",), leaves={"a.png"})
+
+
+class Print(Case):
+    """info --print: what prevents a model from being printed."""
+
+    def check(self, data, code, *words):
+        (self.folder / "p.stl").write_bytes(data)
+        self.given.add("p.stl")
+        done = self.run_program("info", "p.stl", "--print", "--json", *words)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return json.loads(done.stdout)["print"]
+
+    def test_findings(self):
+        whole = list(box((0, 0, 0), (1, 2, 3)))
+        turned = [whole[0][3:6] + whole[0][0:3] + whole[0][6:9]]
+        for triangles, code, expected in (
+                (whole, 0, {"printable": True, "holes": 0, "volume": 6, "center_of_mass": [0.5, 1, 1.5], "overhang_area": 0}),
+                (whole[2:], 6, {"holes": 1, "open_edges": 4, "center_of_mass": None, "longest_holes": [{"middle": [0.5, 1, 0], "length": 6, "edges": 4}]}),
+                (whole[1:-1], 6, {"holes": 2, "open_edges": 6}),
+                (turned + whole[1:], 6, {"turned_edges": 3, "open_edges": 0, "printable": False}),
+                (whole + whole[:1], 6, {"shared_edges": 3}),
+                (list(box((0, 0, 0), (1, 2, 3), inward=True)), 6, {"printable": False, "volume": -6, "open_edges": 0}),
+                (whole + list(box((0, 0, 4), (1, 1, 5))), 0, {"overhang_area": 1, "volume": 7})):
+            found = self.check(stl(triangles), code)
+            self.assertEqual({key: found[key] for key in expected}, expected)
+
+    def test_overhang_and_text(self):
+        sphere = json.loads(self.run_program("info", "sphere", "--print", "--json", "--overhang", "60").stdout)["print"]
+        self.assertAlmostEqual(sphere["overhang_area"], 2 * math.pi * (1 - math.sin(math.radians(60))), 2)
+        text = self.run_program("info", "teapot", "--print").stdout.decode()
+        self.assertIn("6 holes: 512 edges of only one face", text)
+        self.assertIn("can be printed", self.good("info", "torus", "--print").stdout.decode())
+        self.bad(1, "info", "sphere", "--print", "--overhang", "91", says=("--overhang",))
+        self.bad(1, "sphere", "--print", says=("--print",))

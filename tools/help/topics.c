@@ -95,7 +95,7 @@ const struct topic topics[] = {
      "fragment shader with one mistake, and the program's picture beside the right one. Each mistake is visible in at "
      "least 2 % of the pixels. `students.html` lists the exercises, and `key.html` names the mistakes. `lambent check "
      "--class class/` names them too. The pictures need OpenGL."},
-    {"info", "The contents of a model", 0, TOPIC_NO_TABLE,
+    {"info", "The contents of a model", BIT(PRINT), TOPIC_NO_TABLE,
      "`lambent info MODEL...` prints the contents of each model and writes no picture. The command lists the format, "
      "the program that wrote the file, the size, the up axis, the numbers of triangles, meshes, parts and objects, and "
      "the names that `--hide` accepts. The command also lists materials (numbers and maps), textures and their sizes, "

@@ -76,10 +76,13 @@ static int print_one(const char *model, const struct options *given, bool first)
     job.times.start = clock_ms();
     struct info_textures textures = {0};
     struct info_names names = {0};
+    struct info_print print = {0};
+    info.print = given->print.wanted ? &print : NULL;
     info.textures = &textures;
     info.names = &names;
     bool ok = load(&info, &job, &options, &error) && info_textures_list(job.scene, &textures, &error) &&
-              info_names_list(job.scene, &names, &error) && measure_sections(&info, &job, &error);
+              info_names_list(job.scene, &names, &error) && measure_sections(&info, &job, &error) &&
+              (!info.print || info_print_check(job.scene, given->print.overhang_deg, &print, &error));
     if (ok) {
         error = (lam_error){0}; // if only the second attempt succeeded, the error is from the first
         measure_drawing(&info, &job);
@@ -95,7 +98,8 @@ static int print_one(const char *model, const struct options *given, bool first)
     free(textures.items);
     free(names.items);
     lam_scene_free(job.scene);
-    return exit_code_of(error.code)->code;
+    const int code = exit_code_of(error.code)->code;
+    return !code && info.print && !print.printable ? EXIT_DIFFERS : code;
 }
 
 int run_info(int operand_count, char **operands, const struct options *options)

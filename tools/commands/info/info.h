@@ -38,6 +38,24 @@ struct info_names {
 };
 bool info_names_list(const lam_scene *scene, struct info_names *names, lam_error *error);
 
+// The findings of `--print`. Lengths are in the units of the model.
+struct info_hole {
+    lam_vec3 middle;
+    double length; // of its edges
+    uint32_t edges;
+};
+enum { INFO_HOLES = 5 };
+struct info_print {
+    bool triangles, printable;
+    uint64_t open_edges, shared_edges, turned_edges; // of one face; of more than two; between faces of opposite sides
+    int holes;                                       // groups of connected open edges
+    struct info_hole longest[INFO_HOLES];
+    double overhang_deg, overhang_area; // without the faces on the bed
+    double volume;                      // negative if the surface is inside out
+    lam_vec3 mass;                      // the centre of mass, if the surface is closed
+};
+bool info_print_check(const lam_scene *scene, double overhang_deg, struct info_print *print, lam_error *error);
+
 // A loaded model, or the error if the model cannot be loaded.
 struct info {
     const struct job *job;
@@ -52,6 +70,7 @@ struct info {
     lam_section sections[LAM_SECTIONS_MAX]; // of --section, or of a scene file
     double section_areas[LAM_SECTIONS_MAX]; // in the model's square units
     int section_count;
+    const struct info_print *print; // NULL without --print
 };
 enum { INFO_SIDE = 1024 };
 

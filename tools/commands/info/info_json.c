@@ -52,6 +52,24 @@ static void write_geometry(struct json *json, const struct info *info)
     json_put(json, NUMBER("area_mm2", KNOWN(known, measure.area * mm2)),
              NUMBER("volume_mm3", KNOWN(known && measure.closed, measure.volume * mm2 * mm)));
     json_close(json, '}');
+    if (info->print) {
+        const struct info_print *p = info->print;
+        json_open(json, "print", '{');
+        json_put(json, FLAG("printable", p->printable), COUNT("holes", p->holes), COUNT("open_edges", p->open_edges),
+                 COUNT("shared_edges", p->shared_edges), COUNT("turned_edges", p->turned_edges),
+                 NUMBER("volume", p->volume), NUMBER("overhang_degrees", p->overhang_deg),
+                 NUMBER("overhang_area", p->overhang_area));
+        if (p->printable)
+            json_put(json, VECTOR("center_of_mass", p->mass));
+        else
+            json_put(json, NONE("center_of_mass"));
+        json_open(json, "longest_holes", '[');
+        for (int i = 0; i < p->holes && i < INFO_HOLES; i++)
+            json_put(json, OBJECT(NULL, VECTOR("middle", p->longest[i].middle), NUMBER("length", p->longest[i].length),
+                                  COUNT("edges", p->longest[i].edges)));
+        json_close(json, ']');
+        json_close(json, '}');
+    }
     json_open(json, "sections", '[');
     for (int i = 0; i < info->section_count; i++) {
         const lam_section *s = &info->sections[i];

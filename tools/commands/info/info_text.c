@@ -97,6 +97,31 @@ static void print_sections(const struct info *info, double millimetres)
     }
 }
 
+static void print_check(const struct info_print *p, double millimetres)
+{
+    const double scale = millimetres > 0 ? millimetres : 1;
+    const char *unit = millimetres > 0 ? "mm" : "units";
+    printf("%-12s%s\n", "print", p->printable ? "closed; can be printed" : "cannot be printed as it is:");
+    if (!p->triangles)
+        printf("%-12sit has no triangles\n", "");
+    if (p->open_edges)
+        printf("%-12s%d hole%s: %" PRIu64 " edge%s of only one face\n", "", p->holes, plural((uint64_t)p->holes),
+               p->open_edges, plural(p->open_edges));
+    for (int i = 0; i < p->holes && i < INFO_HOLES; i++)
+        printf("%-12s  at %.5g %.5g %.5g, %.4g %s around\n", "", p->longest[i].middle.x, p->longest[i].middle.y,
+               p->longest[i].middle.z, p->longest[i].length * scale, unit);
+    if (p->shared_edges)
+        printf("%-12s%" PRIu64 " edge%s of more than two faces\n", "", p->shared_edges, plural(p->shared_edges));
+    if (p->turned_edges)
+        printf("%-12s%" PRIu64 " edge%s between faces that point to opposite sides\n", "", p->turned_edges,
+               plural(p->turned_edges));
+    if (p->triangles && !p->open_edges && !p->turned_edges && p->volume <= 0)
+        printf("%-12sthe surface is inside out\n", "");
+    printf("%-12soverhangs above %g°: %.4g %s²\n", "", p->overhang_deg, p->overhang_area * scale * scale, unit);
+    if (p->printable)
+        printf("%-12scentre of mass %.5g %.5g %.5g\n", "", p->mass.x, p->mass.y, p->mass.z);
+}
+
 static void print_geometry(const struct info *info)
 {
     const struct job *job = info->job;
@@ -118,6 +143,8 @@ static void print_geometry(const struct info *info)
     printf("%-12sfrom %.6g %.6g %.6g to %.6g %.6g %.6g\n", "", low.x, low.y, low.z, high.x, high.y, high.z);
     print_measure(scene, mm, largest);
     print_sections(info, mm);
+    if (info->print)
+        print_check(info->print, mm);
     uint64_t triangles = lam_scene_triangle_count(scene), vertices = lam_scene_vertex_count(scene);
     uint64_t lines = lam_scene_line_count(scene), points = lam_scene_point_count(scene);
     printf("%-12s", "geometry");

@@ -47,13 +47,15 @@ class Scene:
 
     def add(self, model: "Model", material: "Material | str | None" = None, transform: "Array | None" = None, name: "str | None" = None) -> "Scene":
         """Adds an object: a Mesh or an object of meshio, trimesh …, arrays (vertices, faces), the name of a built-in shape, or the path of a model file,
-        whose objects keep their materials and names. `transform` is a 4×4 matrix for column vectors. Returns the scene."""
+        whose objects keep their materials and names; the first file also sets the up axis. `transform` is a 4×4 matrix for column vectors. Returns the scene."""
         if isinstance(model, (str, os.PathLike)) and lib.lam_shape_find(path_bytes(model)) < 0:
             if material is not None or name is not None:
                 raise BadValue("Scene.add: a file keeps its own materials and names")
             other = call(lib.lam_scene_load, path_bytes(model), ffi.NULL, ffi.NULL, path=os.fspath(model))
             if transform is not None:
                 call(lib.lam_scene_transform, other, ffi.new("lam_mat4 *", {"m": matrix_of("transform", transform).tolist()}))
+            if not lib.lam_scene_object_count(self._handle):
+                lib.lam_scene_set_up(self._handle, lib.lam_scene_up(other))
             call(lib.lam_scene_add_scene, self._handle, other)
             return self
         meshes = [(model, None)] if isinstance(model, str) else meshes_of(model)

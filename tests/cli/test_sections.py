@@ -92,7 +92,7 @@ class Sections(Case):
 
     def test_warnings(self):
         lid = self.file("open.stl", stl(list(box(*OUTER))[1:]))
-        for model, section, note in ((lid, "x=0", "is not closed"), ("teapot", "x=0", "is not closed"), ("sphere", "x=3", "removes nothing"),
+        for model, section, note in ((lid, "x=0", "has holes"), ("teapot", "x=0", "has holes"), ("sphere", "x=3", "removes nothing"),
                                      ("sphere", "-z=0", "removes the other side"),
                                      (self.file("l.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n"), "x=0.1", "lines and points")):
             warnings = self.report(model, "-s", "32", "--section", section, "-o", "a.png")["warnings"]

@@ -101,6 +101,7 @@ class Scenes(unittest.TestCase):
         scene = lambent.Scene().add("examples/models/spot.glb").add("tests/models/cube.obj", transform=[[1, 0, 0, 3], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
         self.assertEqual(scene.triangles, lambent.load("examples/models/spot.glb").triangles + lambent.load("tests/models/cube.obj").triangles)
         self.assertGreater(scene.bounds[1][0], 3)
+        self.assertEqual(lambent.Scene().add("tests/models/cube.stl").up, "z")
         self.assertGreater(scene.render(64, background="white")[..., 0].std(), 10)
         with self.assertRaises(lambent.BadValue):
             lambent.Scene().add("examples/models/spot.glb", material="gold")

@@ -314,7 +314,7 @@ static bool set_length(struct job *job, lam_error *error)
         sweep->closed = true;
         double frames = length_s * job->frames.frames_per_second + 0.5;
         if (!a->given->animation.turntable && !a->given->animation.frames)
-            a->count = frames < 2 ? 2 : frames > FRAMES_MAX ? FRAMES_MAX : (int)frames;
+            a->count = length_s <= 0 ? 1 : frames < 2 ? 2 : frames > FRAMES_MAX ? FRAMES_MAX : (int)frames;
     }
     job->frames.count = a->count;
     return !job->frames.first || name_frames(job, a, error);

@@ -221,7 +221,7 @@ static bool adopt_meshes(struct cutting *c)
 static void warn(const struct cutting *c)
 {
     if (c->open)
-        lam_scene_add_warning(c->scene, "a section is open where the outline of the model is not closed");
+        lam_scene_add_warning(c->scene, "a cut surface is missing where the surface of the model has holes");
     if (c->strokes)
         lam_scene_add_warning(c->scene, "sections cut lines and points, but add no cut surface to them");
     if (c->translucent)

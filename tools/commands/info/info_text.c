@@ -110,6 +110,8 @@ static void print_check(const struct info_print *p, double millimetres)
     for (int i = 0; i < p->holes && i < INFO_HOLES; i++)
         printf("%-12s  at %.5g %.5g %.5g, %.4g %s around\n", "", p->longest[i].middle.x, p->longest[i].middle.y,
                p->longest[i].middle.z, p->longest[i].length * scale, unit);
+    if (p->holes > INFO_HOLES)
+        printf("%-12s  and %d more\n", "", p->holes - INFO_HOLES);
     if (p->shared_edges)
         printf("%-12s%" PRIu64 " edge%s of more than two faces\n", "", p->shared_edges, plural(p->shared_edges));
     if (p->turned_edges)

@@ -14,7 +14,8 @@ static bool fail_section(const char *text, const char *found, lam_error *error)
     return fail(error, LAM_BAD_ARGUMENT,
                 "found '%.60s'%s%.60s%s, expected a plane such as x=0, -z=40%% or normal=1/1/0,distance=2.5, with "
                 ",color=COLOUR if you like",
-                text, *found ? " ('" : "", found, *found ? "')" : "");
+                text, *found && strcmp(found, text) != 0 ? " ('" : "", strcmp(found, text) != 0 ? found : "",
+                *found && strcmp(found, text) != 0 ? "')" : "");
 }
 
 // Parses a finite number at *at, and moves *at behind the number.

@@ -226,7 +226,7 @@ class Defaults(Case):
         (self.folder / "tent.obj").write_text(
             "".join(f"v {x} -1 {z}\n" for x, z in ring) + "".join(f"v {x} 1 {z}\n" for x, z in ring) +
             "".join(f"f {i + 1} {i + 13} {(i + 1) % 12 + 13} {(i + 1) % 12 + 1}\n" for i in range(12)))
-        (self.folder / "parts.obj").write_text((ROOT / "tests" / "models" / "parts.obj").read_text())
+        (self.folder / "parts.obj").write_text((ROOT / "examples" / "models" / "parts.obj").read_text())
         (self.folder / "lines.obj").write_text("v -1 0 0\nv 1 0 0\nv 0 1 1\nl 1 2\np 3\n")
         # A striped floor, seen at an angle.
         (self.folder / "stripes.png").write_bytes(write_png(2, 2, bytes([255] * 8 + [0, 0, 0, 255] * 2)))

@@ -247,8 +247,8 @@ class Docs(Case):
             for name in re.findall(r"-o (\S+)", line):
                 if "{" not in name:  # a pattern
                     self.assertTrue((self.folder / name).exists(), line)
-        self.assertEqual(os.listdir(self.folder / "out" / "catalogue"), ["spot.png"])
-        self.assertEqual({path.name for path in (self.folder / "out" / "thumbs").glob("*.png")}, {f"spot-{ext}-{view}.png" for ext in ("glb", "obj") for view in ("front", "left")})
+        self.assertEqual(set(os.listdir(self.folder / "out" / "catalogue")), {"spot.png", "parts.png"})
+        self.assertEqual({path.name for path in (self.folder / "out" / "thumbs").glob("*.png")}, {f"{model}-{view}.png" for model in ("spot-glb", "spot-obj", "parts-obj") for view in ("front", "left")})
 
     def test_commands_of_the_pages(self):
         """Every command in a code block of the README and of docs/ is valid: options, values and commands. Most file names are invented."""

@@ -71,8 +71,10 @@ static bool part_mesh(lam_scene *scene, const lam_mesh *mesh, const lam_part *pa
         out->color_count -= skipped;
         out->color_indices = by_index ? mesh->color_indices + first : NULL;
     }
-    out->smoothing_groups += mesh->smoothing_groups ? part->first_triangle : 0;
-    out->inner_edges += mesh->inner_edges ? part->first_triangle : 0;
+    if (mesh->smoothing_groups)
+        out->smoothing_groups += part->first_triangle;
+    if (mesh->inner_edges)
+        out->inner_edges += part->first_triangle;
     return true;
 }
 

@@ -105,6 +105,19 @@ static void export_all(const lam_scene *scene, const lam_camera *camera, const s
     lam_bytes_free(&bytes);
 }
 
+// Cuts the scene by a plane, and removes the cut if the bytes ask for that.
+static void cut(lam_scene *scene, const uint8_t *bytes)
+{
+    lam_error error;
+    const lam_section section = {.normal = {bytes[0] - 127.5, bytes[1] - 127.5, bytes[2] - 127.5},
+                                 .distance = bytes[3] / 255.0,
+                                 .relative = true,
+                                 .color = {1, 0, 0, bytes[3] & 1}};
+    check(lam_scene_set_sections(scene, &section, 1, &control, &error), &error);
+    if (bytes[3] & 2)
+        check(lam_scene_set_sections(scene, NULL, 0, &control, &error), &error);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static lam_device *devices[LAM_ISA_COUNT];
@@ -117,6 +130,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     lam_device **device = &devices[options.isa[0]];
     if (!*device && !(*device = lam_device_cpu(&(lam_cpu_params){.threads = 1, .isa = options.isa[0]}, NULL)))
         abort();
+    if (data[23] & 64)
+        cut(scene, data + 16);
     const lam_camera camera = camera_of(scene, &options);
     ask(*device, scene, &camera, &options);
     print_shaders(scene, &camera, &options, data[23]);

@@ -259,7 +259,8 @@ static bool make_inner_edges(const struct mesh_cut *cut, size_t total, struct ar
         return false;
     memcpy(all, cut->inner, n);
     for (uint32_t part = 0; part < (cut->mesh->part_count ? cut->mesh->part_count : 1); part++) {
-        memcpy(all + n, cut->caps[part].inner, cut->caps[part].count);
+        if (cut->caps[part].count)
+            memcpy(all + n, cut->caps[part].inner, cut->caps[part].count);
         n += cut->caps[part].count;
     }
     out->inner_edges = all;

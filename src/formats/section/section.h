@@ -1,4 +1,5 @@
-// section.h: the steps of cutting a scene by a plane: mesh_cut.c cuts meshes, outlines.c closes their outlines.
+// section.h: the steps of cutting a scene by a plane: mesh_cut.c cuts meshes, outlines.c finds their closed outlines, and
+// regions.c fills these with triangles.
 #ifndef SECTION_H
 #define SECTION_H
 

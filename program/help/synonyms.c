@@ -113,7 +113,8 @@ static void add_meaning(struct replacing *r, const struct option *option, const 
     const char *joint = strstr(meaning, "=*") ? "," : *meaning == 'x' && meaning[1] == '*' ? "" : NULL;
     for (int i = 0; joint && i + 1 < r->count; i++)
         if (strncmp(r->words[i], "--", 2) == 0 && strcmp(r->words[i] + 2, option->name) == 0) {
-            snprintf(head, sizeof head, "%s%s", r->words[i + 1], joint);
+            if (snprintf(head, sizeof head, "%s%s", r->words[i + 1], joint) >= (int)sizeof head)
+                break; // too long to join: the option refuses the second value
             r->words[i + 1] = make(r, head, meaning, value);
             return;
         }

@@ -257,6 +257,7 @@ class Files(Case):
                                  ("a.json", json.dumps([{**row, "f": 1}]), ("row 1", "'f'")), ("a.json", "[1]", "row 1"), ("a.json", "[]", "no cameras"), ("a.json", "{", "a.json:1"),
                                  ("a.csv", "eye,fovy\n0/0/4,30\n0/0/4,200\n", ("a.csv: row 2: ", "fovy")), ("a.csv", "eye,fovy\n1/2/3,4,5\n", "row 1"), ("a.csv", "eye\n", "no cameras"),
                                  ("a.json", json.dumps({"frames": [{"transform_matrix": turned(0, 0, (0, 0, 4))[:3]}]}), ("row 1: pose", "3 rows")),
+                                 ("a.json", json.dumps({"camera_angle_x": 1, "w": 1e300, "frames": [{"transform_matrix": turned(0, 0, (0, 0, 4))}]}), ("row 1", "width=1e+300")),
                                  ("a.json", json.dumps([{**row, "width": 3}]), ("row 1", "has only width"))):
             with self.subTest(says):
                 (self.folder / name).write_text(text)

@@ -170,6 +170,7 @@ class Parts(Case):
         rows = [sum(any(picture[2][4 * (y * 96 + x) + 3] for x in range(96)) for y in range(96)) for picture in (whole, apart)]
         self.assertGreater(rows[0], 70)
         self.assertLess(sum(any(apart[2][4 * (y * 96 + x) + 3] for x in range(30, 60)) for y in range(96)), rows[1])  # a gap below the lid
+        self.assertIn("only one part", self.report("torus", "-s", "8", "--explode", "1", "-o", "a.png")["warnings"][0])
         for wrong in ("-1", "x", "w=1", "nan", "1001"):
             self.bad(1, "a.obj", "--explode", wrong, says=("--explode",))
 

@@ -81,6 +81,8 @@ static bool explode(lam_vec3 by, lam_scene *scene, lam_error *error)
     double radius;
     if ((by.x == 0 && by.y == 0 && by.z == 0) || !lam_scene_bounds(scene, &low, &high))
         return true;
+    if (lam_scene_object_count(scene) < 2)
+        lam_scene_add_warning(scene, "option '--explode' changes nothing: the model has only one part");
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
         lam_object object = *lam_scene_object(scene, i);
         double(*m)[4] = object.transform.m;

@@ -144,7 +144,10 @@ bool batch_plan_start(struct batch_plan *plan, const struct options *o, lam_erro
             snprintf(view->show, sizeof view->show, "%.*s", (int)strcspn(show, ","), show);
     }
     json_decref(cameras);
-    return ok && make_pattern(plan, error);
+    ok = ok && make_pattern(plan, error);
+    if (!ok)
+        batch_plan_free(plan);
+    return ok;
 }
 
 bool batch_plan_add(struct batch_plan *plan, const char *path, const char *root, lam_error *error)

@@ -66,8 +66,11 @@ static json_t *frame_camera(const json_t *root, const json_t *frame)
     if (!value || json_object_get(camera, "fx") || json_object_get(camera, "ortho"))
         return camera;
     // It is the horizontal angle. Without a size, the pictures are square.
-    const double width = json_number_value(json_object_get(camera, "width")), w = width >= 1 ? width : 1000,
-                 height = json_number_value(json_object_get(camera, "height")), h = height >= 1 ? height : w;
+    const double width = json_number_value(json_object_get(camera, "width")),
+                 height = json_number_value(json_object_get(camera, "height"));
+    if (width > 65535 || height > 65535) // lam_camera_parse names the number
+        return camera;
+    const double w = width >= 1 ? width : 1000, h = height >= 1 ? height : w;
     double lens[4];
     lam_camera_intrinsics(&(lam_camera){.fovy_rad = json_number_value(value)}, (int)w, (int)w, LAM_CONVENTION_OPENGL,
                           lens);

@@ -38,6 +38,10 @@ struct info_names {
 };
 bool info_names_list(const lam_scene *scene, struct info_names *names, lam_error *error);
 
+// These functions get the place of a vertex in the scene, and the vertices of a triangle's corners.
+lam_vec3 info_place(const lam_mesh *mesh, const lam_mat4 *transform, uint32_t vertex);
+void info_vertices(const lam_mesh *mesh, uint32_t triangle, uint32_t out[3]);
+
 // The findings of `--print`. Lengths are in the units of the model.
 struct info_hole {
     lam_vec3 middle;

@@ -7,7 +7,7 @@
 
 #include "vectors.h"
 
-static lam_vec3 corner_of(const lam_mesh *mesh, const lam_mat4 *transform, lam_vec3 center, uint32_t vertex)
+lam_vec3 info_place(const lam_mesh *mesh, const lam_mat4 *transform, uint32_t vertex)
 {
     const float *at = mesh->positions + 3 * (size_t)vertex;
     double p[3], out[3];
@@ -15,7 +15,13 @@ static lam_vec3 corner_of(const lam_mesh *mesh, const lam_mat4 *transform, lam_v
         p[i] = (double)at[i] + mesh->origin[i];
     for (int i = 0; i < 3; i++)
         out[i] = transform->m[i][0] * p[0] + transform->m[i][1] * p[1] + transform->m[i][2] * p[2] + transform->m[i][3];
-    return (lam_vec3){out[0] - center.x, out[1] - center.y, out[2] - center.z};
+    return (lam_vec3){out[0], out[1], out[2]};
+}
+
+static lam_vec3 corner_of(const lam_mesh *mesh, const lam_mat4 *transform, lam_vec3 center, uint32_t vertex)
+{
+    const lam_vec3 at = info_place(mesh, transform, vertex);
+    return (lam_vec3){at.x - center.x, at.y - center.y, at.z - center.z};
 }
 
 static uint64_t mix(uint64_t x)
@@ -45,8 +51,7 @@ static uint64_t edge_hash(uint64_t from, uint64_t to)
     return from < to ? mix(from + mix(to)) : from > to ? 0 - mix(to + mix(from)) : 0;
 }
 
-// Returns the vertices of a triangle's corners.
-static void vertices_of(const lam_mesh *mesh, uint32_t triangle, uint32_t out[3])
+void info_vertices(const lam_mesh *mesh, uint32_t triangle, uint32_t out[3])
 {
     for (uint32_t i = 0; i < 3; i++)
         out[i] = mesh->indices ? mesh->indices[3 * (size_t)triangle + i] : 3 * triangle + i;
@@ -58,7 +63,7 @@ static bool is_closed(const lam_mesh *mesh)
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         uint32_t vertices[3];
         uint64_t hash[3];
-        vertices_of(mesh, t, vertices);
+        info_vertices(mesh, t, vertices);
         for (int i = 0; i < 3; i++)
             hash[i] = position_hash(mesh, vertices[i]);
         sum += edge_hash(hash[0], hash[1]) + edge_hash(hash[1], hash[2]) + edge_hash(hash[2], hash[0]);
@@ -80,7 +85,7 @@ struct info_measure info_measure(const lam_scene *scene)
         double area = 0, volume = 0; // twice the area and six times the volume
         for (uint32_t t = 0; t < mesh->triangle_count; t++) {
             uint32_t vertices[3];
-            vertices_of(mesh, t, vertices);
+            info_vertices(mesh, t, vertices);
             lam_vec3 a = corner_of(mesh, &object->transform, center, vertices[0]);
             lam_vec3 b = corner_of(mesh, &object->transform, center, vertices[1]);
             lam_vec3 c = corner_of(mesh, &object->transform, center, vertices[2]);

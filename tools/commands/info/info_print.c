@@ -62,22 +62,6 @@ static uint32_t root_of(uint32_t *parents, uint32_t vertex)
     return vertex;
 }
 
-static lam_vec3 place(const lam_mesh *mesh, const lam_mat4 *m, uint32_t vertex)
-{
-    const float *at = mesh->positions + 3 * (size_t)vertex;
-    double p[3], out[3];
-    for (int i = 0; i < 3; i++)
-        p[i] = (double)at[i] + mesh->origin[i];
-    for (int i = 0; i < 3; i++)
-        out[i] = m->m[i][0] * p[0] + m->m[i][1] * p[1] + m->m[i][2] * p[2] + m->m[i][3];
-    return (lam_vec3){out[0], out[1], out[2]};
-}
-
-static uint32_t vertex_of(const lam_mesh *mesh, uint32_t triangle, uint32_t k)
-{
-    return mesh->indices ? mesh->indices[3 * (size_t)triangle + k] : 3 * triangle + k;
-}
-
 // Keeps the longest holes, in order.
 static void note_hole(struct info_print *print, struct info_hole hole)
 {
@@ -102,7 +86,7 @@ static bool find_holes(const lam_mesh *mesh, const lam_mat4 *m, const struct hal
         parents[root_of(parents, open[i].low)] = root_of(parents, open[i].high);
     for (size_t i = 0; i < count; i++) {
         struct info_hole *hole = &holes[root_of(parents, open[i].low)];
-        const lam_vec3 a = place(mesh, m, open[i].low), b = place(mesh, m, open[i].high);
+        const lam_vec3 a = info_place(mesh, m, open[i].low), b = info_place(mesh, m, open[i].high);
         hole->edges++;
         hole->length += sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
         hole->middle.x += 0.5 * (a.x + b.x);
@@ -128,8 +112,9 @@ static bool check_edges(const lam_mesh *mesh, const lam_mat4 *m, struct info_pri
     bool ok = halves && numbers && weld(mesh, numbers);
     for (uint32_t t = 0; ok && t < mesh->triangle_count; t++) {
         uint32_t v[3];
-        for (uint32_t k = 0; k < 3; k++)
-            v[k] = numbers[vertex_of(mesh, t, k)];
+        info_vertices(mesh, t, v);
+        for (int k = 0; k < 3; k++)
+            v[k] = numbers[v[k]];
         for (int k = 0; k < 3 && v[0] != v[1] && v[1] != v[2] && v[2] != v[0]; k++) {
             const uint32_t a = v[k], b = v[(k + 1) % 3];
             halves[count++] = a < b ? (struct half){a, b, false} : (struct half){b, a, true};
@@ -160,8 +145,10 @@ static void add_faces(const lam_mesh *mesh, const lam_mat4 *m, const double up[3
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         lam_vec3 p[3];
         double top = -1e308;
-        for (uint32_t k = 0; k < 3; k++) {
-            p[k] = place(mesh, m, vertex_of(mesh, t, k));
+        uint32_t v[3];
+        info_vertices(mesh, t, v);
+        for (int k = 0; k < 3; k++) {
+            p[k] = info_place(mesh, m, v[k]);
             const double height = p[k].x * up[0] + p[k].y * up[1] + p[k].z * up[2];
             top = height > top ? height : top;
         }

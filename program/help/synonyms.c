@@ -136,6 +136,7 @@ static bool replace_option(struct replacing *r, char **words, int *at, lam_error
     const struct option *option = option_find(name), *meant = synonym_option(name, r->groups, meaning);
     bool taken = option && option_is_taken(option, r->groups);
     bool lacks_value = taken && option->value && !option->alone && !value && (!next || is_option(next));
+    bool valued = option && option->value && (value || (next && !is_option(next))); // another command's option
     if (taken && !(lacks_value && meant && *meaning)) {
         bool other = value && option->value && (option->former || own_value(option, value) != value);
         if (!option->value || option->alone || lacks_value || (value && !other))
@@ -150,7 +151,7 @@ static bool replace_option(struct replacing *r, char **words, int *at, lam_error
         bool wants = strchr(meaning, '*') != NULL;
         add_meaning(r, meant, meaning, value ? value : wants && next ? next : "");
         *at += wants && !value && next;
-    } else if (!r->command && (find_command(name) || synonym_command(name))) { // --info, --list-materials
+    } else if (!r->command && !valued && (find_command(name) || synonym_command(name))) { // --info, --list-materials
         r->command = find_command(name) ? find_command(name) : synonym_command(name);
         if (r->draws)
             return complain(error, LAM_BAD_ARGUMENT, "unknown option '--%s'; the command is: lambent %s %s", name,
@@ -184,23 +185,24 @@ static void insert(struct replacing *r, const char *word)
     r->words[0] = (char *)(uintptr_t)word;
 }
 
-// Names the command that the output implies: a model is converted, and a folder of models is drawn to a folder.
+// Names the command that the operand and the output imply: a model is converted, a folder of models is drawn to a folder
+// or on a sheet.
 static void imply_command(struct replacing *r)
 {
     struct stat found;
     int first = options_first_operand(r->count, r->words), output = r->count - 2;
     while (output >= 0 && strcmp(r->words[output], "-o") != 0 && strcmp(r->words[output], "--output") != 0)
         output--;
-    if (output < 0 || first < 0 || find_command(r->words[first]))
+    if (first < 0 || find_command(r->words[first]))
         return;
-    char *name = r->words[output + 1];
+    bool folder = stat(r->words[first], &found) == 0 && S_ISDIR(found.st_mode);
+    char *name = output < 0 ? "sheet.png" : r->words[output + 1];
     if (is_model_name(name)) {
         memmove(r->words + output, r->words + output + 2, (size_t)(r->count - output - 2) * sizeof name);
         r->words[r->count-- - 2] = name;
         insert(r, "convert");
-    } else if ((*name && name[strlen(name) - 1] == '/') || strchr(name, '{')) {
-        if (stat(r->words[first], &found) == 0 && S_ISDIR(found.st_mode))
-            insert(r, "batch");
+    } else if (folder) {
+        insert(r, (*name && name[strlen(name) - 1] == '/') || strchr(name, '{') ? "batch" : "sheet");
     }
 }
 

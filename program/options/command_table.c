@@ -8,14 +8,18 @@
 #define ALL                                                                                                            \
     (((1ull << GROUP_COUNT) - 1) &                                                                                     \
      ~(1ull << GROUP_DIFF | 1ull << GROUP_PLOT | 1ull << GROUP_CAPTIONS | 1ull << GROUP_SHEET | 1ull << GROUP_CHECK |  \
-       1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_FIGURE | 1ull << GROUP_EXERCISES |                   \
-       1ull << GROUP_VIEWER | 1ull << GROUP_HASH | 1ull << GROUP_CONVERT | 1ull << GROUP_PRINT |                       \
-       1ull << GROUP_SETTINGS | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
+       1ull << GROUP_CONTACT | 1ull << GROUP_SHADER | 1ull << GROUP_SHAPE | 1ull << GROUP_FIGURE |                     \
+       1ull << GROUP_EXERCISES | 1ull << GROUP_VIEWER | 1ull << GROUP_HASH | 1ull << GROUP_CONVERT |                   \
+       1ull << GROUP_PRINT | 1ull << GROUP_SETTINGS | 1ull << GROUP_BATCH | 1ull << GROUP_ANIMATION))
 
 static const struct own_default compare_defaults[] = {{"output", "MODEL-SHEET.png", NULL},
                                                       {"size", "480x400 each", NULL},
                                                       {"background", SHEET_BACKGROUND, NULL},
                                                       {NULL, NULL, NULL}};
+static const struct own_default sheet_defaults[] = {{"output", "sheet.png", "FILE.png, .svg, .jpg ..."},
+                                                    {"size", "256x256 each", "size of each picture, for example 320"},
+                                                    {"background", SHEET_BACKGROUND, NULL},
+                                                    {NULL, NULL, NULL}};
 static const struct own_default batch_defaults[] = {{"output", "{stem}.png", NULL}, {NULL, NULL, NULL}};
 static const struct own_default journal_defaults[] = {{"output", "no merged journal", NULL}, {NULL, NULL, NULL}};
 static const struct own_default explain_defaults[] = {{"output", "no figure", NULL}, {NULL, NULL, NULL}};
@@ -57,13 +61,19 @@ const struct command command_table[] = {
          "the journals of the shards.",
          ABOUT | TAKES_OUTPUT | TAKES_JSON | TAKES_QUIET | TAKES_REPORT, .min_operands = 1, .max_operands = -1,
          .defaults = journal_defaults},
-    [COMMAND_compare] = {"compare", "MODEL",
-                         "Draw a sheet of labelled pictures that compare methods, lights or terms side by side.",
-                         (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_SHEET | 1ull << GROUP_CAPTIONS | TAKES_QUIET |
-                             TAKES_JSON,
-                         .min_operands = 1, .max_operands = 1,
-                         .one_more = "the command shows one model in several ways; lambent diff compares pictures",
-                         .defaults = compare_defaults},
+    [COMMAND_sheet] = {"sheet", "MODEL|FOLDER|@LIST...",
+                       "Draw a contact sheet: small pictures of many models, with their names and sizes, on pages.",
+                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_CONTACT | 1ull << GROUP_CAPTIONS | TAKES_QUIET |
+                           TAKES_MANY | TAKES_TITLE,
+                       .also = "contact-sheet contactsheet montage overview", .min_operands = 0, .max_operands = -1,
+                       .defaults = sheet_defaults},
+    [COMMAND_compare] =
+        {"compare", "MODEL", "Draw a sheet of labelled pictures that compare methods, lights or terms side by side.",
+         (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_SHEET | 1ull << GROUP_CAPTIONS | TAKES_QUIET | TAKES_JSON,
+         .min_operands = 1, .max_operands = 1,
+         .one_more =
+             "the command shows one model in several ways; lambent diff compares two models, lambent sheet draws many",
+         .defaults = compare_defaults},
     [COMMAND_explain] =
         {"explain", "MODEL X,Y",
          "Print the calculation of one pixel: the vectors, angles and terms of each light, and the resulting bytes. -o "

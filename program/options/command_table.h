@@ -6,12 +6,12 @@
 
 // Commands in the order of the help, with the program that contains each. The first command is the default.
 #define COMMANDS(row)                                                                                                  \
-    row(render, LAMBENT) row(batch, LAMBENT) row(journal, LAMBENT) row(compare, LAMBENT) row(explain, LAMBENT)         \
-        row(info, LAMBENT) row(check, CLASSROOM) row(shader, LAMBENT) row(diff, LAMBENT) row(hash, LAMBENT)            \
-            row(convert, LAMBENT) row(plot, CLASSROOM) row(exercises, CLASSROOM) row(lights, LAMBENT)                  \
-                row(shape, LAMBENT) row(view, LAMBENT) row(shapes, LAMBENT) row(formats, LAMBENT) row(looks, LAMBENT)  \
-                    row(materials, LAMBENT) row(config, LAMBENT) row(devices, LAMBENT) row(help, LAMBENT)              \
-                        row(complete, LAMBENT) row(generate, LAMBENT)
+    row(render, LAMBENT) row(batch, LAMBENT) row(journal, LAMBENT) row(sheet, LAMBENT) row(compare, LAMBENT)           \
+        row(explain, LAMBENT) row(info, LAMBENT) row(check, CLASSROOM) row(shader, LAMBENT) row(diff, LAMBENT)         \
+            row(hash, LAMBENT) row(convert, LAMBENT) row(plot, CLASSROOM) row(exercises, CLASSROOM)                    \
+                row(lights, LAMBENT) row(shape, LAMBENT) row(view, LAMBENT) row(shapes, LAMBENT) row(formats, LAMBENT) \
+                    row(looks, LAMBENT) row(materials, LAMBENT) row(config, LAMBENT) row(devices, LAMBENT)             \
+                        row(help, LAMBENT) row(complete, LAMBENT) row(generate, LAMBENT)
 
 #define COMMAND_INDEX(name, program) COMMAND_##name,
 enum command_index { COMMANDS(COMMAND_INDEX) COMMAND_COUNT };

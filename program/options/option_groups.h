@@ -242,6 +242,12 @@ struct sheet_options {
     struct texts across; // as typed, at most ACROSS_MAX
 };
 
+// Contact sheets (sheet).
+struct contact_options {
+    int columns, per_page; // 0 means fitted
+    bool to_scale;
+};
+
 // Plots (plot).
 struct plot_options {
     double to; // the right end of the axis; 0 means a fitted axis

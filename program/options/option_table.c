@@ -29,11 +29,12 @@ const char *const group_titles[GROUP_COUNT] = {
     [GROUP_PRINT] = "Checks for 3D printing (info)",
     [GROUP_SETTINGS] = "Settings (render, explain, shape, config)",
     [GROUP_PLOT] = "Plots (plot)",
-    [GROUP_CAPTIONS] = "Captions (compare, plot, materials, check, explain)",
+    [GROUP_CAPTIONS] = "Captions (compare, sheet, plot, materials, check, explain)",
     [GROUP_ABOUT] = "About",
     [GROUP_LIGHTS] = "Lights",
     [GROUP_MATERIALS] = "Materials",
     [GROUP_SHEET] = "Sheets (compare)",
+    [GROUP_CONTACT] = "Contact sheets (sheet)",
     [GROUP_CHECK] = "Checking shaders (check)",
     [GROUP_SHADER] = "Shaders (shader)",
     [GROUP_SHAPE] = "Formulas (shape, explain)",
@@ -1075,7 +1076,16 @@ struct option option_table[OPTIONS_MAX] = {
      "of a grid, and the second defines the columns. `mistake=A,B` uses OpenGL to draw one picture for each mistake, "
      "next to the correct picture and the difference between the two. `lambent shader --mistake list` lists the known "
      "mistakes. `mistake` alone draws all mistakes that are visible in the scene.",
-     .kind = VALUE_VARIED, .store = store_across, .others = "vary grid columns rows", FIELD(sheet.across)},
+     .kind = VALUE_VARIED, .store = store_across, .others = "vary rows", FIELD(sheet.across)},
+
+    {"columns", 0, GROUP_CONTACT, "N", "fitted", "The number of columns of a contact sheet.", NULL,
+     .store = store_integer, FIELD(contact.columns), .min = 1, .max = 100},
+    {"per-page", 0, GROUP_CONTACT, "N", "60",
+     "The number of models on one page of a contact sheet. Several pages are numbered: sheet-1.png.", NULL,
+     .store = store_integer, FIELD(contact.per_page), .min = 1, .max = 1000},
+    {"to-scale", 0, GROUP_CONTACT, NULL, NULL,
+     "Draw all models of a contact sheet to one scale. Without it, each model fills its picture.", NULL,
+     .store = store_switch, .others = "scale true-size", FIELD(contact.to_scale)},
 
     {"to", 0, GROUP_PLOT, "X", "fitted", "The right end of the horizontal axis: a distance, or an angle in degrees.",
      NULL, .store = store_number, FIELD(plot.to), .min = 1e-6, .max = 1e9},

@@ -7,7 +7,7 @@
 
 #include "option_groups.h"
 
-enum { OPTIONS_MAX = 256 };
+enum { OPTIONS_MAX = 320 };
 
 // The options of a command line. option_defaults() returns the defaults.
 struct options {
@@ -34,6 +34,7 @@ struct options {
     struct sheet_options sheet;
     struct plot_options plot;
     struct exercises_options exercises;
+    struct contact_options contact;
     struct check_options check;
     struct shader_options shader;
     struct report_options report;
@@ -84,6 +85,7 @@ enum option_group {
     GROUP_PLOT,
     GROUP_CAPTIONS,
     GROUP_SHEET,
+    GROUP_CONTACT,
     GROUP_CHECK,
     GROUP_SHADER,
     GROUP_SHAPE,

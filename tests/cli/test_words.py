@@ -47,7 +47,7 @@ does | lambent a.stl --mask -o m.png
 does | lambent a.stl --show mask -o m.png
 does | lambent a.stl --show silhouette -o m.png
 does 6 | lambent diff a.stl b.stl
-pending | lambent compare a.stl b.stl -o c.png
+says lambent sheet | lambent compare a.stl b.stl -o c.png
 pending | lambent check a.stl
 does | lambent validate a.stl
 pending | lambent info --check a.stl
@@ -74,9 +74,9 @@ does | lambent Knight.glb --animate -s 128 -o k.webp
 pending | lambent a.stl --hdri env/kloppenheim_05_1k.hdr -o h.png
 pending | lambent a.stl --environment env/kloppenheim_05_1k.hdr -s 200 -o h.png
 pending | lambent a.stl --environment env/kloppenheim_05_1k.hdr --background environment -s 200 -o h.png
-pending | lambent contact-sheet stls/ -o cs.png
-pending | lambent compare stls/*.stl -o cs.png
-pending | lambent batch stls/ --sheet -o cs.png
+does | lambent contact-sheet stls/ -o cs.png
+says lambent sheet | lambent compare stls/*.stl -o cs.png
+nowhere | lambent batch stls/ --sheet -o cs.png
 does | cat a.stl | lambent - -s 64 > p.png; file p.png
 does | cat a.stl | lambent -s 64 > p.png; file p.png
 does | cat a.stl | lambent -o p.png

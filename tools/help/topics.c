@@ -23,6 +23,13 @@ const struct topic topics[] = {
      "changed models, use `--skip-same`. If some pictures fail, the exit code is 7, or 0 with `--failures-ok`. For "
      "details, see `docs/batch.md`. `lambent batch --jobs -` works as a server: the command reads one JSON job per "
      "line and answers each job (`docs/worker.md`)."},
+    {"contact-sheets", "Contact sheets", BIT(CONTACT), TOPIC_NO_TABLE,
+     "`lambent sheet models/ -o sheet.png` draws small pictures of all models in a folder, with names and sizes in "
+     "model "
+     "units. `lambent models/` does the same. The picture's options apply to each model; `-s` sets the size of each "
+     "picture. `--to-scale` draws all models to one scale. More than 60 models (`--per-page`) fill several pages. A "
+     "model "
+     "that cannot be drawn keeps its place on the sheet, and the exit code is then 7."},
     {"viewer", "The viewer", BIT(VIEWER), TOPIC_NO_TABLE,
      "`lambent view bunny.obj` shows a model in the browser, and updates the picture when the model file changes. "
      "`lambent view models/` shows a gallery of a folder. The viewer requires a web page. To build this page, run "

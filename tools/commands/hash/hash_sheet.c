@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base64.h"
 #include "console.h"
 #include "drawing.h"
+#include "kept_picture.h"
 #include "output.h"
 #include "writer.h"
 #include "xxh64.h"
@@ -39,21 +39,6 @@ char *hash_picture_path(const char *folder, const char *name)
 
 // --- keeping
 
-// Stores a reduced picture in a record: its width, height and pixels.
-static void keep(json_t *found, const char *key, const lam_image *picture)
-{
-    lam_image small = {0};
-    lam_error error;
-    size_t length;
-    if (!shrink_bytes(picture, CELL, &small, &error))
-        return;
-    char *text = base64_encode(small.pixels, 4 * (size_t)small.width * (size_t)small.height, &length);
-    if (text)
-        json_object_set_new(found, key, json_pack("[iis]", small.width, small.height, text));
-    free(text);
-    lam_image_free(&small);
-}
-
 void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t recorded, const lam_image *picture,
                      json_t *found)
 {
@@ -65,27 +50,13 @@ void hash_sheet_keep(const struct hash_run *run, const char *name, uint64_t reco
     char *path = folder ? hash_picture_path(folder, name) : NULL;
     // If the hash of the stored picture differs from the recorded hash, the picture is from another run and is ignored.
     if (path && lam_image_load(&old, path, NULL, &error) && old.format == LAM_RGBA8 && hash_of_pixels(&old) == recorded)
-        keep(found, "old_picture", &old);
-    keep(found, "new_picture", picture);
+        kept_picture_store(found, "old_picture", &old, CELL);
+    kept_picture_store(found, "new_picture", picture, CELL);
     lam_image_free(&old);
     free(path);
 }
 
 // --- the sheet
-
-static bool load(const json_t *record, const char *key, lam_image *image)
-{
-    const json_t *value = json_object_get(record, key), *pixels = json_array_get(value, 2);
-    size_t size, at;
-    uint8_t *bytes = pixels ? base64_decode(json_string_value(pixels), json_string_length(pixels), &size, &at) : NULL;
-    if (!bytes)
-        return false;
-    *image = (lam_image){.width = (int)json_integer_value(json_array_get(value, 0)),
-                         .height = (int)json_integer_value(json_array_get(value, 1)),
-                         .owned = true,
-                         .pixels = bytes};
-    return size == 4 * (size_t)image->width * (size_t)image->height;
-}
 
 // Draws a model's old picture (column 0) and new picture (column 1). If `first` is 1, omits column 0.
 static bool draw_row(struct drawing *d, const json_t *record, const char *name, int first, int top, lam_error *error)
@@ -95,7 +66,7 @@ static bool draw_row(struct drawing *d, const json_t *record, const char *name, 
     bool has[2], ok = true;
     draw_text(d, (struct point){GAP, top + 18}, 15, ALIGN_LEFT, INK, name);
     for (int i = 0; i < 2; i++) {
-        has[i] = load(record, keys[i], &pictures[i]);
+        has[i] = kept_picture_load(record, keys[i], &pictures[i]);
         int left = GAP + (i - first) * (CELL + GAP);
         if (i < first)
             continue;

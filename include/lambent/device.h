@@ -366,6 +366,13 @@ typedef struct lam_draw_params {
     lam_cavity cavity;
     lam_specular_aa specular_aa; // ON without Phong shading fails with LAM_BAD_ARGUMENT
     lam_brighten brighten;       // more light for dark models, less for white ones
+    // Annotations, drawn over the picture like the lines above; all measure the scene's box (lam_scene_bounds), in model
+    // units along the axes of world space (docs/annotations.md).
+    bool dimensions; // an arrow and a number for each side of the box; lam_camera_fit_ground leaves space for them
+    bool scale_bar;  // a bar of 1, 2 or 5 times a power of ten units; with perspective, valid at the box's middle
+    bool axes;       // the directions of the axes: x red, y green, z blue
+    // Lines on the plane under the box, 1, 2 or 5 times a power of ten units apart. Surfaces hide them.
+    bool grid;
     LAM_RESERVED(13);
 } lam_draw_params;
 

@@ -665,7 +665,7 @@ struct option option_table[OPTIONS_MAX] = {
      "surfaces. The ground plane is perpendicular to the up axis (`--up`) and fades out with distance. The ground "
      "plane is invisible from below. A ground plane requires Phong shading. For pictures, see "
      "`docs/lighting/ground.md`.",
-     .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "plane base grid",
+     .kind = VALUE_COLOR, .store = store_ground, .alone = "shadow", .others = "plane base",
      .also = "floor shadow-catcher=shadow no-shadows=off no-shadow=off", FIELD(draw.ground)},
     {"shadow-terminator", 0, GROUP_SHADING, "SWITCH", .others = "terminator shadow-bias"},
     {"shadow-samples", 0, GROUP_SHADING, "N", NULL, NULL,
@@ -704,6 +704,22 @@ struct option option_table[OPTIONS_MAX] = {
     {"surfaces", 0, GROUP_SHADING, "SWITCH", NULL, NULL,
      "With `off`, the invisible surfaces still hide the lines behind them.",
      .others = "faces lines-only no-surfaces hide-surfaces"},
+    {"dimensions", 0, GROUP_SHADING, NULL, NULL, NULL,
+     "The numbers are in model units, along the axes of the model's file after `--rotate`. Each axis is measured at an "
+     "edge "
+     "of the box on the outline, and the fitted camera leaves space for it. An axis that points towards the camera is "
+     "not measured. For pictures, see `docs/annotations.md`.",
+     .others = "measure ruler", .also = "dimension dims measurements"},
+    {"scale-bar", 0, GROUP_SHADING, NULL, NULL, NULL,
+     "The bar has a length of 1, 2 or 5 times a power of ten model units. With perspective, it is valid at the middle "
+     "of "
+     "the model; with `--projection orthographic`, everywhere.",
+     .also = "scalebar"},
+    {"axes", 0, GROUP_SHADING, NULL, NULL, NULL, NULL, .others = "gizmo triad", .also = "axis"},
+    {"grid", 0, GROUP_SHADING, NULL, NULL, NULL,
+     "The lines are 1, 2 or 5 times a power of ten model units apart, at multiples of this distance. Surfaces hide "
+     "them.",
+     .others = "floor-grid"},
     {"gl1", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Use this option for comparison with old programs. Lambent then clamps vertex colours to 0...1 before "
      "interpolation, and limits the shininess to 128. Lambent also attenuates the ambient colour of each light with "

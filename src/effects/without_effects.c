@@ -119,7 +119,10 @@ bool lam_pick(const lam_scene *scene, const lam_camera *camera, const lam_draw_p
 
 // --- edges and occlusion
 
-void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel) { frame->draws_edges = false; }
+void frame_edges_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, const lam_mat4 *pixel)
+{
+    frame->draws_edges = false;
+}
 
 bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
                 struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error)

@@ -51,8 +51,8 @@ says lambent sheet | lambent compare a.stl b.stl -o c.png
 pending | lambent check a.stl
 does | lambent validate a.stl
 pending | lambent info --check a.stl
-pending | lambent a.stl --scale-bar -o s.png
-pending | lambent a.stl --dimensions -o s.png
+does | lambent a.stl --scale-bar -o s.png
+does | lambent a.stl --dimensions -o s.png
 pending | lambent a.stl b.stl -o both.png
 does | lambent a.stl + b.stl -o both.png
 pending | lambent --merge a.stl b.stl -o both.png
@@ -98,7 +98,7 @@ does | lambent a.stl --color red --opacity 0.5 -s 64 -o p.png
 does | lambent a.stl --antialiasing 4 -s 64 -o p.png
 says 8 or 16 | lambent a.stl --samples 32 -s 64 -o p.png
 does | lambent a.stl --no-shadows -s 64 -o p.png
-pending | lambent a.stl --grid --axes -s 64 -o p.png
+does | lambent a.stl --grid --axes -s 64 -o p.png
 says compare | lambent a.stl --title Hello -s 64 -o p.png
 does | lambent a.stl --smooth -s 64 -o p.png
 does | lambent a.stl --zoom-to-fit -s 64 -o p.png

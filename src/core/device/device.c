@@ -26,12 +26,13 @@ static bool find_edges(lam_device *device, struct call_control *call, lam_error 
     lam_frame_report *report = &device->report;
     uint64_t start = now_ns();
     bool built;
+    bool needed = edges_need_rays(&device->frame);
     const struct hierarchy *hierarchy =
-        hierarchy_of_frame(&device->hierarchy, &device->frame, device->pool, call, &built, error);
+        needed ? hierarchy_of_frame(&device->hierarchy, &device->frame, device->pool, call, &built, error) : NULL;
     uint64_t found = now_ns();
-    report->hierarchy_ms = built ? (double)(found - start) * 1e-6 : 0;
+    report->hierarchy_ms = needed && built ? (double)(found - start) * 1e-6 : 0;
     struct edge_counts counts = {0};
-    if (!hierarchy ||
+    if ((needed && !hierarchy) ||
         !edges_find(&device->edges, &device->frame, hierarchy, lanes[device->isa], device->pool, call, &counts, error))
         return false;
     report->edges_drawn = counts.drawn;

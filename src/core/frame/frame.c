@@ -494,7 +494,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     for (int i = 0; i < 2; i++)
         frame->middle[i] = rounded(lens.middle[i]);
     set_occlusion(frame, scene, physical);
-    frame_edges_build(frame, &view, &pixel);
+    frame_edges_build(frame, scene, &view, &pixel);
     leave_facets(frame);
     if (frame_has_rays(frame) || frame->draws_edges)
         frame_rays_build(frame, scene, &view);

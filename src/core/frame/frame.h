@@ -111,12 +111,27 @@ struct frame_ground {
 };
 
 // The edges of surfaces that the frame draws as lines (src/effects/edges).
-enum { EDGE_STYLE_WIREFRAME = 0, EDGE_STYLE_FEATURE, EDGE_STYLES };
+// A later style is drawn over an earlier one.
+enum {
+    EDGE_STYLE_GRID,
+    EDGE_STYLE_WIREFRAME,
+    EDGE_STYLE_FEATURE,
+    EDGE_STYLE_HALO, // around the lines and letters of annotations
+    EDGE_STYLE_INK,
+    EDGE_STYLE_X, // the axes
+    EDGE_STYLE_Y,
+    EDGE_STYLE_Z,
+    EDGE_STYLES
+};
 struct frame_edges {
     double min_cosine; // an edge is a crease if the cosine between the normals of its faces is smaller
     double width[EDGE_STYLES];
     lam_rgba color[EDGE_STYLES]; // linear, not premultiplied
     double pixel[4][4];          // world space to pixels, as frame_draw.pixel
+    bool of_model;               // edges of the model are drawn, not only annotations
+    bool has_box;                // the scene has the box `low`..`high`; without it, there are no annotations
+    lam_vec3 low, high;
+    int up; // the index of the world's up axis
 };
 
 struct frame {

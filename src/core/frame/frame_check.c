@@ -106,7 +106,8 @@ static bool effects_check(const lam_draw_params *params, lam_error *error)
     const char *wanted = params->shadows                      ? "shadows"
                          : params->ground                     ? "the shadow on a ground"
                          : params->edges || params->wireframe ? "edges"
-                         : params->cavity == LAM_CAVITY_ON    ? "cavity shading"
+                         : params->dimensions || params->scale_bar || params->axes || params->grid ? "annotations"
+                         : params->cavity == LAM_CAVITY_ON                                         ? "cavity shading"
                          : params->occlusion > LAM_OCCLUSION_OFF || params->output == LAM_OUTPUT_AMBIENT_OCCLUSION
                              ? "ambient occlusion"
                              : NULL;

@@ -1,6 +1,7 @@
 // camera_fit.c: places the camera so that a scene fills the picture.
 #include <lambent/device.h>
 
+#include "annotation_letter.h"
 #include "fail.h"
 #include "float_state.h"
 #include "linear.h"
@@ -249,11 +250,56 @@ lam_camera lam_camera_fit_turning(const lam_scene *scene, lam_vec3 centre, lam_v
     return fit_view(scene, width, height, view, centre, &axis, FILL);
 }
 
+// Moves a fitted camera so that there is space around the scene's box for its dimensions, which are below and on the
+// right.
+static void fit_box(const lam_scene *scene, const lam_draw_params *params, int width, int height, lam_camera *camera)
+{
+    enum { ROUNDS = 32, BEFORE = 2, BEHIND = 8, ABOVE = 1 }; // the space, in letters
+    const int below = 5 + (params->axes ? 5 : params->scale_bar ? 2 : 0);
+    double letter = annotation_letter(width, height), fill_x = 1 - (BEFORE + BEHIND) * letter / width,
+           fill_y = 1 - (ABOVE + below) * letter / height, middle_x = -(BEHIND - BEFORE) * letter / height,
+           middle_y = (below - ABOVE) * letter / height, worst = 2;
+    lam_vec3 low, high;
+    uint64_t state = float_state_enter();
+    fill_x = (fill_x > 0.3 ? fill_x : 0.3) * width / height;
+    fill_y = fill_y > 0.3 ? fill_y : 0.3;
+    for (int round = 0; round < ROUNDS && worst > 1.001 && lam_scene_bounds(scene, &low, &high); round++) {
+        lam_mat4 view = lam_camera_view_matrix(camera);
+        lam_vec3 back = v3_sub(camera->eye, camera->target);
+        bool flat = camera->ortho_half_height > 0;
+        double slope = flat ? camera->ortho_half_height : math_tan(camera->fovy_rad / 2), distance = v3_length(back);
+        double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
+        for (int i = 0; i < 8; i++) {
+            lam_vec3 p = mat4_point(&view, v3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z));
+            double depth = flat ? 1 : -p.z > 0.05 * distance ? -p.z : 0.05 * distance;
+            double x = p.x / (depth * slope), y = p.y / (depth * slope); // the picture's top is at 1
+            left = x < left ? x : left;
+            right = x > right ? x : right;
+            bottom = y < bottom ? y : bottom;
+            top = y > top ? y : top;
+        }
+        double x = (right - left) / (2 * fill_x), y = (top - bottom) / (2 * fill_y);
+        worst = x > y ? x : y;
+        double factor = worst > 2 ? 2 : worst, reach = slope * (flat ? 1 : distance);
+        lam_vec3 move = v3_add(
+            v3_scale(v3(view.m[0][0], view.m[0][1], view.m[0][2]), reach * ((left + right) / 2 - factor * middle_x)),
+            v3_scale(v3(view.m[1][0], view.m[1][1], view.m[1][2]), reach * ((bottom + top) / 2 - factor * middle_y)));
+        camera->target = v3_add(camera->target, move);
+        camera->eye = v3_add(camera->target, v3_scale(back, flat || factor < 1 ? 1 : factor));
+        camera->ortho_half_height *= flat && factor > 1 ? factor : 1;
+    }
+    float_state_leave(state);
+}
+
 lam_camera lam_camera_fit_ground(const lam_scene *scene, const lam_draw_params *params, int width, int height,
                                  const lam_view *view, lam_vec3 centre, const lam_vec3 *axis)
 {
     // a picture of lines alone shows no ground
     bool lines_alone = params && params->no_surfaces && params->output == LAM_OUTPUT_PICTURE;
     bool ground = params && params->ground && !lines_alone;
-    return fit_view(scene, width, height, view, centre, axis, ground ? FILL_ON_GROUND : FILL);
+    bool measures = params && params->dimensions && params->output == LAM_OUTPUT_PICTURE;
+    lam_camera camera = fit_view(scene, width, height, view, centre, axis, ground || measures ? FILL_ON_GROUND : FILL);
+    if (measures && !axis && !(view && view->zoom > 0))
+        fit_box(scene, params, width, height, &camera);
+    return camera;
 }

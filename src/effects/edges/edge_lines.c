@@ -170,14 +170,12 @@ static double half_width(const struct edge_task *task, const struct mesh_edge *e
     return (share < least ? least : share < 1 ? share : 1) * width / 2;
 }
 
-// Sets all members of an edge's line except the points. Returns false if the edge is outside the picture.
-static bool set_line(const struct edge_task *task, const struct mesh_edge *edge, int style, struct edge_line *line)
+// Clips a segment to the picture, with its ends in the hierarchy's space. Sets all members of the line except the
+// points. Returns false if the segment is outside the picture.
+static bool set_segment(const struct edge_view *view, const double p[2][3], int style, struct edge_line *line)
 {
-    const struct edge_view *view = task->view;
     const struct frame_edges *edges = &view->frame->edges;
-    double p[2][3], q[2][4], range[2] = {0, 1}, margin = edges->width[style] + 1;
-    position(task, edge->corner, p[0]);
-    position(task, edge_end(edge->corner), p[1]);
+    double q[2][4], range[2] = {0, 1}, margin = edges->width[style] + 1;
     for (int k = 0; k < 2; k++)
         to_window(view, p[k], q[k]);
     double tiny[2] = {q[0][3] - 1e-30, q[1][3] - 1e-30}; // w > 0
@@ -201,14 +199,25 @@ static bool set_line(const struct edge_task *task, const struct mesh_edge *edge,
     double dx = line->x[1] - line->x[0], dy = line->y[1] - line->y[0];
     line->length = math_sqrt(dx * dx + dy * dy);
     line->style = style;
-    line->half = half_width(task, edge, line);
+    line->half = edges->width[style] / 2;
     line->start = 0;
     line->reversed = false;
     return true;
 }
 
-// Appends a stroke to `strokes`. Returns false if memory runs out.
-static bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call)
+// Sets all members of an edge's line except the points. Returns false if the edge is outside the picture.
+static bool set_line(const struct edge_task *task, const struct mesh_edge *edge, int style, struct edge_line *line)
+{
+    double p[2][3];
+    position(task, edge->corner, p[0]);
+    position(task, edge_end(edge->corner), p[1]);
+    if (!set_segment(task->view, p, style, line))
+        return false;
+    line->half = half_width(task, edge, line);
+    return true;
+}
+
+bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call)
 {
     if (strokes->count == strokes->capacity) {
         size_t capacity = strokes->capacity ? 2 * strokes->capacity : 1024;
@@ -267,7 +276,8 @@ static bool add_run(struct edge_task *task, const struct edge_line *line, double
 {
     if (!hidden)
         return add_part(task, line, from, to);
-    return task->view->frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH || add_dashes(task, line, from, to);
+    return line->style == EDGE_STYLE_GRID || task->view->frame->settings.hidden_lines != LAM_HIDDEN_LINES_DASH ||
+           add_dashes(task, line, from, to);
 }
 
 // Bisects the intervals in which visibility changes, for all lines together.
@@ -320,6 +330,37 @@ static bool flush(struct edge_task *task, struct scratch *s)
     return ok;
 }
 
+// Adds the line that was set in s->lines[s->line_count], which is divided into intervals of about one pixel. Each
+// interval is tested at its middle, unless hidden parts are drawn too.
+static bool add_line(struct edge_task *task, struct scratch *s, bool shows_all)
+{
+    struct edge_line *line = &s->lines[s->line_count];
+    line->first = s->point_count;
+    line->count = shows_all                        ? 0
+                  : line->length < 1               ? 1
+                  : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
+                                                   : POINTS_PER_LINE;
+    for (uint32_t i = 0; i < line->count; i++)
+        s->points[s->point_count++] = (struct edge_point){s->line_count, (i + 0.5) / line->count};
+    s->line_count++;
+    bool full = s->point_count > POINTS - POINTS_PER_LINE || s->line_count == EDGES_PER_TASK;
+    return !full || flush(task, s);
+}
+
+bool edge_task_segments(struct edge_task *task, const double (*segments)[2][3], int count, int style, void *memory)
+{
+    struct scratch *s = memory;
+    s->line_count = s->point_count = 0;
+    for (int i = 0; i < count; i++) {
+        double p[2][3];
+        for (int k = 0; k < 2; k++)
+            ray_point(task->view->hierarchy, segments[i][k], p[k]);
+        if (set_segment(task->view, p, style, &s->lines[s->line_count]) && !add_line(task, s, false))
+            return false;
+    }
+    return flush(task, s);
+}
+
 bool edge_task_draw(struct edge_task *task, void *memory)
 {
     struct scratch *s = memory;
@@ -335,18 +376,7 @@ bool edge_task_draw(struct edge_task *task, void *memory)
             line->start = task->measures[e].start;
             line->reversed = task->measures[e].reversed;
         }
-        line->first = s->point_count;
-        line->count = 0;
-        if (!shows_all) {
-            // The line is divided into intervals of about one pixel, and each interval is tested at its middle.
-            line->count = line->length < 1                 ? 1
-                          : line->length < POINTS_PER_LINE ? (uint32_t)(line->length + 0.5)
-                                                           : POINTS_PER_LINE;
-            for (uint32_t i = 0; i < line->count; i++)
-                s->points[s->point_count++] = (struct edge_point){s->line_count, (i + 0.5) / line->count};
-        }
-        s->line_count++;
-        if (s->point_count > POINTS - POINTS_PER_LINE && !flush(task, s))
+        if (!add_line(task, s, shows_all))
             return false;
     }
     return flush(task, s);

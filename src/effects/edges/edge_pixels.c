@@ -55,8 +55,8 @@ static double coverage_at(const struct edge_stroke *s, double x, double y, doubl
     if ((along < 0 || end) && s->round[end]) { // at a round cap, the distance from the end
         double ex = x - s->x[end], ey = y - s->y[end];
         across = math_sqrt(ex * ex + ey * ey);
-        ux = ex / across;
-        uy = ey / across;
+        ux = across > 0 ? ex / across : 1;
+        uy = across > 0 ? ey / across : 0;
     }
     return whole * (share_below(across + s->half, ux, uy) - share_below(across - s->half, ux, uy));
 }

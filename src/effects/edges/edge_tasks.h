@@ -48,6 +48,17 @@ size_t edge_scratch_bytes(void);
 // Returns false if memory runs out or the call is stopped.
 bool edge_task_draw(struct edge_task *task, void *scratch);
 
+// Draws line segments, whose ends are in world space, in one style: the parts that no surface hides. Returns false as
+// edge_task_draw does.
+bool edge_task_segments(struct edge_task *task, const double (*segments)[2][3], int count, int style, void *scratch);
+
+// Appends a stroke to `strokes`. Returns false if memory runs out.
+bool edge_stroke_add(struct edge_strokes *strokes, struct edge_stroke stroke, struct call_control *call);
+
+// Draws the annotations of a frame (annotations.c): adds their strokes to the task's. Returns false as edge_task_draw
+// does. The task has no draw and no edges, and `view->hierarchy` is NULL if there is no grid.
+bool annotations_draw(struct edge_task *task, void *scratch);
+
 // Fills the array `measures` of a task, except the data about chains.
 void edge_task_measure(struct edge_task *task);
 

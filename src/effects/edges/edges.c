@@ -224,37 +224,49 @@ static bool find_chains(struct search *search, size_t task_count, struct pool *p
     return ok || loop_error(search->view.loop, 2 * count * sizeof(struct edge_measure), error);
 }
 
+// Finds the visible parts of the model's edges.
+static bool find_model_edges(struct search *search, struct pool *pool, struct call_control *call, lam_error *error)
+{
+    struct edge_memory *memory = search->memory;
+    const struct frame *frame = search->view.frame;
+    if (!is_listed(memory, frame) && !list(memory, frame, call, error))
+        return false;
+    size_t bytes = ((size_t)frame->draw_count + 1) * sizeof *search->first_tasks, task_count = 0;
+    search->first_tasks = malloc(bytes);
+    if (!search->first_tasks)
+        return fail_memory(error, bytes);
+    const struct source *sources = memory->sources.data;
+    for (int i = 0; i < frame->draw_count; i++) {
+        search->first_tasks[i] = task_count;
+        task_count += ((size_t)sources[i].count + EDGES_PER_TASK - 1) / EDGES_PER_TASK;
+    }
+    bool ready = !frame->settings.edges || drop_specks(search, task_count, pool, call, error);
+    if (frame->settings.hidden_lines == LAM_HIDDEN_LINES_DASH)
+        ready = ready && find_chains(search, task_count, pool, call, error);
+    search->step = DRAW;
+    if (ready)
+        pool_run(pool, task_count, run_task, search);
+    free(search->first_tasks);
+    return ready;
+}
+
 bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
                 struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error)
 {
     struct loop_status loop = {.call = call};
-    struct search search = {.memory = memory};
+    struct search search = {.memory = memory, .view = {.frame = frame, .loop = &loop}};
     // The functions for all instruction sets compute identical results.
     search.rays_of = CPU_WIDEST(lanes, edge_rays);
-    if (!is_listed(memory, frame) && !list(memory, frame, call, error))
-        return false;
     if (!reserve_threads(memory, pool_threads(pool), call, error))
         return false;
-    set_view(&search.view, frame, hierarchy, &loop);
-    size_t bytes = ((size_t)frame->draw_count + 1) * sizeof *search.first_tasks, task_count = 0;
-    search.first_tasks = malloc(bytes);
-    if (!search.first_tasks)
-        return fail_memory(error, bytes);
-    const struct source *sources = memory->sources.data;
-    for (int i = 0; i < frame->draw_count; i++) {
-        search.first_tasks[i] = task_count;
-        task_count += ((size_t)sources[i].count + EDGES_PER_TASK - 1) / EDGES_PER_TASK;
-    }
-    bool ready = !frame->settings.edges || drop_specks(&search, task_count, pool, call, error);
-    if (frame->settings.hidden_lines == LAM_HIDDEN_LINES_DASH)
-        ready = ready && find_chains(&search, task_count, pool, call, error);
-    search.step = DRAW;
-    if (ready)
-        pool_run(pool, task_count, run_task, &search);
-    free(search.first_tasks);
-    if (!ready)
+    if (hierarchy)
+        set_view(&search.view, frame, hierarchy, &loop);
+    if (frame->edges.of_model && !find_model_edges(&search, pool, call, error))
         return false;
-    *counts = (struct edge_counts){search.drawn, search.rays};
+    struct edge_task annotations = {.view = &search.view, .rays_of = search.rays_of, .strokes = &memory->strokes[0]};
+    if (frame->edges.has_box && !annotations_draw(&annotations, memory->scratch.data) && should_continue(&loop))
+        no_memory(&loop);
+    *counts = (struct edge_counts){search.drawn, search.rays + annotations.rays};
     if (!should_continue(&loop))
         return loop_error(&loop, sizeof(struct edge_stroke) * EDGES_PER_TASK, error);
     return edges_cover(memory, frame, pool, call, error);

@@ -38,13 +38,16 @@ struct edge_counts {
     uint64_t drawn, rays;
 };
 
-// Sets draws_edges and `edges`. `pixel` is the matrix from eye space to pixels.
-void frame_edges_build(struct frame *frame, const lam_mat4 *view, const lam_mat4 *pixel);
+// Sets draws_edges and `edges`, of which the annotations use the scene's box. `pixel` is the matrix from eye space to pixels.
+void frame_edges_build(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, const lam_mat4 *pixel);
 
 // Finds the lines of a frame, and computes the fraction of each pixel that the lines cover. draws_edges of the frame
-// must be set. `hierarchy` belongs to the frame. `lanes` is the maximum number of rays traced at a time.
+// must be set. `hierarchy` belongs to the frame; it may be NULL if nothing hides lines (edges_need_rays). `lanes` is the maximum number of rays traced at a time.
 bool edges_find(struct edge_memory *memory, const struct frame *frame, const struct hierarchy *hierarchy, int lanes,
                 struct pool *pool, struct call_control *call, struct edge_counts *counts, lam_error *error);
+
+// Returns whether edges_find needs the hierarchy.
+static inline bool edges_need_rays(const struct frame *frame) { return frame->edges.of_model || frame->settings.grid; }
 
 // Blends the lines over the picture of the same frame in linear light, the wireframe first. The picture may have any
 // format.

@@ -161,6 +161,11 @@ static const lam_setting rows[] = {
      .summary = "How to draw edges behind surfaces: remove, dash or show."},
     {"surfaces", MEMBER(NOT_FLAG, no_surfaces), WORDS_OF(surfaces_words),
      .summary = "Whether to draw surfaces: on, or off to draw only lines."},
+    {"dimensions", MEMBER(FLAG, dimensions),
+     .summary = "Draw the size of the model's bounding box, with arrows and numbers."},
+    {"scale_bar", MEMBER(FLAG, scale_bar), .summary = "Draw a scale bar."},
+    {"axes", MEMBER(FLAG, axes), .summary = "Draw the directions of the axes: x red, y green, z blue."},
+    {"grid", MEMBER(FLAG, grid), .summary = "Draw a grid on the plane under the model."},
 };
 _Static_assert(COUNT_OF(rows) <= LAM_SETTINGS_MAX, "more rows than lam_picture_settings.draw_present has bits");
 

@@ -189,6 +189,8 @@ def run(work, limits=None, progress=None):
     def body():
         try:
             result["value"] = work(task)
+        except TimeLimit:  # the library knows only the time that was left
+            result["error"] = TimeLimit("the time limit of %g s is over" % limits.time_limit_s)
         except BaseException as error:  # raised in the caller's thread
             result["error"] = error
         told.put(None)

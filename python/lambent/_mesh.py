@@ -13,6 +13,8 @@ def array_of(what, values, columns, kind=np.float32):
         found = np.asarray(values)
     except ValueError:
         raise BadValue("%s: found rows of different lengths, expected %s" % (what, expected)) from None
+    if found.ndim < 3 and found.size == 0:
+        found = np.zeros((0, columns[0]), kind)
     if found.ndim != 2 or found.shape[1] not in columns or found.dtype.kind not in "iuf":
         raise BadValue("%s: found an array of the shape %s and the type %s, expected %s" % (
             what, "x".join(map(str, found.shape)) or "()", found.dtype, expected))

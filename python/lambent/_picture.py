@@ -76,6 +76,12 @@ class Picture(np.ndarray):
         pixels = self.tobytes()
         return "pixels:%016x" % lib.xxh64_of(pixels, len(pixels))
 
+    def diff(self, other: "Picture") -> "dict[str, float]":
+        """Compares with a picture of the same size and type, as `lambent diff` does: the mean and the largest difference of a channel, …"""
+        (a, _a), (b, _b), found = self._image(), other.view(Picture)._image(), ffi.new("lam_difference *")
+        call(lib.lam_image_compare, a, b, found)
+        return {name: getattr(found, name) for name, field in ffi.typeof("lam_difference").fields if field.type.kind == "primitive"}
+
     def show(self) -> None:
         """Shows the picture: in the notebook, or in the browser."""
         ipython = sys.modules.get("IPython")

@@ -10,7 +10,7 @@ import sys
 import numpy as np
 
 from ._core import Access, BadModel, BadValue, OutOfMemory, Unsupported, call, every, matrix_of, path_bytes, run, shown, text_bytes, text_of
-from ._fields import Camera, Light, Material, as_material, choose, color, words_of
+from ._fields import Camera, Light, Material, as_material, choose, color, words_of, written
 from ._mesh import meshes_of
 from ._native import ffi, lib
 from ._options import CHANGES, KEYWORDS, OTHERS, STRUCTS, Options, describe_keywords
@@ -23,6 +23,23 @@ def pair_of(size):
     if len(pair) != 2 or not all(isinstance(side, (int, np.integer)) and 1 <= side <= 65535 for side in pair):
         raise BadValue("size: found %s, expected one or two whole numbers from 1 to 65535" % shown(size))
     return int(pair[0]), int(pair[1])
+
+
+AXES = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
+
+
+def listed(value):
+    """The texts of a keyword that takes one or several."""
+    return list(value) if isinstance(value, (list, tuple)) else [value]
+
+
+def turns_of(options):
+    """The rotations of the keyword `rotate`: pairs of an axis and degrees."""
+    turns = [str(text).partition(":") for text in listed(options.get("rotate", []))]
+    for axis, colon, _ in turns:
+        if axis not in AXES or not colon:
+            raise BadValue("rotate: found %s, expected an axis and degrees, such as y:30" % shown(options.get("rotate")))
+    return [(axis, degrees) for axis, _, degrees in turns]
 
 
 def angle_of(what, degrees):
@@ -155,6 +172,60 @@ class Scene:
         call(lib.lam_scene_set_sections, self._handle, made, len(sections), ffi.NULL)
         return [lib.lam_scene_section_area(self._handle, index) for index in range(len(sections))]
 
+    def hide(self, *names: str) -> "Scene":
+        """Hides the objects, parts and materials with these names. Returns the scene."""
+        return self._show(names, True)
+
+    def only(self, *names: str) -> "Scene":
+        """Hides all but the objects, parts and materials with these names. Returns the scene."""
+        return self._show(names, False)
+
+    def _show(self, names, hides):
+        call(lib.lam_scene_split_parts, self._handle)
+        known, found = {}, set()
+        for index in range(lib.lam_scene_object_count(self._handle)):
+            item = lib.lam_scene_object(self._handle, index)
+            mesh = lib.lam_scene_mesh(self._handle, item.mesh)
+            number = item.material if item.material >= 0 or not mesh.part_count else mesh.parts[0].material
+            material = lib.lam_scene_material(self._handle, number) if number >= 0 else None
+            known[index] = {text_of(item.name), text_of(material.name) if material else None} - {None, ""}
+        for name in map(str, names):
+            if not any(name in own for own in known.values()):
+                all_names = sorted(set().union(*known.values())) if known else []
+                raise BadValue("%s: found %s, expected the name of an object, a part or a material: %s" % (
+                    "hide" if hides else "only", shown(name), ", ".join(all_names[:8]) + ", …" * (len(all_names) > 8) or "the model has no names"))
+            found |= {index for index, own in known.items() if name in own}
+        for index in known:
+            if (index in found) == hides:
+                call(lib.lam_scene_hide_object, self._handle, index, True)
+        return self
+
+    def rotate(self, axis: str, degrees: float) -> "Scene":
+        """Turns all objects about an axis ("x", "y" or "z") through the centre of the scene's sphere. Returns the scene."""
+        return self._rotate(self._sphere(), axis, degrees)
+
+    def _rotate(self, centre, axis, degrees):
+        call(lib.lam_scene_rotate, self._handle, centre, choose("axis", AXES, axis), angle_of("rotate", degrees))
+        return self
+
+    def _sphere(self):
+        centre, radius = ffi.new("lam_vec3 *"), ffi.new("double *")
+        lib.lam_scene_sphere(self._handle, -1, centre, radius)
+        return centre[0]
+
+    def save(self, path: "str | os.PathLike[str]") -> "tuple[str, ...]":
+        """Writes the scene as a model file, in the format of the extension: glb, obj, stl, ply or 3mf. An OBJ file comes with its materials and textures.
+        Returns the sentences about data that the format does not support."""
+        folder, name = os.path.split(os.path.abspath(os.fspath(path)))
+        kept = ffi.new("char[]", path_bytes(name))
+        made = ffi.gc(call(lib.lam_scene_export, self._handle, text_bytes("format", os.path.splitext(name)[1].lstrip(".").lower()),
+                           ffi.new("lam_export_params *", {"name": kept})), lib.lam_export_free)
+        files = list(every(lib.lam_export_file_name, made))
+        for index in reversed(range(len(files))):  # the model last, so that it is never there without its files
+            data = lib.lam_export_file(made, index)
+            call(lib.lam_bytes_save, ffi.new("lam_bytes *", data), path_bytes(os.path.join(folder, files[index])))
+        return tuple(every(lib.lam_export_loss, made))
+
     @property
     def bounds(self) -> "tuple[tuple[float, float, float], tuple[float, float, float]]":
         """Two corners of the box around the triangles, in world space."""
@@ -280,7 +351,9 @@ def camera_of(scene, options, settings, params, size):
     views = [name for name, keyword in KEYWORDS.items() if keyword.struct == "lam_view"] + ["view"]
     if settings.present & lib.LAM_SETTING_CAMERA and not any(name in options for name in views):
         return ffi.new("lam_camera *", settings.camera)
-    return ffi.new("lam_camera *", lib.lam_camera_fit_ground(handle, params, *size, options.view, (0, 0, 0), ffi.NULL))
+    axes = {axis for axis, _ in turns_of(options)}
+    axis = ffi.new("lam_vec3 *", AXES[axes.pop()] if len(axes) == 1 else (0, 0, 0)) if axes else ffi.NULL
+    return ffi.new("lam_camera *", lib.lam_camera_fit_ground(handle, params, *size, options.view, scene._sphere() if axis else (0, 0, 0), axis))
 
 
 def lit_by_file(scene, settings):
@@ -293,6 +366,15 @@ def change(scene, options, task, params):
     """Applies the keywords that change a scene loaded by this call, before the camera is placed."""
     if "material" in options:
         scene.set_material(options.get("material"), _mode=params.color)
+    if "color" in options:
+        wanted = options.get("color")
+        if max(color("color", wanted, params.color)) > 1:
+            raise BadValue("color: found %s, expected numbers from 0 to 1; a colour of numbers from 0 to 255 is written '#rrggbb'" % shown(wanted))
+        scene.set_material("color=" + written(wanted), _mode=params.color)
+    if "hide" in options:
+        scene.hide(*listed(options.get("hide")))
+    if "only" in options:
+        scene.only(*listed(options.get("only")))
     if "rig" in options and (params.rig > lib.LAM_RIG_NONE or options.no_lights) or "light" in options:
         lib.lam_scene_clear_lights(scene._handle)
     if "light" in options and "rig" not in options:
@@ -301,6 +383,19 @@ def change(scene, options, task, params):
         scene.set_environment(options.get("environment"), options.get("environment_rotation", 0), _control=task.control, _mode=params.color)
     if "rig" not in options:
         call(lib.lam_scene_mirror_metals, scene._handle, params)
+
+
+def place_rig(scene, params, task):
+    """Adds the rig's lights to the scene before the model turns, so that they stay in place."""
+    handle, lights = scene._handle, ffi.new("lam_light[]", lib.LAM_RIG_LIGHTS_MAX)
+    count = lib.lam_scene_rig_lights(handle, params.rig, params.ground != lib.LAM_GROUND_NONE, lights)
+    own = lib.lam_scene_light_count(handle) > 0 or lib.lam_scene_environment(handle) != ffi.NULL
+    if params.rig == lib.LAM_RIG_AUTO and not own and not lib.lam_scene_rig_lights(handle, params.rig, False, lights):
+        scene.set_environment("studio", _control=task.control)
+    params.tone = lib.lam_draw_tone(handle, params)
+    for light in lights[0:count]:
+        call(lib.lam_scene_add_light, handle, ffi.new("lam_light *", light))
+    params.rig = lib.LAM_RIG_NONE
 
 
 def draw(scene, options, size, task, changes=False):
@@ -328,15 +423,19 @@ def draw_lit(scene, options, size, task, changes):
     model = lib.lam_reflection_describe(params.reflection)
     if params.rig == lib.LAM_RIG_AUTO and params.reflection and not model.microfacet and lib.lam_scene_light_count(handle) == 0:
         params.rig = lib.LAM_RIG_STUDIO
+    if changes and "rotate" in options and params.rig != lib.LAM_RIG_NONE:
+        place_rig(scene, params, task)
     if size is None:
         size = (settings.width, settings.height) if settings.present & lib.LAM_SETTING_SIZE else (lib.LAM_RENDER_SIZE,) * 2
     if model.tangents:
         with scene._access.alone():
             call(lib.lam_scene_make_tangents, handle, task.control)
     camera = camera_of(scene, options, settings, params, size)
+    centre = scene._sphere()
+    for axis, degrees in turns_of(options):
+        scene._rotate(centre, axis, degrees)
     if "section" in options:
-        cut = options.get("section")
-        scene.set_sections(*(cut if isinstance(cut, (list, tuple)) else [cut]), _mode=params.color)
+        scene.set_sections(*listed(options.get("section")), _mode=params.color)
     if changes and "light" in options:
         scene._light(options.get("light"), camera, params.color)
     if changes and "ambient" in options:

@@ -36,7 +36,7 @@ def keywords(groups, structs=None):
 
 
 def of_class(cls):
-    bases = ", ".join("np.ndarray[Any, Any]" if base.__name__ == "ndarray" else base.__name__ for base in cls.__bases__ if base.__module__ != "lambent._fields"
+    bases = ", ".join({"ndarray": "np.ndarray[Any, Any]", "list": "list[Picture]"}[base.__name__] if base.__name__ in ("ndarray", "list") else base.__name__ for base in cls.__bases__ if base.__module__ != "lambent._fields"
                       and base is not object)
     yield "\nclass %s%s:" % (cls.__name__, "(%s)" % bases if bases else "")
     attributes = [(key, getattr(cls, key).type) for key in dir(cls) if isinstance(getattr(cls, key), (Field, Part))]
@@ -78,6 +78,8 @@ def main():
     print("\ndef views(wanted: int | str) -> list[dict[str, float]]: ...")
     start = "model: Model, %s*, name: str | None = None, progress: Progress = None"
     print("\ndef load(%s%s) -> Scene: ..." % (start % "", keywords((), {"lam_load_params", "lam_control"})))
+    print("def turntable(model: Model, frames: int = 36, size: int | tuple[int, int] | None = None, *, name: str | None = None%s) -> Frames: ..." %
+          keywords((_options.OTHERS, _options.CHANGES)))
     print("def render(%s%s) -> Picture: ..." % (start % "size: int | tuple[int, int] | None = None, ", keywords((_options.OTHERS, _options.CHANGES))))
 
 

@@ -56,7 +56,10 @@ class Errors(unittest.TestCase):
                 (lambent.LimitReached, lambent.Error, "triangles, expected at most 3", lambda: lambent.render("tests/models/cube.obj", triangle_limit=3)),
                 (lambent.OutOfMemory, MemoryError, "memory limit", lambda: lambent.render("examples/models/spot.glb", memory_limit=1000)),
                 (lambent.OutOfMemory, MemoryError, "^size: a picture of 4000x3000 pixels needs 48.0 MB", lambda: lambent.render("cube", (4000, 3000), memory_limit=40_000_000)),
-                (lambent.TimeLimit, TimeoutError, "time limit", lambda: lambent.render("teapot", 1024, time_limit=0.2, **SLOW)),
+                (lambent.BadModel, OSError, "no triangles", lambda: lambent.render(([], []))),
+                (lambent.BadModel, OSError, "no triangles", lambda: lambent.render(([[0, 0, 0]], []))),
+                (lambent.BadValue, ValueError, "0 to 255 is written '#rrggbb'", lambda: lambent.render("cube", color=(255, 0, 0))),
+                (lambent.TimeLimit, TimeoutError, "the time limit of 0.2 s is over", lambda: lambent.render("teapot", 1024, time_limit=0.2, **SLOW)),
             ):
                 with self.subTest(pattern=pattern):
                     with self.assertRaisesRegex(kind, pattern) as caught:

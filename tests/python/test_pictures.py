@@ -28,6 +28,10 @@ CASES = [
     ("examples/models/spot.glb", {"environment": "sky", "environment_rotation": 40, "tone": "aces", "exposure": -1},
      ["--environment", "sky", "--environment-rotation", "40", "--tone", "aces", "--exposure", "-1"]),
     ("torus", {"section": ["x=0", "z=60%,color=orange"]}, ["--section", "x=0", "--section", "z=60%,color=orange"]),
+    ("torus", {"rotate": "x:30", "color": "#ff8800", "dimensions": True}, ["--rotate", "x:30", "--color", "#ff8800", "--dimensions"]),
+    ("torus", {"rotate": ["x:30", "y:-20"], "section": "x=0"}, ["--rotate", "x:30", "--rotate", "y:-20", "--section", "x=0"]),
+    ("examples/models/parts.obj", {"only": ["ring", "body"]}, ["--only", "ring", "--only", "body"]),
+    ("examples/models/parts.obj", {"hide": "ring", "grid": True, "axes": True, "scale_bar": True}, ["--hide", "ring", "--grid", "--axes", "--scale-bar"]),
     ("teapot", {"show": "n.l"}, ["--show", "n.l"]),
     ("teapot", {"camera": lambent.Camera(eye=(2, 1, 4), fovy=40), "exposure": "auto"}, ["--camera", "eye=2/1/4,fovy=40", "--exposure", "auto"]),
     ("teapot", {"stage": "vertex", "color_mode": "raw", "samples": 1, "background": "#456", "material": "#fa0", "ambient": "#111"},
@@ -47,6 +51,40 @@ class SameAsTheProgram(unittest.TestCase):
                     path = "%s/%d.png" % (folder, number)
                     subprocess.run([os.environ["LAMBENT"], model, *words, "-s", "128x96", "-o", path, "-q"], check=True)
                     self.assertEqual(lambent.render(model, (128, 96), **keywords).png(), pathlib.Path(path).read_bytes())
+
+    def test_turntable(self):
+        """The frames and the file of a turntable are the program's."""
+        with tempfile.TemporaryDirectory() as folder:
+            for model, words, keywords in (("teapot", [], {}), ("examples/models/spot.glb", ["--view", "front"], {"view": "front"}),
+                                           ("tests/models/cube.stl", ["--light", "point:position=1r/2r/2r"], {"light": "point:position=1r/2r/2r"})):
+                subprocess.run([os.environ["LAMBENT"], model, *words, "--turntable", "5", "-s", "64", "-o", folder + "/t.gif", "-q"], check=True)
+                frames = lambent.turntable(model, 5, 64, **keywords)
+                frames.save(folder + "/p.gif")
+                self.assertEqual(pathlib.Path(folder, "p.gif").read_bytes(), pathlib.Path(folder, "t.gif").read_bytes(), model)
+        self.assertRaisesRegex(lambent.BadValue, "whole number from 2", lambent.turntable, "teapot", 0)
+        self.assertRaisesRegex(lambent.BadValue, "ends in .gif", frames.save, "t.jpg")
+        self.assertRaisesRegex(lambent.BadValue, "no picture", lambent.Frames().save, "t.gif")
+
+    def test_diff(self):
+        a, b = lambent.render("teapot", 64), lambent.render("teapot", 64, color="red")
+        self.assertEqual(a.diff(a)["maximum"], 0)
+        self.assertGreater(a.diff(b)["mean"], 0)
+        self.assertRaises(lambent.BadValue, a.diff, lambent.render("teapot", 32))
+
+    def test_scene_changes(self):
+        """Scene.hide, only, rotate and save."""
+        parts = lambent.load("examples/models/parts.obj")
+        self.assertRaisesRegex(lambent.BadValue, "found 'lid', expected the name of an object, a part or a material: body, foot", parts.hide, "lid")
+        whole = parts.bounds
+        self.assertLess(parts.only("body").bounds[1][1], whole[1][1])
+        with tempfile.TemporaryDirectory() as folder:
+            scene = lambent.Scene().add("sphere").rotate("x", 90)
+            self.assertEqual(scene.save(folder + "/a.glb"), ())
+            self.assertEqual(lambent.load(folder + "/a.glb").triangles, scene.triangles)
+            self.assertRaises(lambent.Unsupported, scene.save, folder + "/a.fbx")
+            subprocess.run([os.environ["LAMBENT"], "convert", "examples/models/spot.glb", folder + "/c.obj", "-q"], check=True)
+            lambent.load("examples/models/spot.glb").save(folder + "/d.obj")
+            self.assertEqual(len(os.listdir(folder)), 7, os.listdir(folder))
 
     def test_default_size(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -182,7 +182,7 @@ bool scene_copy_mesh(struct lam_scene *scene, const lam_mesh *mesh, lam_mesh *co
         return false;
     if (!copy_mesh(scene, copy))
         return call_memory_error(scene->arena.call, 0, error);
-    return copy->normals || mesh_is_strokes(copy) ||
+    return copy->normals || !mesh_corners(copy) || mesh_is_strokes(copy) ||
            normals_smooth(copy, math_radians(40), &scene->arena, NULL, NULL, error);
 }
 

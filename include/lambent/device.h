@@ -149,6 +149,13 @@ typedef enum lam_output {
     // The light of the environment: the reflection term of classic materials, and the environment's share of the
     // diffuse and specular terms of physical materials. Black if a surface is not lit.
     LAM_OUTPUT_ENVIRONMENT,
+    // The normals of LAM_OUTPUT_NORMALS along the axes of world space. 8-bit code: (x + 1)/2.
+    LAM_OUTPUT_NORMALS_WORLD,
+    // Labels, for masks: the number of the object, counted from 1, and the number of the part, counted from 1 over the
+    // parts of all objects in order (a mesh without parts counts as one). 0: the ground. 8-bit code: a colour for each
+    // label, as for LAM_OUTPUT_IDS.
+    LAM_OUTPUT_OBJECT_ID,
+    LAM_OUTPUT_PART_ID,
     LAM_OUTPUT_COUNT,
 } lam_output;
 

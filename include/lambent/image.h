@@ -76,6 +76,9 @@ typedef struct lam_save_params {
     // true: lam_image_save returns after the file and its name are on disk (fsync of both), so that a power failure
     // leaves either the old file or the new one. false: the system writes them later, within seconds.
     bool durable;
+    // Stores one number for each pixel, the first (red): PFM and EXR (32 bits, channel Z) with one channel; a PNG, which
+    // is then made from floats, as 16-bit grey with the number rounded and limited to 0…65535. Other formats ignore it.
+    bool single;
     LAM_RESERVED(6);
 } lam_save_params;
 

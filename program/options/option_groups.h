@@ -57,6 +57,7 @@ struct picture_options {
     double exposure;        // in stops; valid if the kind is EXPOSURE_LITERAL
     int exposure_kind;      // enum exposure_kind
     const char *show;       // as typed (show_option.h); NULL means the picture
+    double depth_scale;     // of depth in a PNG of 16 bits; 0: 8 bits
     const char *save_scene; // the scene file to write, or NULL
 };
 

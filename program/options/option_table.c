@@ -380,6 +380,12 @@ struct option option_table[OPTIONS_MAX] = {
              "normal-map=normals unlit=base-color albedo=base-color",
      FIELD(picture.show), .also_in = IN_SHEET, .not_in = IN_LOOK},
 
+    {"depth-scale", 0, GROUP_PICTURE, "NUMBER", NULL,
+     "With --show depth: write a PNG with 16 bits that stores the distance times this number; 0 means no surface.",
+     "With a model in metres, `--depth-scale 1000` stores millimetres. Without it, a PNG shows the depth in 8 bits, "
+     "near is "
+     "white; `.exr` and `.pfm` files store the distance itself.",
+     .store = store_number, .others = "depth-16", FIELD(picture.depth_scale), .min = 1e-9, .max = 1e9},
     {"save-scene", 0, GROUP_PICTURE, "FILE", NULL, "Also write a scene file (JSON) that reproduces this picture.",
      "The file stores every setting of the picture: the model's path relative to FILE, the camera, all lights "
      "(including the lights of a rig), materials, transforms and picture options. `lambent FILE` then draws an "

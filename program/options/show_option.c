@@ -148,3 +148,13 @@ bool show_option_apply(const char *text, const lam_scene *scene, lam_draw_params
     free(lights);
     return ok;
 }
+
+bool show_option_is_single(const char *text, const char *ending, double depth_scale)
+{
+    const lam_output output = show_option_what(text);
+    const bool label = output == LAM_OUTPUT_OBJECT_ID || output == LAM_OUTPUT_PART_ID;
+    if (!label && output != LAM_OUTPUT_DEPTH)
+        return false;
+    return strcmp(ending, "png") == 0 ? label || depth_scale > 0
+                                      : strcmp(ending, "exr") == 0 || strcmp(ending, "pfm") == 0;
+}

@@ -1,7 +1,9 @@
 # test_show.py: --show: terms that add up, numbers with their encodings, lights by name.
+import json
 import struct
+import zlib
 
-from harness import Case, pixel, read_png
+from harness import Case, pixel, png_chunks, read_png
 
 SIZE = 40
 
@@ -11,6 +13,8 @@ class Show(Case):
         """The numbers of a PFM, in the file's order."""
         self.good(*words, "-s", SIZE, "-o", "a.pfm")
         data = (self.folder / "a.pfm").read_bytes()
+        if data.startswith(b"Pf"):  # one number for each pixel
+            return sum(((v,) * 3 for v in struct.unpack("<%df" % (SIZE * SIZE), data[-SIZE * SIZE * 4:])), ())
         return struct.unpack("<%df" % (SIZE * SIZE * 3), data[-SIZE * SIZE * 12:])
 
     def test_terms_add_up(self):
@@ -154,6 +158,63 @@ class Show(Case):
         self.bad(1, "cube.obj", "--show", "light:kye", says=("'kye'", "'key', 'fill', 'rim', 'sky'"))
         self.bad(1, "cube.obj", "--show", "n.h:sky", says="no light with a direction is 'sky'")
         self.bad(1, "cube.obj", "--show", "n.l", "--rig", "none", says="there is none")
+
+    def single(self, *words):
+        """The numbers of a 16-bit PNG and of a PFM with one channel, row by row from the top."""
+        self.good(*words, "-s", SIZE, "-o", "n.png")
+        chunks = list(png_chunks((self.folder / "n.png").read_bytes()))
+        self.assertEqual(struct.unpack(">IIBB", chunks[0][1][:10]), (SIZE, SIZE, 16, 0))
+        raw, above, rows = zlib.decompress(b"".join(body for kind, body in chunks if kind == b"IDAT")), [0] * 2 * SIZE, []
+        for y in range(SIZE):
+            kind, row = raw[y * (2 * SIZE + 1)], list(raw[y * (2 * SIZE + 1) + 1:(y + 1) * (2 * SIZE + 1)])
+            for i in range(2 * SIZE):
+                a, b, c = row[i - 2] if i > 1 else 0, above[i], above[i - 2] if i > 1 else 0
+                nearest = min((a, b, c), key=lambda v: (abs(a + b - c - v), (a, b, c).index(v)))
+                row[i] = (row[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
+            rows += struct.unpack(">%dH" % SIZE, bytes(row))
+            above = row
+        self.good(*words, "-s", SIZE, "-o", "n.pfm")
+        data = (self.folder / "n.pfm").read_bytes()
+        self.assertTrue(data.startswith(b"Pf\n"))
+        floats = struct.unpack("<%df" % (SIZE * SIZE), data[-SIZE * SIZE * 4:])
+        return rows, [v for y in reversed(range(SIZE)) for v in floats[y * SIZE:(y + 1) * SIZE]]
+
+    def test_depth_with_a_scale(self):
+        whole, exact = self.single("teapot", "--show", "depth", "--depth-scale", 1000)
+        self.assertGreater(max(exact), 1)
+        self.assertEqual([round(1000 * v) for v in exact if not abs(1000 * v % 1 - 0.5) < 0.01],
+                         [w for w, v in zip(whole, exact) if not abs(1000 * v % 1 - 0.5) < 0.01])
+        self.bad(4, "teapot", "--show", "depth", "--depth-scale", 1e6, "-o", "d.png", says=["expected a scale of at most"], leaves=["n.png", "n.pfm"])
+
+    def test_labels(self):
+        """Three boxes side by side, in two objects: the labels stand where the boxes are, and the names beside them."""
+        text = "".join(f"g {name}\n" + "".join(f"v {x + 3 * k} {y} 0\n" for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))) +
+                       f"f {4 * k + 1} {4 * k + 2} {4 * k + 3} {4 * k + 4}\n" for k, name in enumerate(("left", "middle")))
+        (self.folder / "two.obj").write_text(text)
+        (self.folder / "s.json").write_text(json.dumps({"lambent": 1, "objects": [{"file": "two.obj"}, {
+            "file": "two.obj", "name": "second", "transform": [["translate", 6, 0, 0]]}]}))
+        self.given = self.new_files() | self.given
+        words = ("s.json", "--azimuth", 0, "--elevation", 0)
+        for quantity, wanted in (("part-id", [1, 2, 3, 4]), ("object-id", [1, 2])):
+            labels, floats = self.single(*words, "--show", quantity)
+            self.assertEqual([float(v) for v in labels], list(floats))
+            row = labels[SIZE // 2 * SIZE:(SIZE // 2 + 1) * SIZE]
+            self.assertEqual([v for i, v in enumerate(row) if v and (i == 0 or row[i - 1] != v)], wanted if quantity == "part-id" else [1, 1, 2, 2])
+        self.assertEqual(self.report(*words, "--show", "part-id", "-s", 8, "-o", "l.png")["image"]["labels"], ["left", "middle"] * 2)
+        self.good("batch", "s.json", "--view", 2, "--show", "object-id,part-id", "-s", 8, "-o", "out/")
+        cameras = json.loads((self.folder / "out" / "transforms.json").read_text())
+        self.assertEqual((len(cameras["object-id"]), cameras["part-id"]), (2, ["left", "middle"] * 2))
+        colors = {pixel(self.png(*words, "--show", "part-id", "-s", 64, "-o", "-", "--turntable", 2), 4, 32)}
+        self.assertEqual(len(colors), 1)
+
+    def test_world_normals(self):
+        """A quad that faces z has the normal 0, 0, 1 from every side."""
+        for azimuth in (0, 30, -50):
+            values = self.floats("quad.obj" if (self.folder / "quad.obj").write_text("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n") else "",
+                                 "--azimuth", azimuth, "--show", "normals-world")
+            middle = 3 * (SIZE // 2 * SIZE + SIZE // 2)
+            for value, wanted in zip(values[middle:middle + 3], (0, 0, 1)):
+                self.assertAlmostEqual(value, wanted, places=5)
 
 
 class All(Case):

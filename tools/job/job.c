@@ -147,6 +147,30 @@ static bool draw(struct job *job, struct progress *progress, lam_error *error)
 // Returns true if `output` contains colours. These are encoded as sRGB in files with 8 bits.
 static bool is_color(lam_output output) { return lam_output_is_light(output) || output == LAM_OUTPUT_BASE_COLOR; }
 
+const char *job_label(const lam_scene *scene, lam_output output, int label)
+{
+    if (output != LAM_OUTPUT_OBJECT_ID && output != LAM_OUTPUT_PART_ID)
+        return NULL;
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        const lam_object *object = lam_scene_object(scene, i);
+        const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
+        const int parts = output == LAM_OUTPUT_PART_ID && mesh->part_count ? (int)mesh->part_count : 1;
+        const bool named = output == LAM_OUTPUT_PART_ID && label <= parts && mesh->part_count;
+        const char *name = named && mesh->parts[label - 1].name ? mesh->parts[label - 1].name : object->name;
+        if (label <= parts)
+            return name ? name : "";
+        label -= parts;
+    }
+    return NULL;
+}
+
+// Returns whether the file stores one number for each pixel. Moving pictures have colours.
+static bool stores_numbers(const struct job *job)
+{
+    const struct picture_options *p = &job->options->picture;
+    return show_option_is_single(p->show, job->format, p->depth_scale) && !animation_wanted(job->options);
+}
+
 lam_save_params job_save_params(const struct job *job, const lam_control *control)
 {
     const struct options *o = job->options;
@@ -156,8 +180,31 @@ lam_save_params job_save_params(const struct job *job, const lam_control *contro
                              .compress = (lam_compress)o->picture.compress,
                              .quality = o->picture.quality,
                              .durable = o->picture.durable,
+                             .single = stores_numbers(job),
                              .raw = o->picture.color_mode == LAM_COLOR_RAW ||
                                     !is_color(show_option_what(o->picture.show))};
+}
+
+// Multiplies the depths of a PNG with 16 bits by --depth-scale.
+static bool scale_depths(struct job *job, lam_error *error)
+{
+    const double scale = job->options->picture.depth_scale;
+    double most = 0;
+    if (strcmp(job->format, "png") != 0 || show_option_what(job->options->picture.show) != LAM_OUTPUT_DEPTH ||
+        !(scale > 0))
+        return true;
+    for (int y = 0; y < job->image.height; y++) {
+        float *pixel = (float *)job->image.pixels + 4 * (size_t)y * (size_t)job->image.width;
+        for (int x = 0; x < job->image.width; x++, pixel += 4) {
+            most = (double)pixel[0] > most ? (double)pixel[0] : most;
+            pixel[0] = (float)((double)pixel[0] * scale);
+        }
+    }
+    return most * scale < 65535.5 || complain(error, LAM_LIMIT,
+                                              "option '--depth-scale': a distance of %.4g times %g does not fit in 16 "
+                                              "bits, expected a scale of at most "
+                                              "%.4g",
+                                              most, scale, 65535 / most);
 }
 
 bool job_write(struct job *job, lam_error *error)
@@ -165,6 +212,8 @@ bool job_write(struct job *job, lam_error *error)
     lam_control control;
     bool named = !job->picture_bytes && job->output && !output_is_stream(job->output);
     if (!job_control(job, NULL, &control, error) || (named && !job_check_inputs(job->scene, job->output, false, error)))
+        return false;
+    if (!scale_depths(job, error))
         return false;
     double start = clock_ms();
     lam_save_params params = job_save_params(job, &control);
@@ -238,6 +287,8 @@ bool job_check_output(struct job *job, lam_error *error)
                            : !output_format(job->output, &job->pixels, error))
         return false;
     job->format = job->picture_bytes ? strrchr(job->output, '.') + 1 : output_ending(job->output);
+    if (stores_numbers(job))
+        job->pixels = LAM_RGBA32F;
     enum output_given given = output_given(job->options->picture.output);
     given = given == OUTPUT_NAMED && job->makes_folder ? OUTPUT_PATTERN : given;
     if (strcmp(job->output, "-") != 0 && !job->picture_bytes && !output_check(job->output, job->model, given, error))

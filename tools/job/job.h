@@ -121,6 +121,10 @@ lam_mat4 job_camera_pose(const lam_camera *camera);
 // this picture.
 bool job_run_view(struct job *job, int view, struct progress *progress, lam_error *error);
 
+// Returns the name of the object or part with a label (LAM_OUTPUT_OBJECT_ID, LAM_OUTPUT_PART_ID), "" if it has none. Labels
+// start at 1. Returns NULL past the last label, and for other outputs.
+const char *job_label(const lam_scene *scene, lam_output output, int label);
+
 // Returns whether the picture's name has a writable format, and sets `format`.
 bool job_check_output(struct job *job, lam_error *error);
 

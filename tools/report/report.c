@@ -203,6 +203,12 @@ static void json_image(struct json *json, const struct job *job)
              NUMBER("exposure_stops", job->draw.exposure), TEXT("exposure", job->exposure_fitted ? "auto" : "literal"));
     if (job->draw.output == LAM_OUTPUT_DEPTH)
         json_put(json, NUMBER("depth_near", frame->depth_near), NUMBER("depth_far", frame->depth_far));
+    if (job_label(job->scene, job->draw.output, 1)) {
+        json_open(json, "labels", '[');
+        for (int i = 1; job_label(job->scene, job->draw.output, i); i++)
+            json_text(json, NULL, job_label(job->scene, job->draw.output, i));
+        json_close(json, ']');
+    }
     if (frame->ground)
         json_put(json, NUMBER("ground_height", frame->ground_height));
     if (frame->ground && frame->ground_square > 0)

@@ -31,14 +31,52 @@ static float depth_code(const struct frame *frame, float depth)
     return range > 1e-5f * (far < 0 ? -far : far) ? (far - depth) / range : 1;
 }
 
+// Returns the label of a part, from the values of LAM_OUTPUT_IDS.
+static float part_label(const struct frame *frame, const float v[3])
+{
+    const int object = (int)v[1];
+    const uint32_t triangle = (uint32_t)v[2] << 24 | (uint32_t)v[0];
+    int low = 0, high = frame->draw_count - 1;
+    while (low < high) { // draws are in the order of their objects; the ground, with object −1, is last
+        const int middle = (low + high) / 2, there = frame->draws[middle].object;
+        if (there >= 0 && there < object)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    const struct frame_draw *draw = &frame->draws[low];
+    if (draw->object != object || object < 0)
+        return 0;
+    uint32_t part = 0;
+    while (!draw->strokes && part + 1 < draw->mesh->part_count && // parts of a mesh are few
+           triangle - draw->mesh->parts[part].first_triangle >= draw->mesh->parts[part].triangle_count)
+        part++;
+    return (float)(draw->first_part + (int)part + 1);
+}
+
+// Converts the values of the output that the device drew (output_row.drawn) to the output that was asked for.
+static void convert(const struct frame *frame, const float v[4], float out[4])
+{
+    memcpy(out, v, 4 * sizeof *out);
+    if (frame->shown == LAM_OUTPUT_NORMALS_WORLD) {
+        for (int i = 0; i < 3; i++)
+            out[i] = (frame->to_world[i][0] * v[0] + frame->to_world[i][1] * v[1]) + frame->to_world[i][2] * v[2];
+    } else if (frame->shown == LAM_OUTPUT_OBJECT_ID || frame->shown == LAM_OUTPUT_PART_ID) {
+        out[0] = frame->shown == LAM_OUTPUT_PART_ID ? part_label(frame, v) : v[1] + 1;
+        out[1] = out[2] = out[0];
+    }
+}
+
 // Encodes the values in 8 bits.
 static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
 {
     static const uint8_t front[3] = {0, 102, 255}, back[3] = {255, 51, 0};
-    const enum output_code code = output_rows[frame->settings.output].code;
+    const enum output_code code = output_rows[frame->shown].code;
     out[3] = 255;
     if (code == CODE_IDS)
         color_of_ids(v, out);
+    else if (code == CODE_LABEL)
+        color_of_ids((float[3]){v[0], 0, 0}, out);
     else if (code == CODE_SIDES)
         memcpy(out, v[0] > 0 ? front : back, 3);
     else
@@ -54,10 +92,12 @@ static void encode(const struct frame *frame, const float v[4], uint8_t out[4])
 
 void encode_values(const struct frame *frame, lam_pixel_format format, const float v[4], void *to)
 {
+    float shown[4];
+    convert(frame, v, shown);
     if (format == LAM_RGBA32F)
-        memcpy(to, v, 16);
+        memcpy(to, shown, 16);
     else
-        encode(frame, v, to);
+        encode(frame, shown, to);
 }
 
 void encode_empty(const struct frame *frame, lam_pixel_format format, void *to)

@@ -319,6 +319,9 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
     lam_draw_params *settings = &frame->settings;
     settings_resolve(params, settings);
     settings->occlusion_radius = params->occlusion_radius; // see setting_number
+    frame->shown = params->output;
+    if (output_rows[frame->shown].drawn)
+        settings->output = output_rows[frame->shown].drawn;
     frame->width = width;
     frame->height = height;
     if (!settings->samples)
@@ -351,8 +354,10 @@ static bool build_draws(struct frame *frame, const lam_scene *scene, const struc
                         struct call_control *call, lam_error *error)
 {
     uint64_t next = 0;
-    for (int i = 0; i < scene->objects.count; i++) {
+    int first_part = 0, parts = 0;
+    for (int i = 0; i < scene->objects.count; i++, first_part += parts) {
         const lam_mesh *mesh = scene_mesh(scene, scene_object(scene, i)->mesh);
+        parts = mesh->part_count ? (int)mesh->part_count : 1;
         uint64_t triangles = mesh_is_strokes(mesh)
                                  ? stroke_triangles(mesh, strokes->point_corners) * (uint64_t)mesh_items(mesh)
                                  : mesh->triangle_count;
@@ -365,6 +370,7 @@ static bool build_draws(struct frame *frame, const lam_scene *scene, const struc
         struct frame_draw *draw = &frame->draws[frame->draw_count];
         build_draw(draw, mesh, scene_object(scene, i), (uint32_t)next, strokes->view, strokes->pixel);
         draw->object = i;
+        draw->first_part = first_part;
         draw->crease_rad = mesh->normals ? 0 : scene->deferred_crease_rad;
         if (mesh_is_strokes(mesh))
             frame_strokes_build(frame, draw, &scene_object(scene, i)->transform, strokes);
@@ -494,6 +500,8 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     for (int i = 0; i < 2; i++)
         frame->middle[i] = rounded(lens.middle[i]);
     set_occlusion(frame, scene, physical);
+    for (int i = 0; i < 9; i++)
+        frame->to_world[i / 3][i % 3] = rounded(view.m[i % 3][i / 3]);
     frame_edges_build(frame, scene, &view, &pixel);
     leave_facets(frame);
     if (frame_has_rays(frame) || frame->draws_edges)

@@ -16,7 +16,8 @@
 // One object: a mesh with a transform.
 struct frame_draw {
     const lam_mesh *mesh;
-    int object; // index in the scene
+    int object;     // index in the scene
+    int first_part; // the number of parts of the scene's earlier objects
     uint32_t first_id;
     // Mesh positions to pixels: rows X·w, Y·w (pixels, y down), clip z, w. The pixel of a point is (X·w/w, Y·w/w).
     float pixel[4][4];
@@ -142,6 +143,8 @@ struct frame {
     // own model (frame_draw_range.reflection). If light_cutoff is 0, every light is evaluated. edge_angle_rad and
     // occlusion_radius are unchanged.
     lam_draw_params settings;
+    lam_output shown;          // the output that was asked for; settings.output is the one that devices draw for it
+    float to_world[3][3];      // eye space to world space, rotation only
     float exposure;            // 2^stops, from the parameters and `brightened`
     double brightened;         // stops (lam_brighten)
     int point_triangles;       // triangles per point (frame_strokes.h)

@@ -22,7 +22,7 @@ struct codec {
     // One line about the values that a file stores, for lists of formats. NULL means that Lambent only reads this
     // format; `write` is then also NULL.
     const char *written;
-    lam_pixel_format pixels;
+    lam_pixel_format pixels; // but LAM_RGBA32F for a PNG of single numbers (lam_save_params.single)
     // Whether files of this format have no signature. If so, the format is tried after all others, and is recognised by
     // the file extension.
     bool unmarked;

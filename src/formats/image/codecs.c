@@ -139,9 +139,10 @@ static bool encode(const struct codec *codec, const lam_image *image, const lam_
         params = &plain;
     if (!image_check(image, "image", error) || !save_params_check(params, error))
         return false;
-    if (working_format(image->format) != codec->pixels)
+    lam_pixel_format pixels = params->single && codec == &codec_png ? LAM_RGBA32F : codec->pixels;
+    if (working_format(image->format) != pixels)
         return fail(error, LAM_BAD_ARGUMENT, "image: %s is made from %s, the picture has %s", codec->title,
-                    codec->pixels == LAM_RGBA8 ? "bytes (LAM_RGBA8)" : "floats (LAM_RGBA32F)",
+                    pixels == LAM_RGBA8 ? "bytes (LAM_RGBA8)" : "floats (LAM_RGBA32F)",
                     format_is_float(image->format) ? "floats" : "bytes");
     lam_image working;
     if (!image_working(image, &working, error))

@@ -8,6 +8,7 @@
 
 #include "console.h"
 #include "output.h"
+#include "show_option.h"
 
 // Adds the intrinsics of a camera, in pixels from the picture's corner.
 static void set_lens(json_t *object, const lam_camera *c, int width, int height)
@@ -50,6 +51,18 @@ bool transforms_write(const struct job *job, const char *path, char *const *pict
             json_array_append_new(
                 frames, frame_of(job, i, pictures[i] + (strncmp(pictures[i], path, folder) == 0 ? folder : 0)));
     json_object_set_new(root, "frames", frames);
+    for (int i = 0; i < job->view_count; i++) {
+        const lam_output output =
+            show_option_what(*job->views[i].show ? job->views[i].show : job->options->picture.show);
+        json_t *names = json_object_get(root, lam_output_name(output)) ? NULL : json_array();
+        for (int k = 1; names && job_label(job->scene, output, k); k++) {
+            json_t *name = json_string(job_label(job->scene, output, k));
+            json_array_append_new(names, name ? name : json_string(""));
+        }
+        if (json_array_size(names))
+            json_object_set(root, lam_output_name(output), names);
+        json_decref(names);
+    }
     char *text = json_dumps(root, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
     uint64_t size;
     bool ok =

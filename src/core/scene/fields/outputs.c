@@ -43,6 +43,12 @@ const struct output_row output_rows[LAM_OUTPUT_COUNT] = {
                                       OUTPUT_GEOMETRY, CODE_PLAIN, .terms = TERMS_ALL, .flag = "output_occlusion"},
     [LAM_OUTPUT_ENVIRONMENT] = {"environment", "the light that surfaces of all materials reflect from the environment",
                                 .terms = TERM_DIFFUSE | TERM_SPECULAR | TERM_REFLECTION, .lit = true},
+    [LAM_OUTPUT_NORMALS_WORLD] = {"normals-world", "normals in world space: (n + 1)/2", OUTPUT_VECTOR, CODE_SIGNED, .terms = TERMS_ALL,
+                                  .drawn = LAM_OUTPUT_NORMALS},
+    [LAM_OUTPUT_OBJECT_ID] = {"object-id", "labels: the number of the object, counted from 1", OUTPUT_GEOMETRY, CODE_LABEL, .terms = TERMS_ALL,
+                              .drawn = LAM_OUTPUT_IDS},
+    [LAM_OUTPUT_PART_ID] = {"part-id", "labels: the number of the part, counted from 1 over all objects", OUTPUT_GEOMETRY, CODE_LABEL,
+                            .terms = TERMS_ALL, .drawn = LAM_OUTPUT_IDS},
 };
 // clang-format on
 

@@ -17,7 +17,17 @@ enum output_kind {
 };
 
 // The 8-bit code of an output that is not light.
-enum output_code { CODE_PLAIN, CODE_SIGNED, CODE_COLOR, CODE_DEPTH, CODE_SIDES, CODE_IDS, CODE_LEVEL, CODE_OVERDRAW };
+enum output_code {
+    CODE_PLAIN,
+    CODE_SIGNED,
+    CODE_COLOR,
+    CODE_DEPTH,
+    CODE_SIDES,
+    CODE_IDS,
+    CODE_LABEL,
+    CODE_LEVEL,
+    CODE_OVERDRAW
+};
 
 // The terms of the reflected light.
 enum { TERM_EMISSION = 1, TERM_AMBIENT = 2, TERM_DIFFUSE = 4, TERM_SPECULAR = 8, TERM_REFLECTION = 16, TERMS_ALL = 31 };
@@ -26,9 +36,11 @@ struct output_row {
     const char *name, *summary;
     enum output_kind kind;
     enum output_code code;
-    uint8_t terms;    // TERM_…: their sum is shown
-    bool one_light;   // shows a single light; the frame then contains only that light
-    bool lit;         // surfaces without lighting are black
+    uint8_t terms;  // TERM_…: their sum is shown
+    bool one_light; // shows a single light; the frame then contains only that light
+    bool lit;       // surfaces without lighting are black
+    // The output that devices draw instead; encode_values converts its values. LAM_OUTPUT_PICTURE: this one.
+    lam_output drawn;
     const char *flag; // the condition in the text of shaders, if they ask for just this output
 };
 

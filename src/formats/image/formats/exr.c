@@ -259,12 +259,12 @@ static int64_t size_of_source(exr_const_context_t context, void *user)
 }
 
 // Returns the position of the file's channel `name` in a pixel (0 to 3), or −1 if the picture does not use the channel.
-// Y is the luminance, which is used for all three colours.
-static int place_of(const char *name)
+// Y is the luminance, which is used for all three colours, like Z, if it is the only channel.
+static int place_of(const char *name, bool alone)
 {
     static const char letters[] = "RGBA";
     const char *found = name[0] && !name[1] ? strchr(letters, name[0]) : NULL;
-    return found ? (int)(found - letters) : strcmp(name, "Y") == 0 ? 0 : -1;
+    return found ? (int)(found - letters) : strcmp(name, "Y") == 0 || (alone && strcmp(name, "Z") == 0) ? 0 : -1;
 }
 
 // Checks that every chunk is present, before memory is allocated for the picture.
@@ -297,7 +297,7 @@ static exr_result_t read_chunks(const struct core *core, exr_context_t file, int
                             : core->exr_decoding_update(file, 0, &chunk, &pipe);
         for (int i = 0; result == EXR_ERR_SUCCESS && i < pipe.channel_count; i++) {
             exr_coding_channel_info_t *c = &pipe.channels[i];
-            int place = place_of(c->channel_name);
+            int place = place_of(c->channel_name, pipe.channel_count == 1);
             c->user_bytes_per_element = 4;
             c->user_data_type = EXR_PIXEL_FLOAT;
             c->user_pixel_stride = 16;
@@ -341,14 +341,14 @@ static bool read_part(const struct core *core, exr_context_t file, const struct 
     bool grey = false;
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *c = &list->entries[i];
-        int place = place_of(c->name.str);
+        int place = place_of(c->name.str, list->num_channels == 1);
         if (place < 0)
             continue;
         if (c->x_sampling != 1 || c->y_sampling != 1 || c->pixel_type == EXR_PIXEL_UINT)
             return fail(error, LAM_UNSUPPORTED,
                         "%s: the EXR channel %s is subsampled or contains integers, expected floats for each pixel",
                         name, shown_name(c->name.str, shown));
-        grey |= strcmp(c->name.str, "Y") == 0;
+        grey |= strcmp(c->name.str, "Y") == 0 || strcmp(c->name.str, "Z") == 0;
         found |= 1u << place;
     }
     if ((found & 7) != 7 && !(grey && (found & 7) == 1))
@@ -429,8 +429,8 @@ static bool exr_read(const struct picture_file *picture, lam_image *image, lam_e
 static bool exr_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                       lam_error *error)
 {
-    (void)params, (void)pool;
-    return write_layers(&(lam_layer){.image = image}, 1, out, error);
+    (void)pool;
+    return write_layers(&(lam_layer){.image = image, .channels = params->single ? "Z" : NULL}, 1, out, error);
 }
 
 bool lam_image_encode_layers(const lam_layer *layers, int count, lam_bytes *out, lam_error *error)

@@ -138,7 +138,7 @@ const struct codec codec_ppm = {
 // --- reads and writes PFM files (Debevec's portable float map). A PFM file consists of a header of three lines, and of
 // floats, with the bottom row first.
 //
-// The header contains "PF", the width and the height, and a number. The sign of this number states the byte order:
+// The header contains "PF" ("Pf" with one number for each pixel), the width and the height, and a number. The sign of this number states the byte order:
 // negative means little-endian. The absolute value of the number is the scale. Programs do not agree about the scale,
 // so Lambent writes 1 and ignores the scale when it reads a file. PFM has neither alpha nor comments, so the file
 // cannot name the program that wrote it.
@@ -146,10 +146,12 @@ const struct codec codec_ppm = {
 static bool pfm_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
                       lam_error *error)
 {
-    (void)params, (void)pool;
+    (void)pool;
     char header[40];
-    size_t head = (size_t)snprintf(header, sizeof header, "PF\n%d %d\n-1.0\n", image->width, image->height);
-    uint64_t wanted = (uint64_t)image->width * (uint64_t)image->height * 12 + head;
+    const size_t each = params->single ? sizeof(float) : 3 * sizeof(float);
+    size_t head = (size_t)snprintf(header, sizeof header, "P%c\n%d %d\n-1.0\n", params->single ? 'f' : 'F',
+                                   image->width, image->height);
+    uint64_t wanted = (uint64_t)image->width * (uint64_t)image->height * each + head;
     uint8_t *bytes = wanted <= SIZE_MAX ? malloc((size_t)wanted) : NULL;
     if (!bytes)
         return fail_memory(error, (size_t)wanted);
@@ -157,8 +159,8 @@ static bool pfm_write(const lam_image *image, const lam_save_params *params, str
     uint8_t *at = bytes + head;
     for (int y = image->height - 1; y >= 0; y--) {
         const float *pixel = (const float *)image->pixels + (size_t)y * (size_t)image->width * 4;
-        for (int x = 0; x < image->width; x++, pixel += 4, at += 12)
-            memcpy(at, pixel, 12);
+        for (int x = 0; x < image->width; x++, pixel += 4, at += each)
+            memcpy(at, pixel, each);
     }
     *out = (lam_bytes){bytes, (size_t)wanted};
     return true;

@@ -6,6 +6,7 @@
 // end.
 #include "codec.h"
 #include "fail.h"
+#include "pixels.h"
 #include "png_encoding.h"
 
 #include <stdlib.h>
@@ -29,6 +30,7 @@ struct png_writer {
     const struct png_method *method;
     struct crc_tables crc;
     int channels;           // enum png_channels; accessed atomically
+    bool wide;              // grey with 16 bits: red has the high byte, alpha the low byte
     int first;              // first strip of this batch
     uint8_t *out;           // the output of this batch, chunk_capacity bytes for each strip
     struct png_strip *done; // one for each strip of a batch
@@ -138,8 +140,8 @@ static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
     at += sizeof signature;
     png_put_u32(header, (uint32_t)writer->encoding.image->width);
     png_put_u32(header + 4, (uint32_t)writer->encoding.image->height);
-    header[8] = 8; // bits
-    header[9] = color_types[writer->encoding.bytes_per_pixel];
+    header[8] = writer->wide ? 16 : 8; // bits
+    header[9] = writer->wide ? 0 : color_types[writer->encoding.bytes_per_pixel];
     at += put_chunk(&writer->crc, "IHDR", header, sizeof header, at);
     if (!raw)
         at += put_chunk(&writer->crc, "sRGB", &intent, 1, at);
@@ -206,18 +208,11 @@ static bool encode_strips(struct png_writer *writer, bool raw, struct pool *pool
     return true;
 }
 
-bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
-               lam_error *error)
+static bool write_png(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
+                      bool wide, lam_bytes *out, lam_error *error)
 {
-    int channels = 0;
-    return png_write_channels(image, params, pool, &channels, out, error);
-}
-
-bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
-                        lam_bytes *out, lam_error *error)
-{
-    struct png_writer writer = {.method = params->compress == LAM_COMPRESS_BEST ? &png_best : &png_fast,
-                                .channels = *channels};
+    struct png_writer writer = {
+        .method = params->compress == LAM_COMPRESS_BEST ? &png_best : &png_fast, .channels = *channels, .wide = wide};
     struct png_encoding *encoding = &writer.encoding;
     encoding->image = image;
     call_start(&encoding->call, params->control);
@@ -251,4 +246,41 @@ bool png_write_channels(const lam_image *image, const lam_save_params *params, s
         writer.method->end(encoding);
     arena_free(&arena);
     return ok;
+}
+
+bool png_write_channels(const lam_image *image, const lam_save_params *params, struct pool *pool, int *channels,
+                        lam_bytes *out, lam_error *error)
+{
+    return write_png(image, params, pool, channels, false, out, error);
+}
+
+// Writes the first number of each pixel of a picture of floats with 16 bits (lam_save_params.single).
+static bool write_single(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                         lam_error *error)
+{
+    lam_image bytes = {0};
+    if (!lam_image_make(&bytes, image->width, image->height, LAM_RGBA8, error))
+        return false;
+    for (int y = 0; y < image->height; y++) {
+        const float *from = image_row(image, y);
+        uint8_t *to = image_row(&bytes, y);
+        for (int x = 0; x < image->width; x++, from += 4, to += 4) {
+            const float number = from[0] > 0 ? from[0] < 65535 ? from[0] : 65535 : 0; // NaN becomes 0
+            const unsigned whole = (unsigned)(number + 0.5f);
+            to[0] = to[1] = to[2] = (uint8_t)(whole >> 8);
+            to[3] = (uint8_t)whole;
+        }
+    }
+    int channels = PNG_TRANSLUCENT;
+    bool ok = write_png(&bytes, params, pool, &channels, true, out, error);
+    lam_image_free(&bytes);
+    return ok;
+}
+
+bool png_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+               lam_error *error)
+{
+    int channels = 0;
+    return params->single ? write_single(image, params, pool, out, error)
+                          : write_png(image, params, pool, &channels, false, out, error);
 }

@@ -224,7 +224,8 @@ static const struct choice normals_words[] = {
 
 static const struct choice sheet_words[] = {
     {"summary", SHEET_SUMMARY,
-     "flat, Gouraud and Phong shading, a reflection of the environment (the sky, unless you give --environment), and "
+     "flat, Gouraud and Phong shading, a reflection of the surroundings (the sky, unless you give --reflection-map), "
+     "and "
      "an anisotropic highlight"},
     {"terms", SHEET_TERMS,
      "ambient, diffuse and specular alone; all terms together at shininess 50, at shininess 1000, and at shininess "
@@ -751,16 +752,25 @@ struct option option_table[OPTIONS_MAX] = {
      "`gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "the model's",
-     "The environment that shiny surfaces reflect: an image, six faces, sky, studio or none.",
+     "Light the model with an environment (HDRI): an image, six faces, sky, studio or none.",
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
      "built in. `none` removes the environment of a scene file. For a model without lights, `none` replaces the "
-     "built-in studio environment with the rig's lights. To use a file named `sky`, write `./sky`. Classic materials "
-     "reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
-     "`docs/lighting/reflection.md` describes how Lambent maps each kind of environment around the model.",
-     .kind = VALUE_ENVIRONMENT, .store = store_text, .others = "e sky",
-     .also = "hdri hdr env envmap environment-map ibl skybox cubemap", FIELD(shading.environment)},
+     "built-in studio environment with the rig's lights. To use a file named `sky`, write `./sky`. The environment "
+     "lights classic materials, too, unless `--reflection` names a classic model; it replaces the rig, and is added to "
+     "the model's own lights (`docs/lighting/environment.md`). `docs/lighting/reflection.md` describes how Lambent "
+     "maps "
+     "each kind of environment around the model.",
+     .kind = VALUE_ENVIRONMENT, .store = store_environment, .others = "e sky",
+     .also = "hdri hdr env environment-map ibl skybox", FIELD(shading.environment)},
+    {"reflection-map", 0, GROUP_SHADING, "IMAGE", NULL,
+     "An environment that classic materials only reflect, by their reflectivity; values as for --environment.",
+     "The lights or the rig light classic materials, and the environment adds kr times the light from the mirrored "
+     "direction, as the lectures describe (`docs/lighting/reflection.md`). Set kr with `--material reflectivity=0.5`. "
+     "Physical materials are lit as with `--environment`. The last of the two options counts.",
+     .kind = VALUE_ENVIRONMENT, .store = store_environment, .also = "envmap cubemap cube-map",
+     FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Rotate the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
      FIELD(shading.environment_rotation_deg), .min = -360000, .max = 360000, .also = "hdri-rotation env-rotation"},

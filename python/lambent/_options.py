@@ -143,7 +143,8 @@ CHANGES = {
     "hide": ("str | Sequence[str]", "Names of objects, parts or materials that are not drawn."),
     "only": ("str | Sequence[str]", "Names of objects, parts or materials; all others are not drawn."),
     "rotate": ("str | Sequence[str]", "Turns the model about its centre: \"y:30\", an axis and degrees; several in order."),
-    "environment": ("str", "A picture, or a built-in environment, that surfaces mirror and that lights physical materials."),
+    "environment": ("str", "A picture, or a built-in environment, that lights all materials."),
+    "reflection_map": ("str", "The same in place of environment; classic materials only reflect it, by their reflectivity."),
     "section": ("str | Sequence[str]", "Planes that cut the model: \"x=0\", \"z=40%\" (docs/sections.md)."),
     "environment_rotation": ("float", "Its angle about the up axis, in degrees."),
 }

@@ -16,7 +16,7 @@ class EnvironmentOption(Case):
         return name
 
     def draw(self, environment, *more, model=MIRROR):
-        data = self.good(*model, "--environment", environment, *more, "-o", "-").stdout
+        data = self.good(*model, "--reflection-map", environment, *more, "-o", "-").stdout
         return read_png(data), data
 
     def six(self):
@@ -62,8 +62,47 @@ class EnvironmentOption(Case):
         self.assertEqual(pixel(picture, 20, 20)[:3], (64, 128, 191))
 
     def test_explained(self):
-        text = self.good("explain", "sphere", "20,20", *MIRROR[1:-1], "--environment", self.six()).stdout.decode()
+        text = self.good("explain", "sphere", "20,20", *MIRROR[1:-1], "--reflection-map", self.six()).stdout.decode()
         self.assertIn("kr ⊙ environment = (1 1 1) ⊙ (0 1 0)", text)
+
+    def test_lights_classic_materials(self):
+        """The white furnace: classic materials return their share of a constant environment. A mirror's mean is its environment's, and lights are added."""
+        (self.folder / "white.pfm").write_bytes(b"PF\n4 2\n-1.0\n" + struct.pack("<24f", *(1,) * 24))
+        furnace = ("sphere", "-s", 40, "--view", "front", "--samples", 1, "--exposure", 0, "--tone", "none", "--ao", "off", "-q", "--color-mode", "raw",
+                   "--environment", "white.pfm", "-o", "-")
+        for material, low, high in (("diffuse=1,specular=0", 253, 255), ("diffuse=1,specular=0.5,shininess=300", 253, 255), ("diffuse=0.5,specular=0", 124, 138),
+                                    ("diffuse=0/0/0,specular=0", 3, 14), ("diffuse=0/0/0,specular=0,reflectivity=1", 253, 255),
+                                    ("diffuse=0/0/0,specular=0,reflectivity=0.5", 126, 138)):
+            picture = read_png(self.good(*furnace, "--material", material).stdout)
+            for at in (20, 20), (28, 14), (12, 25):
+                self.assertTrue(low <= pixel(picture, *at)[1] <= high, (material, at, pixel(picture, *at)))
+        self.good("convert", "sphere", "a.stl", "-q")
+        draw = lambda *words: self.good("a.stl", "-s", 40, "-q", *words, "-o", "-").stdout
+        lit = draw("--environment", "sky")
+        self.assertEqual(len({lit, draw(), draw("--environment", "studio"), draw("--environment", "sky", "--environment-rotation", 90)}), 4)
+        # It replaces the rig, also if options change the rig's lights, and is added to lights that the user names.
+        self.assertEqual(draw("--environment", "sky", "--light-scale", 3), lit)
+        self.assertNotEqual(draw("--environment", "sky", "--light", "directional:direction=-1/-1/-1"), lit)
+        self.assertNotEqual(draw("--environment", "sky", "--rig", "headlight"), lit)
+        # The last of the two options counts; the saved scene file gives the same picture.
+        self.assertEqual(draw("--reflection-map", "studio", "--environment", "sky"), lit)
+        self.assertEqual(draw("--environment", "studio", "--reflection-map", "sky", "--reflectivity", 0.5), draw("--reflection-map", "sky", "--reflectivity", 0.5))
+        for word, key in (("--environment", "environment"), ("--reflection-map", "reflection_map")):
+            saved = draw(word, "sky", "--reflectivity", 0.5, "--save-scene", "s.json")
+            self.assertEqual(json.loads((self.folder / "s.json").read_text())[key]["builtin"], "sky")
+            self.assertEqual(self.good("s.json", "-q", "-o", "-").stdout, saved)
+        (self.folder / "two.json").write_text(json.dumps({"lambent": 1, "environment": {"builtin": "sky"}, "reflection_map": {"builtin": "sky"}, "objects": [{"shape": "cube"}]}))
+        self.bad(2, "two.json", "-o", "x.png", says="reflection_map: found together with 'environment'")
+
+    def test_explained_light(self):
+        """`explain` adds up the environment's share of a classic material."""
+        words = ("explain", "teapot", "20,22", "-s", 40, "--samples", 1, "--environment", "sky", "--material", "diffuse=0.6/0.3/0.1,specular=0.4,shininess=20", "--json")
+        point = json.loads(self.good(*words).stdout)["triangles"][0]["points"][0]
+        around, terms = point["environment"], point["terms"]
+        for c in range(3):
+            self.assertGreater(around["diffuse_part"][c], 0)
+            self.assertAlmostEqual(around["diffuse_part"][c], terms["diffuse"][c], 6)
+            self.assertAlmostEqual(around["specular_part"][c], terms["specular"][c], 6)
 
     def test_none(self):
         """`none` removes a scene file's environment, also from its copy. A physical model without lights then has the rig's lights."""

@@ -428,6 +428,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                     camera->height, width, height);
     resolve_settings(frame, params, width, height);
     const lam_draw_params *settings = &frame->settings;
+    frame->lights_classic = scene->environment && !scene->reflection_map;
     if (!allocate_arrays(frame, scene, call, error))
         return false;
     frame->token = scene->token;

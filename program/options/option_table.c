@@ -303,14 +303,17 @@ struct option option_table[OPTIONS_MAX] = {
      "than 100 points, the default is never below 8 pixels.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
-     "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
+     "The background: white, #rrggbb, r/g/b, transparent, or environment[:BLUR].",
      "The background fills all pixels that the model does not cover, even with `--show` and on sheets. A colour is "
      "`#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), three or four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a "
      "name. The names are `black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
-     "`orange` and the other colour names of HTML 4.",
-     .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
+     "`orange` and the other colour names of HTML 4. `environment` shows the environment that lights the model, and "
+     "`environment:0.4` blurs it, like in a surface of this roughness (0 to 1). Exposure and tone curve apply to it; "
+     "pictures of `--show` are transparent instead.",
+     .kind = VALUE_COLOR, .brief = "white, '#dfe6ee', transparent or environment", .store = store_color,
      .also = "bg bgcolor bg-color background-color backdrop transparent=transparent", FIELD(picture.background),
      .also_in = IN_SHEET},
+    {"background-environment", 0, GROUP_PICTURE, "BLUR", .now = "background"},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(picture.color_mode), .also_in = IN_SHEET, .not_in = KEEPS_MODEL},

@@ -432,10 +432,28 @@ bool store_seconds(const struct option *option, const char *value, struct option
     return true;
 }
 
+bool background_environment(const char *text, float *blur)
+{
+    static const char word[] = "environment";
+    const size_t length = sizeof word - 1;
+    double number = 0;
+    const char *end = text + length;
+    if (strncmp(text, word, length) != 0 || (*end == ':' && !(end = read_number(end + 1, &number))) || *end ||
+        !(number >= 0 && number <= 1))
+        return false;
+    *blur = number > 0.045 ? (float)number : 0.045f; // a field of 0 means no environment
+    return true;
+}
+
 bool store_color(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_rgba color;
-    if (!lam_color_parse(value, LAM_COLOR_SRGB, &color, error))
+    float blur;
+    bool around = option->field == offsetof(struct options, picture.background);
+    if (around && strncmp(value, "environment", 11) == 0 && !background_environment(value, &blur))
+        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected environment or environment:BLUR from 0 to 1",
+                        value);
+    if (!(around && background_environment(value, &blur)) && !lam_color_parse(value, LAM_COLOR_SRGB, &color, error))
         return false;
     *(const char **)field_of(options, option->field) = value;
     return true;

@@ -221,6 +221,10 @@ bool option_is_in(const struct option *option, enum option_use use);
 // option_is_taken. Moves the operands to the front of `words` and returns their number, or −1 with LAM_BAD_ARGUMENT.
 int options_parse(int count, char **words, uint64_t groups, struct options *options, lam_error *error);
 
+// Parses the value "environment" or "environment:BLUR" of --background into lam_draw_params.background_environment.
+// Returns false for other values.
+bool background_environment(const char *text, float *blur);
+
 // Parsers for the `store` member of the table. Each comment names the type of the field.
 option_parser store_switch, store_word_flag;             // bool; store_word_flag accepts words with the values 0 and 1
 option_parser store_text, store_jobs, store_environment; // const char *

@@ -170,6 +170,10 @@ class Options:
         self.no_lights = str(self.given.get("rig")) in ("none", "default")
         if self.no_lights:
             self.given["rig"] = "file" if self.given["rig"] == "none" else "auto"
+        around = str(self.given.get("background", "")).partition(":")
+        if around[0] == "environment" and "background_environment" in names: # the form of --background
+            del self.given["background"]
+            self.given["background_environment"] = max(float(around[2]), 0.045) if around[1] else 0.045
         self.mode = choose("color_mode", KEYWORDS["color_mode"].words, self.given.get("color_mode", "srgb"))
         self.fit_exposure = str(self.given.get("exposure")) == "auto"
         if self.fit_exposure:

@@ -67,6 +67,7 @@ static struct lighting measure(lam_device *device, const lam_scene *scene, const
     bool ground = params->ground != LAM_GROUND_NONE;
     lam_draw_params drawn = *params;
     drawn.background = ground ? (lam_rgba){1, 1, 1, 1} : (lam_rgba){0, 0, 0, 0};
+    drawn.background_environment = 0;
     drawn.samples = 1;
     drawn.wireframe = drawn.no_surfaces = false;
     drawn.edges = 0;

@@ -380,7 +380,12 @@ typedef struct lam_draw_params {
     bool axes;       // the directions of the axes: x red, y green, z blue
     // Lines on the plane under the box, 1, 2 or 5 times a power of ten units apart. Surfaces hide them.
     bool grid;
-    LAM_RESERVED(13);
+    // Above 0, up to 1: pictures (LAM_OUTPUT_PICTURE) show the environment that lights the scene instead of `background`,
+    // along the rays of the camera (in an orthographic view all are parallel: one colour), after exposure and tone. The
+    // environment is blurred like the mirror image in a surface of this roughness; up to 0.045 it is sharp. Without an
+    // environment: LAM_BAD_ARGUMENT.
+    float background_environment;
+    LAM_RESERVED(12);
 } lam_draw_params;
 
 // Timings of a frame in milliseconds, and counters.

@@ -437,13 +437,22 @@ LAM_API bool lam_scene_reset(lam_scene *scene, lam_error *error);
 LAM_API void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient);
 LAM_API lam_rgb lam_scene_ambient(const lam_scene *scene);
 
-// Sets the environment, which lights physical materials and is mirrored by classic materials with a reflectivity; NULL,
-// the default: none (LAM_RIG_AUTO adds one). `rotation_rad` rotates it about the up axis, counter-clockwise seen from
+// Sets the environment, which lights all materials: classic materials are converted by lam_material_as_physical, unless
+// lam_draw_params.reflection names a classic model. NULL, the default: none (LAM_RIG_AUTO may add one). `rotation_rad` rotates it about the up axis, counter-clockwise seen from
 // above. With y up and no rotation its axes are the world's axes; with another up axis it is rotated like the fitted
 // camera, so that its top points up. The scene keeps a reference: the caller may free its own. Returns false on
 // failure: LAM_BAD_ARGUMENT (no scene, a rotation that is not finite).
 LAM_API bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environment, double rotation_rad,
                                        lam_error *error);
+
+// Works like lam_scene_set_environment, but classic materials only mirror the environment by their reflectivity, as the
+// lectures describe; the lights or the rig light them. The scene has one environment: a later call of one of the two
+// functions replaces it.
+LAM_API bool lam_scene_set_reflection_map(lam_scene *scene, const lam_environment *environment, double rotation_rad,
+                                          lam_error *error);
+
+// Returns whether the environment was set by lam_scene_set_reflection_map.
+LAM_API bool lam_scene_has_reflection_map(const lam_scene *scene);
 
 // Returns the environment, or NULL if there is none.
 LAM_API const lam_environment *lam_scene_environment(const lam_scene *scene);

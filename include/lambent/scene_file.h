@@ -44,6 +44,8 @@ typedef struct lam_picture_settings {
     // lam_scene_save ignores them, and writes the scene's own.
     const lam_section *sections;
     int section_count; // elements of `sections`
+    // Whether the environment is set by lam_scene_set_reflection_map (the key "reflection_map").
+    bool reflection_map;
     LAM_RESERVED(14);
 } lam_picture_settings;
 

@@ -27,6 +27,7 @@ static const struct {
     {"lam_draw_params.tone", "--tone"},
     {"lam_object.back_material", "--back-material"},
     {"lam_scene_set_environment", "--environment"},
+    {"lam_scene_set_reflection_map", "--reflection-map"},
     {"lam_shader_params.style", "--style"},
     {"lam_shader_params.lights", "--lights-in"},
 };

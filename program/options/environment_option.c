@@ -21,11 +21,15 @@ char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUN
     }
     if (count == LAM_FACE_COUNT && !empty)
         return copy;
-    complain(error, LAM_BAD_ARGUMENT,
-             "option '--environment': found %d names in '%.200s'%s, expected one file or six, px,nx,py,ny,pz,nz", count,
-             text, empty ? ", one of them empty" : "");
+    complain(error, LAM_BAD_ARGUMENT, "found %d names in '%.200s'%s, expected one file or six, px,nx,py,ny,pz,nz",
+             count, text, empty ? ", one of them empty" : "");
     free(copy);
     return NULL;
+}
+
+const char *environment_option_name(const struct options *o)
+{
+    return o->shading.reflection_map ? "reflection-map" : "environment";
 }
 
 bool environment_option_is_none(const char *text) { return text && strcmp(text, "none") == 0; }

@@ -8,6 +8,9 @@
 // frees. Returns NULL if `text` does not contain six names.
 char *environment_option_faces(const char *text, const char *paths[LAM_FACE_COUNT], lam_error *error);
 
+// Returns the name of the option that has set the environment: "environment" or "reflection-map".
+const char *environment_option_name(const struct options *options);
+
 // Returns whether the value removes the environment. `text` may be NULL.
 bool environment_option_is_none(const char *text);
 

@@ -128,6 +128,7 @@ struct shading_options {
     int normals;             // lam_normals
     double crease_angle_deg; // a negative value means the library's default
     const char *environment; // as typed; NULL if there is none
+    bool reflection_map;     // --reflection-map has set `environment`
     double environment_rotation_deg;
 };
 

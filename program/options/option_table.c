@@ -224,7 +224,8 @@ static const struct choice normals_words[] = {
 
 static const struct choice sheet_words[] = {
     {"summary", SHEET_SUMMARY,
-     "flat, Gouraud and Phong shading, a reflection of the environment (the sky, unless you give --environment), and "
+     "flat, Gouraud and Phong shading, a reflection of the surroundings (the sky, unless you give --reflection-map), "
+     "and "
      "an anisotropic highlight"},
     {"terms", SHEET_TERMS,
      "ambient, diffuse and specular alone; all terms together at shininess 50, at shininess 1000, and at shininess "
@@ -302,14 +303,17 @@ struct option option_table[OPTIONS_MAX] = {
      "than 100 points, the default is never below 8 pixels.",
      .others = "pointsize point-width splat-size"},
     {"background", 'b', GROUP_PICTURE, "COLOR", "transparent",
-     "The background: white, #rrggbb, #rrggbbaa, r/g/b or transparent.",
+     "The background: white, #rrggbb, r/g/b, transparent, or environment[:BLUR].",
      "The background fills all pixels that the model does not cover, even with `--show` and on sheets. A colour is "
      "`#rgb`, `#rrggbb` or `#rrggbbaa` (sRGB), three or four linear numbers `r/g/b` or `r/g/b/a`, `transparent`, or a "
      "name. The names are `black`, `white`, `gray`, `silver`, `red`, `green`, `blue`, `yellow`, `cyan`, `magenta`, "
-     "`orange` and the other colour names of HTML 4.",
-     .kind = VALUE_COLOR, .brief = "white, '#dfe6ee' or transparent", .store = store_color,
+     "`orange` and the other colour names of HTML 4. `environment` shows the environment that lights the model, and "
+     "`environment:0.4` blurs it, like in a surface of this roughness (0 to 1). Exposure and tone curve apply to it; "
+     "pictures of `--show` are transparent instead.",
+     .kind = VALUE_COLOR, .brief = "white, '#dfe6ee', transparent or environment", .store = store_color,
      .also = "bg bgcolor bg-color background-color backdrop transparent=transparent", FIELD(picture.background),
      .also_in = IN_SHEET},
+    {"background-environment", 0, GROUP_PICTURE, "BLUR", .now = "background"},
     {"color-mode", 0, GROUP_PICTURE, "MODE", "srgb", "The colour encoding: srgb, or raw (no conversion).", NULL,
      color_mode_words, .store = store_word, .others = "encoding gamma colorspace color-space linear srgb",
      FIELD(picture.color_mode), .also_in = IN_SHEET, .not_in = KEEPS_MODEL},
@@ -757,16 +761,25 @@ struct option option_table[OPTIONS_MAX] = {
      "`gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "the model's",
-     "The environment that shiny surfaces reflect: an image, six faces, sky, studio or none.",
+     "Light the model with an environment (HDRI): an image, six faces, sky, studio or none.",
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
      "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
      "built in. `none` removes the environment of a scene file. For a model without lights, `none` replaces the "
-     "built-in studio environment with the rig's lights. To use a file named `sky`, write `./sky`. Classic materials "
-     "reflect the environment only if they have a reflectivity (`--material reflectivity=0.5`). "
-     "`docs/lighting/reflection.md` describes how Lambent maps each kind of environment around the model.",
-     .kind = VALUE_ENVIRONMENT, .store = store_text, .others = "e sky",
-     .also = "hdri hdr env envmap environment-map ibl skybox cubemap", FIELD(shading.environment)},
+     "built-in studio environment with the rig's lights. To use a file named `sky`, write `./sky`. The environment "
+     "lights classic materials, too, unless `--reflection` names a classic model; it replaces the rig, and is added to "
+     "the model's own lights (`docs/lighting/environment.md`). `docs/lighting/reflection.md` describes how Lambent "
+     "maps "
+     "each kind of environment around the model.",
+     .kind = VALUE_ENVIRONMENT, .store = store_environment, .others = "e sky",
+     .also = "hdri hdr env environment-map ibl skybox", FIELD(shading.environment)},
+    {"reflection-map", 0, GROUP_SHADING, "IMAGE", NULL,
+     "An environment that classic materials only reflect, by their reflectivity; values as for --environment.",
+     "The lights or the rig light classic materials, and the environment adds kr times the light from the mirrored "
+     "direction, as the lectures describe (`docs/lighting/reflection.md`). Set kr with `--material reflectivity=0.5`. "
+     "Physical materials are lit as with `--environment`. The last of the two options counts.",
+     .kind = VALUE_ENVIRONMENT, .store = store_environment, .also = "envmap cubemap cube-map",
+     FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Rotate the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
      FIELD(shading.environment_rotation_deg), .min = -360000, .max = 360000, .also = "hdri-rotation env-rotation"},

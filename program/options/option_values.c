@@ -11,6 +11,7 @@
 #include <lambent/words.h>
 
 #include "console.h"
+#include "environment_option.h"
 #include "material_option.h"
 
 static void *field_of(struct options *options, size_t field) { return (char *)options + field; }
@@ -33,6 +34,20 @@ bool store_text(const struct option *option, const char *value, struct options *
         return complain(error, LAM_BAD_ARGUMENT, "the value is empty, expected %s", option->value);
     *(const char **)field_of(options, option->field) = value;
     return true;
+}
+
+// Stores the value of --environment or --reflection-map, which replaces the value of the other.
+bool store_environment(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    const char *paths[LAM_FACE_COUNT];
+    char *copy = strchr(value, ',') ? environment_option_faces(value, paths, error) : NULL;
+    free(copy);
+    if (!copy && strchr(value, ','))
+        return false;
+    bool map = strcmp(option->name, "reflection-map") == 0;
+    options->values[option_find(map ? "environment" : "reflection-map") - option_table] = NULL;
+    options->shading.reflection_map = map;
+    return store_text(option, value, options, error);
 }
 
 const char *option_words_list(const struct option *option, char text[OPTION_WORDS_SIZE])
@@ -417,10 +432,28 @@ bool store_seconds(const struct option *option, const char *value, struct option
     return true;
 }
 
+bool background_environment(const char *text, float *blur)
+{
+    static const char word[] = "environment";
+    const size_t length = sizeof word - 1;
+    double number = 0;
+    const char *end = text + length;
+    if (strncmp(text, word, length) != 0 || (*end == ':' && !(end = read_number(end + 1, &number))) || *end ||
+        !(number >= 0 && number <= 1))
+        return false;
+    *blur = number > 0.045 ? (float)number : 0.045f; // a field of 0 means no environment
+    return true;
+}
+
 bool store_color(const struct option *option, const char *value, struct options *options, lam_error *error)
 {
     lam_rgba color;
-    if (!lam_color_parse(value, LAM_COLOR_SRGB, &color, error))
+    float blur;
+    bool around = option->field == offsetof(struct options, picture.background);
+    if (around && strncmp(value, "environment", 11) == 0 && !background_environment(value, &blur))
+        return complain(error, LAM_BAD_ARGUMENT, "found '%.60s', expected environment or environment:BLUR from 0 to 1",
+                        value);
+    if (!(around && background_environment(value, &blur)) && !lam_color_parse(value, LAM_COLOR_SRGB, &color, error))
         return false;
     *(const char **)field_of(options, option->field) = value;
     return true;

@@ -274,7 +274,7 @@ static size_t field_size(const struct option *option)
         return sizeof(bool);
     if (option->store == store_number || option->store == store_exposure)
         return sizeof(double);
-    if (option->store == store_text || option->store == store_color)
+    if (option->store == store_text || option->store == store_color || option->store == store_environment)
         return sizeof(const char *);
     return option->store == store_size ? 2 * sizeof(int) : sizeof(int); // a float has the size of an int
 }
@@ -294,6 +294,8 @@ void options_drop_settings(struct options *options)
             options->picture.exposure_kind = from->picture.exposure_kind;
         if (o->store == store_ground)
             options->shading.ground_color = NULL;
+        if (o->store == store_environment)
+            options->shading.reflection_map = from->shading.reflection_map;
     }
 }
 

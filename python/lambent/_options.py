@@ -143,7 +143,8 @@ CHANGES = {
     "hide": ("str | Sequence[str]", "Names of objects, parts or materials that are not drawn."),
     "only": ("str | Sequence[str]", "Names of objects, parts or materials; all others are not drawn."),
     "rotate": ("str | Sequence[str]", "Turns the model about its centre: \"y:30\", an axis and degrees; several in order."),
-    "environment": ("str", "A picture, or a built-in environment, that surfaces mirror and that lights physical materials."),
+    "environment": ("str", "A picture, or a built-in environment, that lights all materials."),
+    "reflection_map": ("str", "The same in place of environment; classic materials only reflect it, by their reflectivity."),
     "section": ("str | Sequence[str]", "Planes that cut the model: \"x=0\", \"z=40%\" (docs/sections.md)."),
     "environment_rotation": ("float", "Its angle about the up axis, in degrees."),
 }
@@ -169,6 +170,10 @@ class Options:
         self.no_lights = str(self.given.get("rig")) in ("none", "default")
         if self.no_lights:
             self.given["rig"] = "file" if self.given["rig"] == "none" else "auto"
+        around = str(self.given.get("background", "")).partition(":")
+        if around[0] == "environment" and "background_environment" in names: # the form of --background
+            del self.given["background"]
+            self.given["background_environment"] = max(float(around[2]), 0.045) if around[1] else 0.045
         self.mode = choose("color_mode", KEYWORDS["color_mode"].words, self.given.get("color_mode", "srgb"))
         self.fit_exposure = str(self.given.get("exposure")) == "auto"
         if self.fit_exposure:

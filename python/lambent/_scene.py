@@ -152,14 +152,21 @@ class Scene:
         lib.lam_scene_set_up(self._handle, choose("up", words_of("lam_up"), value))
 
     def set_environment(self, name: str, rotation: float = 0.0, _control=ffi.NULL, _mode=lib.LAM_COLOR_SRGB) -> None:
-        """Surrounds the scene by a built-in environment ("sky", "studio") or by a picture (2:1 or a cross), turned by degrees about the up axis."""
+        """Lights the scene with a built-in environment ("sky", "studio") or with a picture (2:1 or a cross), turned by degrees about the up axis."""
+        self._surround(lib.lam_scene_set_environment, name, rotation, _control, _mode)
+
+    def set_reflection_map(self, name: str, rotation: float = 0.0, _control=ffi.NULL, _mode=lib.LAM_COLOR_SRGB) -> None:
+        """Sets an environment that classic materials only reflect, by their reflectivity; it replaces the one of set_environment."""
+        self._surround(lib.lam_scene_set_reflection_map, name, rotation, _control, _mode)
+
+    def _surround(self, setter, name, rotation, control, mode):
         angle = angle_of("rotation", rotation)
         if isinstance(name, str) and name in every(lib.lam_environment_built_in_name):
             made = call(lib.lam_environment_built_in, name.encode())
         else:
-            made = call(lib.lam_environment_load, path_bytes(name), _mode, _control, path=name)
+            made = call(lib.lam_environment_load, path_bytes(name), mode, control, path=name)
         try:
-            call(lib.lam_scene_set_environment, self._handle, made, angle)
+            call(setter, self._handle, made, angle)
         finally:
             lib.lam_environment_free(made)
 
@@ -379,8 +386,9 @@ def change(scene, options, task, params):
         lib.lam_scene_clear_lights(scene._handle)
     if "light" in options and "rig" not in options:
         params.rig = lib.LAM_RIG_NONE
-    if "environment" in options:
-        scene.set_environment(options.get("environment"), options.get("environment_rotation", 0), _control=task.control, _mode=params.color)
+    for name, setter in (("environment", scene.set_environment), ("reflection_map", scene.set_reflection_map)):
+        if name in options:
+            setter(options.get(name), options.get("environment_rotation", 0), _control=task.control, _mode=params.color)
     if "rig" not in options:
         call(lib.lam_scene_mirror_metals, scene._handle, params)
 

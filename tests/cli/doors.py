@@ -25,7 +25,7 @@ SUBJECTS = {
     "point": ("$defs/point_light", LIT, {"type": "point", "position": [3, 0.5, 0.5]}),
     "directional": ("$defs/directional_light", LIT, {"type": "directional", "direction": [-3, -0.5, -0.5]}),
     "spot": ("$defs/spot_light", LIT, {"type": "spot", "position": [3, 0.5, 0.5], "direction": [-3, -0.5, -0.5]}),
-    "material": ("$defs/material", {**SEEN, "environment": {"builtin": "studio"}}, {}),
+    "material": ("$defs/material", {**SEEN, "reflection_map": {"builtin": "studio"}}, {}),
     "camera": ("properties/camera", {}, {"eye": [2, 1.5, 3]}),
     "environment": ("properties/environment", {**SEEN, "material": {"reflectivity": [0.8, 0.8, 0.8]}}, {"builtin": "studio"}),
     "image": ("properties/image", {"camera": CAMERA}, {}),
@@ -34,7 +34,7 @@ SUBJECTS = {
 # Further settings for the rows of a key, so that the key is visible.
 CONTEXT = {
     "material: fibre": {"reflection": "kajiya-kay"}, "material: roughness_angle": {"reflection": "oren-nayar"},
-    "setting: match_highlights": {"material": PAINT}, "setting: single_scattering": PHYSICAL, "setting: reference": PHYSICAL, "setting: specular_aa": PHYSICAL,
+    "setting: match_highlights": {"material": PAINT}, "setting: single_scattering": PHYSICAL, "setting: reference": PHYSICAL, "setting: background_environment": PHYSICAL, "setting: specular_aa": PHYSICAL,
     "setting: gl1": {"material": {**PAINT, "shininess": 200}}, "setting: shadow_terminator": {"shadows": True},
     "setting: shadow_samples": {"shadows": True, "lights": [{**LAMP, "radius": 1}]}, "setting: flat_normal": {"shading": "flat"}, "setting: ao": {"ao_radius": 1}, "setting: ao_radius": {"ao": "rays"},
     "setting: ao_samples": {"ao": "rays", "ao_radius": 1},
@@ -43,10 +43,10 @@ CONTEXT = {
 }
 LIGHTS = ("ambient", "hemisphere", "point", "directional", "spot")
 GROUPS = ("image", "environment", "setting")
-NOT_SETTINGS = ("lambent", "image", "camera", "environment", "materials", "objects", "lights", "sections")
+NOT_SETTINGS = ("lambent", "image", "camera", "environment", "reflection_map", "materials", "objects", "lights", "sections")
 
 # Other names of keys as options.
-OPTION_NAMES = {"image.color": "color-mode", "environment.builtin": "environment", "environment.rotation": "environment-rotation", "camera.ortho_half_height": "ortho"}
+OPTION_NAMES = {"image.color": "color-mode", "environment.builtin": "environment", "environment.rotation": "environment-rotation", "reflection_map.builtin": "reflection-map", "camera.ortho_half_height": "ortho"}
 PAIRED = {"ground_color": {"ground": "color"}}  # keys that belong together
 PARTNERS = {"near": "far", "far": "near", "ground_color": "ground"}  # keys of which one alone is refused
 

@@ -182,7 +182,7 @@ class Reference:
 
     def look(self, r):
         """OpenGL's table, bilinear within a face; None at a seam."""
-        turn = math.radians(self.scene["environment"].get("rotation", 0))
+        turn = math.radians(self.scene["reflection_map"].get("rotation", 0))
         x, y, z = math.cos(turn) * r[0] - math.sin(turn) * r[2], r[1], math.sin(turn) * r[0] + math.cos(turn) * r[2]
         across = {"x": (-z, z), "y": (x, x), "z": (x, -x)}
         axis, major = max(zip("xyz", (x, y, z)), key=lambda pair: abs(pair[1]))

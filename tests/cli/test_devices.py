@@ -87,7 +87,7 @@ class Drawing(Case):
             if not any(version in d["versions"] for d in self.usable):
                 continue
             for more in ([], ["--opacity", "0.5"], ["--stage", "application"], ["--shading", "flat", "--background", "white"],
-                         ["--show", "ids"], ["--environment", "sky", "--reflectivity", "0.5"]):
+                         ["--show", "ids"], ["--reflection-map", "sky", "--reflectivity", "0.5"], ["--environment", "sky"], ["--environment", "sky", "--background", "environment:0.1"]):
                 differ, report = self.apart("cube", "--samples", 1, *more, device=device)
                 self.assertLessEqual(differ, 3, more)
                 self.assertTrue(report["device"]["name"].startswith("gl "))

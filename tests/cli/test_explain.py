@@ -194,7 +194,7 @@ class Explain(Case):
 
     def test_environment(self):
         """The reflection term follows from R, printed in both spaces, and from the environment's light in that direction."""
-        scene = ("-s", 64, "--environment", "sky", "--reflectivity", "0.25/0.5/1", "--samples", 1)
+        scene = ("-s", 64, "--reflection-map", "sky", "--reflectivity", "0.25/0.5/1", "--samples", 1)
         self.same_as_picture("sphere", *scene, "--environment-rotation", 70, count=3)
         answer = [self.explained("sphere", "32,32", *scene, "--environment-rotation", turn) for turn in (0, 90)]
         points = [t["triangles"][0]["points"][0] for t in answer]

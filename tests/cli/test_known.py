@@ -169,11 +169,11 @@ class Known(Case):
         for rotation in (0, 65, -200):
             for shading in ("phong", "gouraud", "flat"):
                 objects = [{"material": mirror, "transform": TURNED, "back_material": {"reflectivity": [0.9, 0.1, 0.2]}}]
-                self.agree({"objects": objects, "shading": shading, "environment": {"faces": names, "rotation": rotation}}, {"ball.ply": ball()}, faces,
+                self.agree({"objects": objects, "shading": shading, "reflection_map": {"faces": names, "rotation": rotation}}, {"ball.ply": ball()}, faces,
                            5e-4, 5e-6, 25)
         camera = {"eye": [1.4, -1.1, 4.2], "target": [0.1, 0, 0], "ortho_half_height": 1.3, "near": 0.5, "far": 50}
         glass = {**mirror, "diffuse": [0.2, 0.4, 0.8, 0.5]}
-        self.agree({"objects": [{"material": glass, "two_sided": False}], "camera": camera, "environment": {"faces": names, "rotation": 20}},
+        self.agree({"objects": [{"material": glass, "two_sided": False}], "camera": camera, "reflection_map": {"faces": names, "rotation": 20}},
                    {"ball.ply": ball()}, faces, 5e-4, 5e-6, 25)
 
 

@@ -83,7 +83,7 @@ class Page(Case):
         for words in (["--size", "40x30", "--light", "point:position=1/2/3", "--material", "brass", "--light",
                        "directional:direction=-1/-2/-1", "--two-sided"],
                       ["--size", "32", "--look", "technical"], ["--size", "32", "--edges", "crease", "--rotate", "y:30", "--rotate", "x:10"],
-                      ["--size", "32", "--environment", "studio", "--reflectivity", "0.5", "--view", "top"]):
+                      ["--size", "32", "--reflection-map", "studio", "--reflectivity", "0.5", "--view", "top"]):
             with self.subTest(words=words):
                 page, _ = self.make("cube.obj", *words)
                 inside = words_in(page)
@@ -108,9 +108,11 @@ class Page(Case):
         (self.folder / "elsewhere").mkdir()
         sky = write_png(4, 2, b"\x20\x40\x80\xff" * 8)
         (self.folder / "elsewhere" / "sky.png").write_bytes(sky)
-        page, _ = self.make("cube.obj", "--size", "32", "--environment", "elsewhere/sky.png", "--reflectivity", "0.5")
+        page, _ = self.make("cube.obj", "--size", "32", "--environment", "elsewhere/sky.png")
         self.assertEqual(files_in(page)["/.environment/1-sky.png"], sky)
         self.assertIn("--environment=/.environment/1-sky.png", words_in(page))
+        page, _ = self.make("cube.obj", "--size", "32", "--reflection-map", "elsewhere/sky.png", "--reflectivity", "0.5")
+        self.assertIn("--reflection-map=/.environment/1-sky.png", words_in(page))
 
     def test_names_and_words_cannot_end_their_texts(self):
         name = "a\"'<b>&.obj"

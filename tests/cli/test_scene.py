@@ -19,7 +19,7 @@ def misfit(value, schema, place="scene"):
     """The first violation of the schema (the part of JSON Schema that it uses); None means valid."""
     assert set(schema) <= KNOWN, set(schema) - KNOWN
     if "$ref" in schema:
-        return misfit(value, SCHEMA["$defs"][schema["$ref"].rsplit("/", 1)[1]], place)
+        return misfit(value, SCHEMA[schema["$ref"].split("/")[1]][schema["$ref"].rsplit("/", 1)[1]], place)
     if "anyOf" in schema:
         tries = [misfit(value, s, place) for s in schema["anyOf"]]
         return None if None in tries else tries[-1]
@@ -123,7 +123,7 @@ class Scene(Case):
         ripple = "x=u*cos(v); y=u*sin(v); z=cos(3u)"
         for words, want in ((["--u", "0..4", "--segments", "40x60"], {"u": "0..4", "segments": [40, 60]}), (["--v", "0..pi", "--flip", "--cull", "back"], {"v": "0..pi", "flip": True}),
                             (["--rotate", "x:20", "--normals", "facet", "--segments", "30"], {"segments": [30, 30]}),
-                            (["--up", "y", "--material", "gold", "--view", "front"], {}), (["--environment", "sky", "--reflectivity", "0.4"], {})):
+                            (["--up", "y", "--material", "gold", "--view", "front"], {}), (["--reflection-map", "sky", "--reflectivity", "0.4"], {})):
             saved = self.again("shape", "--parametric", ripple, *words, "-s", "64")
             [thing] = saved["objects"]
             self.assertEqual(thing["shape"], {"parametric": {"formula": ripple, **want}}, words)
@@ -255,8 +255,8 @@ class Scene(Case):
         outside = b"warning: the saved scene file names files outside of its folder"
         for words, beside in ((["cube.obj", "--save-scene", "s.json"], True), (["sphere", "--save-scene", "sub/s.json"], True),
                               ([self.folder / "cube.obj", "--save-scene", "./s.json"], True), (["cube.obj", "--save-scene", "sub/s.json"], False),
-                              (["sphere", "--environment", "sky", "--reflectivity", "1", "--save-scene", "sub/s.json"], True),
-                              (["sphere", "--environment", ",".join(["face.png"] * 6), "--reflectivity", "1", "--save-scene", "sub/s.json"], False)):
+                              (["sphere", "--reflection-map", "sky", "--reflectivity", "1", "--save-scene", "sub/s.json"], True),
+                              (["sphere", "--reflection-map", ",".join(["face.png"] * 6), "--reflectivity", "1", "--save-scene", "sub/s.json"], False)):
             done = self.good(*words, "-s", "8", "-o", "a.png", "--files-inside")
             self.assertEqual(outside in done.stderr, not beside, words)
             done = self.run_program(words[-1], "-o", "b.png", "--files-inside")
@@ -277,32 +277,32 @@ class Environment(Case):
                  "objects": [{"shape": "sphere", "material": "mirror"}],
                  "lights": [{"type": "directional", "direction": [0, 0, -1]}]}
         (self.folder / "bare.json").write_text(json.dumps(scene))
-        scene["environment"] = {"faces": names, "rotation": 30}
+        scene["reflection_map"] = {"faces": names, "rotation": 30}
         (self.folder / "mirrored.json").write_text(json.dumps(scene))
         self.good("bare.json", "-o", "bare.png")
         self.good("mirrored.json", "-o", "mirrored.png")
-        self.good("bare.json", "--environment", ",".join(names), "--environment-rotation", "30", "-o", "asked.png")
+        self.good("bare.json", "--reflection-map", ",".join(names), "--environment-rotation", "30", "-o", "asked.png")
         read = lambda name: (self.folder / name).read_bytes()
         self.assertEqual(read("mirrored.png"), read("asked.png"))
         self.assertNotEqual(read("mirrored.png"), read("bare.png"))
-        self.good("bare.json", "--environment", ",".join(names), "--environment-rotation", "30", "-q", "-o", "asked.png",
+        self.good("bare.json", "--reflection-map", ",".join(names), "--environment-rotation", "30", "-q", "-o", "asked.png",
                   "--save-scene", "saved.json")
         self.good("saved.json", "-o", "saved.png")
         self.assertEqual(read("saved.png"), read("asked.png"))
         # The option rotates a scene file's own environment, and the saved file stores the rotation.
         self.good("mirrored.json", "--environment-rotation", "75", "-q", "-o", "asked.png", "--save-scene", "saved.json")
-        self.assertEqual(json.loads(read("saved.json"))["environment"]["rotation"], 75)
+        self.assertEqual(json.loads(read("saved.json"))["reflection_map"]["rotation"], 75)
         self.good("saved.json", "-o", "saved.png")
-        self.good("bare.json", "--environment", ",".join(names), "--environment-rotation", "75", "-o", "turned.png")
+        self.good("bare.json", "--reflection-map", ",".join(names), "--environment-rotation", "75", "-o", "turned.png")
         self.assertEqual(read("saved.png"), read("turned.png"))
         self.assertEqual(read("saved.png"), read("asked.png"))
         self.assertNotEqual(read("saved.png"), read("mirrored.png"))
 
     def test_built_in(self):
         for model in ("sphere", "cube.obj"):
-            self.good(model, "-s", 40, "--environment", "sky", "--environment-rotation", 20, "--reflectivity", "0.4/0.5/0.6", "-q",
+            self.good(model, "-s", 40, "--reflection-map", "sky", "--environment-rotation", 20, "--reflectivity", "0.4/0.5/0.6", "-q",
                       "-o", "asked.png", "--save-scene", "sky.json")
-            self.assertEqual(json.loads((self.folder / "sky.json").read_text())["environment"], {"builtin": "sky", "rotation": 20})
+            self.assertEqual(json.loads((self.folder / "sky.json").read_text())["reflection_map"], {"builtin": "sky", "rotation": 20})
             self.good("sky.json", "-o", "saved.png")
             self.assertEqual((self.folder / "asked.png").read_bytes(), (self.folder / "saved.png").read_bytes())
         self.scene("bad.json", {"lambent": 1, "environment": {"builtin": "studoi"}, "objects": [{"shape": "cube"}]})
@@ -317,9 +317,11 @@ class Environment(Case):
 
     def test_unseen(self):
         """An environment that nothing reflects causes a warning; an environment above the memory limit causes an error."""
-        self.assertIn(b"environment is invisible", self.good("cube.obj", "-s", 20, "--environment", "sky", "-o", "a.png").stderr)
-        self.assertNotIn(b"not seen", self.good("cube.obj", "-s", 20, "--environment", "sky", "--reflectivity", 1, "-o", "a.png").stderr)
-        self.scene("unseen.json", {"lambent": 1, "environment": {"builtin": "studio"}, "objects": [{"shape": "cube"}]})
+        self.assertIn(b"environment is invisible", self.good("cube.obj", "-s", 20, "--reflection-map", "sky", "-o", "a.png").stderr)
+        self.assertNotIn(b"not seen", self.good("cube.obj", "-s", 20, "--reflection-map", "sky", "--reflectivity", 1, "-o", "a.png").stderr)
+        self.assertIn(b"environment is invisible", self.good("cube.obj", "-s", 20, "--environment", "sky", "--reflection", "phong", "-o", "a.png").stderr)
+        self.assertNotIn(b"invisible", self.good("cube.obj", "-s", 20, "--environment", "sky", "-o", "a.png").stderr)
+        self.scene("unseen.json", {"lambent": 1, "reflection_map": {"builtin": "studio"}, "objects": [{"shape": "cube"}]})
         self.assertIn(b"environment is invisible", self.good("unseen.json", "-s", 20, "-o", "a.png").stderr)
         self.good("cube.obj", "-s", "1200x600", "-q", "-o", "wide.png")
         self.scene("heavy.json", {"lambent": 1, "environment": {"equirectangular": "wide.png"}, "objects": [{"shape": "cube"}]})
@@ -381,7 +383,7 @@ class Environment(Case):
         self.assertIn(b"l.json: lights[0] and lights[2] are both named 'key'", self.good("l.json", "-s", 8).stderr)
         (self.folder / "l.json").write_text(json.dumps({"lambent": 1, "objects": [{"shape": "cube"}], "lights": lights[:2]}))
         self.assertNotIn(b"warning", self.good("l.json", "-s", 8).stderr)
-        self.assertIn(b"above 1", self.good("cube", "-s", 8, "--reflectivity", 1.5, "--environment", "sky").stderr)
+        self.assertIn(b"above 1", self.good("cube", "-s", 8, "--reflectivity", 1.5, "--reflection-map", "sky").stderr)
         self.assertIn(b"the model has no lights", self.good("cube", "-s", 8, "--rig", "file").stderr)
         self.assertIn(b"describes the picture without --show", self.good("cube", "-s", 8, "--show", "normals", "--save-scene", "t.json").stderr)
         for words in (["cube", "-s", 8], ["cube", "-s", 8, "--rig", "file", "--light", "+point"], ["cube", "-s", 8, "--save-scene", "t.json"]):

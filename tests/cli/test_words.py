@@ -71,9 +71,9 @@ does | lambent a.stl --sweep azimuth=0..360 --frames 4 -s 100 -o 'v-{frame}.png'
 says ffmpeg | lambent Knight.glb --animation 0 -o k.mp4
 does | lambent Knight.glb --animation Walking_A -s 128 -o k.webp
 does | lambent Knight.glb --animate -s 128 -o k.webp
-pending | lambent a.stl --hdri env/kloppenheim_05_1k.hdr -o h.png
-pending | lambent a.stl --environment env/kloppenheim_05_1k.hdr -s 200 -o h.png
-pending | lambent a.stl --environment env/kloppenheim_05_1k.hdr --background environment -s 200 -o h.png
+does | lambent a.stl --hdri env/kloppenheim_05_1k.hdr -o h.png
+does | lambent a.stl --environment env/kloppenheim_05_1k.hdr -s 200 -o h.png
+does | lambent a.stl --environment env/kloppenheim_05_1k.hdr --background environment -s 200 -o h.png
 does | lambent contact-sheet stls/ -o cs.png
 says lambent sheet | lambent compare stls/*.stl -o cs.png
 nowhere | lambent batch stls/ --sheet -o cs.png

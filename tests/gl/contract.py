@@ -365,7 +365,7 @@ def main():
         is_shape = isinstance(model, Shape)
         environment = cube if len(case) > 4 else None
         if environment:
-            words = words + ["--environment", environment[0]]
+            words = words + ["--reflection-map", environment[0]]
         try:
             drawn = draw(folder, name, model, words, shader_words, environment)
             within, far, outside = compare(folder, model, [w for w in words], 2 if is_shape else words.count("--light") or 4, drawn, PROMISE if is_shape else ())

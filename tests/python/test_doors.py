@@ -38,7 +38,7 @@ def keywords(row):
         return {"material": keys if isinstance(keys, str) else lambent.Material(keys.get("name", ""), **{key: value for key, value in keys.items() if key != "name"})}
     if row.subject == "camera":
         return {"camera": lambent.Camera(**{doors.OPTION_NAMES.get("camera." + key, key): value for key, value in keys.items()})}
-    names = {"environment.builtin": "environment", "environment.rotation": "environment_rotation", "image.color": "color_mode"}
+    names = {"environment.builtin": "environment", "environment.rotation": "environment_rotation", "reflection_map.builtin": "reflection_map", "image.color": "color_mode"}
     return {names.get(f"{row.subject}.{key}", key): value for key, value in keys.items()}
 
 

@@ -471,7 +471,8 @@ static int mirror(struct demo *d, lam_rgb reflectivity, lam_error *error)
 static bool surround(struct demo *d, const char *name, double rotation_rad, lam_error *error)
 {
     d->params.rig = LAM_RIG_NONE;
-    return textured_surround(d, name, rotation_rad, error);
+    return textured_surround(d, name, rotation_rad, error) &&
+           lam_scene_set_reflection_map(d->scene, lam_scene_environment(d->scene), rotation_rad, error);
 }
 
 static bool mirror_sky(struct demo *d, lam_error *error)
@@ -500,6 +501,26 @@ static bool mirror_gouraud(struct demo *d, lam_error *error)
     lam_scene_set_up(d->scene, LAM_UP_Z);
     d->camera = lam_camera_fit(d->scene, d->width, d->height, &(lam_view){.orthographic = true});
     return ok;
+}
+
+// Classic materials in the light of the sky: one without a highlight, one with a broad and one with a narrow highlight, a
+// metal, a mirror, and a matt one without a normal map under Gouraud shading's stage.
+static bool environment_classic(struct demo *d, lam_error *error)
+{
+    static const lam_material materials[] = {
+        {.diffuse = {0.8f, 0.8f, 0.8f, 1}},
+        {.diffuse = {0.6f, 0.1f, 0.1f, 1}, .specular = {0.3f, 0.3f, 0.3f}, .shininess = 10},
+        {.diffuse = {0.1f, 0.3f, 0.6f, 1}, .specular = {1, 1, 1}, .shininess = 300},
+        {.diffuse = {0.1f, 0.08f, 0.02f, 1}, .specular = {6, 4.8f, 2}, .shininess = 60},
+        {.diffuse = {0, 0, 0, 1}, .reflectivity = {0.9f, 0.9f, 0.9f}},
+        {.diffuse = {0.5f, 0.5f, 0.5f, 1}, .reflectivity = {0.2f, 0.2f, 0.2f}}};
+    int mesh = shape(d, "sphere", 32, 16, error);
+    for (int i = 0; i < 6; i++)
+        if (!place(d, mesh, lam_scene_add_material(d->scene, &materials[i], error), (lam_vec3){1, 1, 1},
+                   (lam_vec3){2.2 * (i % 3) - 2.2, 1.1 - 2.2 * (i / 3), 0}, error))
+            return false;
+    look(d, (lam_vec3){0, 1.5, 15}, (lam_vec3){0, 0, 0}, 19);
+    return textured_surround(d, "sky", 0.4, error);
 }
 
 // Spheres of four roughnesses, from a mirror to a matt surface, in the light of the studio. The first row is a
@@ -708,6 +729,8 @@ const struct demo_row demos[] = {
     {"mirror-studio", "a gold teapot among turned soft boxes", mirror_studio},
     {"mirror-gouraud", "a mirror lit at its vertices, Z up, without perspective", mirror_gouraud},
     {"environment-light", "metals and dielectrics of several roughnesses in the studio's light", environment_light},
+    {"environment-classic", "classic materials in the light of the sky: matt, glossy, a metal, mirrors",
+     environment_classic},
     {"environment-reference", "the same by the integral itself", environment_reference},
     {"textured", "bricks with every map of a metallic-roughness material, turned, mirrored at the seams",
      textured_physical},

@@ -272,7 +272,7 @@ static void check_ball(const struct ball *ball)
         lam_scene_add_light(scene, &l, &error);
     }
     lam_scene_set_up(scene, ball->up);
-    assert_true(lam_scene_set_environment(scene, environment, ball->rotation, &error));
+    assert_true(lam_scene_set_reflection_map(scene, environment, ball->rotation, &error));
     lam_environment_free(environment); // the scene still uses it
     lam_camera camera = lam_camera_default();
     camera.eye = (lam_vec3){2, 1.2, 2.5};
@@ -575,8 +575,8 @@ TEST(test_refusals)
     refused(lam_environment_load("no-such-picture.hdr", LAM_COLOR_SRGB, NULL, &error), &error, LAM_CANNOT_READ,
             "no-such-picture.hdr");
     lam_scene *scene = lam_scene_make(&error);
-    assert_false(lam_scene_set_environment(scene, NULL, (double)NAN, &error));
-    assert_true(lam_scene_set_environment(scene, NULL, 0, &error));
+    assert_false(lam_scene_set_reflection_map(scene, NULL, (double)NAN, &error));
+    assert_true(lam_scene_set_reflection_map(scene, NULL, 0, &error));
     lam_scene_free(scene);
     assert_true(apart(lam_environment_sample(NULL, (lam_vec3){1, 0, 0}), of(0, 0, 0)) == 0);
     free_cube(&cube);

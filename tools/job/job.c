@@ -240,14 +240,15 @@ static void warn_environment(struct job *job)
     if (show && strcmp(show, "environment") == 0 && !lam_scene_environment(job->scene) && !job->studio)
         lam_scene_add_warning(job->scene,
                               "the picture of '--show environment' is black: no environment lights this model; "
-                              "'--environment studio' sets one for physical and reflecting materials");
+                              "'--environment studio' sets one");
 }
 
 bool job_arrange(struct job *job, struct progress *progress, lam_error *error)
 {
     lam_control control;
-    if (!job_control(job, progress, &control, error) || !job_apply_options(job, &control, &job->sphere, error) ||
-        !environment_apply(job->options, job->environments, job->scene, &control, error))
+    if (!job_control(job, progress, &control, error) ||
+        !environment_set(job->options, job->environments, job->scene, &control, error) ||
+        !job_apply_options(job, &control, &job->sphere, error) || !environment_apply(job->options, job->scene, error))
         return false;
     warn_environment(job);
     if (job->options->picture.save_scene && option_given(job->options, "show"))

@@ -144,9 +144,10 @@ static void warn_maps(struct job *job)
 static bool find_background(struct job *job, lam_error *error)
 {
     const struct options *o = job->options;
-    if (o->picture.background)
+    float unused;
+    if (o->picture.background && !background_environment(o->picture.background, &unused))
         return lam_color_parse(o->picture.background, (lam_color_mode)o->picture.color_mode, &job->background, error);
-    job->background = job->settings.draw.background;
+    job->background = o->picture.background ? (lam_rgba){0, 0, 0, 0} : job->settings.draw.background;
     return true;
 }
 

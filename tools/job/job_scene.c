@@ -360,7 +360,7 @@ void job_note_glass(struct job *job, const lam_draw_params *draw)
                 job->scene, "glass is drawn opaque: only Phong shading with a physical reflection model shows it");
             return;
         }
-    if (draw->background.a > 0 || draw->output != LAM_OUTPUT_PICTURE)
+    if (draw->background.a > 0 || draw->background_environment > 0 || draw->output != LAM_OUTPUT_PICTURE)
         return;
     for (int i = 0; i < lam_scene_material_count(job->scene); i++)
         if (colors_light(lam_scene_material(job->scene, i))) {
@@ -397,6 +397,8 @@ lam_draw_params draw_params_of(const struct options *o, lam_rig rig)
     if (o->shader.lecture_device && !draw.tone)
         draw.tone = LAM_TONE_NONE; // lecture shaders have no tone curve
     draw.rig = rig;
+    if (o->picture.background && !background_environment(o->picture.background, &draw.background_environment))
+        draw.background_environment = 0;
     draw.edge_color = color_or(o->shading.edge_color, o->picture.color_mode, draw.edge_color);
     draw.wireframe_color = color_or(o->shading.wireframe_color, o->picture.color_mode, draw.wireframe_color);
     lam_rgba ground = {draw.ground_color.r, draw.ground_color.g, draw.ground_color.b, 1};

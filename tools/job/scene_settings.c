@@ -95,6 +95,7 @@ static bool take_environment(const struct options *o, lam_picture_settings *s, c
     if (environment_option_is_none(text))
         return true;
     memset(s->environment_faces, 0, sizeof s->environment_faces);
+    s->reflection_map = o->shading.reflection_map;
     s->environment_built_in = environment_option_built_in(text);
     s->environment_picture = s->environment_built_in || strchr(text, ',') ? NULL : text;
     s->present |= LAM_SETTING_ENVIRONMENT;

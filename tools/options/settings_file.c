@@ -27,7 +27,9 @@ static const struct {
                {"image", "exposure", "exposure"},
                {"image", "tone", "tone"},
                {"environment", "builtin", "environment"},
-               {"environment", "rotation", "environment-rotation"}};
+               {"environment", "rotation", "environment-rotation"},
+               {"reflection_map", "builtin", "reflection-map"},
+               {"reflection_map", "rotation", "environment-rotation"}};
 
 enum { GROUPED = sizeof grouped / sizeof *grouped };
 
@@ -156,9 +158,11 @@ static const char *expected_of(const struct option *option, const json_t *value)
 // Returns whether the command line or a look already sets `option`, or another option that must match `option`.
 static bool is_decided(const struct settings_parser *r, const struct option *option)
 {
-    const char *name = option->name, *pair = strcmp(name, "shading") == 0 ? "stage"
-                                             : strcmp(name, "stage") == 0 ? "shading"
-                                                                          : name;
+    const char *name = option->name, *pair = strcmp(name, "shading") == 0          ? "stage"
+                                             : strcmp(name, "stage") == 0          ? "shading"
+                                             : strcmp(name, "environment") == 0    ? "reflection-map"
+                                             : strcmp(name, "reflection-map") == 0 ? "environment"
+                                                                                   : name;
     static const char *const phong_only[] = {"ground", "cavity", "specular-aa"};
     lam_stage stage = r->before->draw.stage;
     bool by_vertex =
@@ -253,7 +257,9 @@ static bool take_root(struct settings_parser *r, json_t *root)
         return wrong(r, NULL, "ground_color", "expected \"ground\": \"color\" as well");
     json_object_foreach(root, key, value)
     {
-        bool is_group = strcmp(key, "image") == 0 || strcmp(key, "environment") == 0;
+        bool is_group = false;
+        for (int i = 0; i < GROUPED; i++)
+            is_group |= strcmp(key, grouped[i].group) == 0;
         if (is_group && !json_is_object(value))
             return wrong(r, NULL, key, "expected an object, as in scene files");
         if (strcmp(key, "lambent") == 0 && !(json_is_integer(value) && json_integer_value(value) == 1))

@@ -166,7 +166,7 @@ static void put_option(void *user, const char *name, const char *value)
     char *argument = NULL;
     if (!option_is_in(option_find(name), IN_PAGE))
         return;
-    if (strcmp(name, "environment") == 0 && words->model->environment)
+    if (option_find(name)->kind == VALUE_ENVIRONMENT && words->model->environment)
         value = words->model->environment;
     if (asprintf(&argument, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
         argument = NULL;

@@ -39,7 +39,7 @@ static const struct sheet sheets[] = {
                                  {"Smooth (Gouraud)", {"--shading", "gouraud"}},
                                  {"Normal interpolation (Phong)", {"--shading", "phong"}},
                                  {"Reflection (environment)",
-                                  {"--environment", "sky", "--reflectivity", "0.7", "--light-scale", "0.4"}},
+                                  {"--reflection-map", "sky", "--reflectivity", "0.7", "--light-scale", "0.4"}},
                                  {"Anisotropic (Kajiya–Kay)",
                                   {"--reflection", "kajiya-kay"},
                                   "ambient=0.62,diffuse=0.3,shininess=30"}}},
@@ -192,7 +192,7 @@ static const struct row {
      "ambient,diffuse,specular,emission,reflection",
      {LIT,
       {"--material", "specular=0.7,shininess=50,emission=0.2/0.05/0"},
-      {"--environment", "sky"},
+      {"--reflection-map", "sky"},
       {"--reflectivity", "0.3"}}},
 };
 
@@ -252,6 +252,7 @@ static void title_of(const char *option, char *title, size_t size)
                 {"color-mode", "encodings of colours"},
                 {"cull", "culled sides of the surface"},
                 {"environment", "environments"},
+                {"reflection-map", "reflection maps"},
                 {"environment-rotation", "rotations of the environment"},
                 {"ground", "kinds of ground"},
                 {"hidden-lines", "lines behind surfaces"},
@@ -402,7 +403,7 @@ bool sheet_choose(const struct options *options, struct sheet *sheet, char *stor
         if (options->shading.environment) // the user's environment replaces the sky
             for (int i = 0; i < sheet->count; i++)
                 for (int k = 1; k < CELL_WORDS && sheet->cells[i].words[k]; k++)
-                    if (strcmp(sheet->cells[i].words[k - 1], "--environment") == 0)
+                    if (strcmp(sheet->cells[i].words[k - 1], "--reflection-map") == 0)
                         sheet->cells[i].words[k] = options->shading.environment;
         return true;
     }

@@ -42,7 +42,7 @@ static void put_option(void *user, const char *name, const char *value)
     char *argument = NULL;
     if (!option_is_in(option_find(name), IN_PAGE))
         return;
-    if (strcmp(name, "environment") == 0 && w->environment)
+    if (option_find(name)->kind == VALUE_ENVIRONMENT && w->environment)
         value = w->environment;
     if (asprintf(&argument, "--%s%s%s", name, value ? "=" : "", value ? value : "") < 0)
         return;

@@ -14,7 +14,7 @@ function turn(right, up) {
   move(orbit(view.camera, right, up, view.camera.pole, view.sphere.centre));
 }
 
-const hasEnvironment = () => (state.values('environment').at(-1) ?? view.settings.get('environment') ?? 'none') !== 'none';
+const hasEnvironment = () => ['environment', 'reflection-map'].some((name) => (state.values(name).at(-1) ?? view.settings.get(name) ?? 'none') !== 'none');
 
 // Turns the environment about the up axis.
 function turnSurroundings(degrees) {

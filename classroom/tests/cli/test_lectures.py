@@ -246,7 +246,7 @@ class Exercises(Case):
     def test_small_things(self):
         """A warning of one picture of a sheet, markers of white lights on white, and vector graphics."""
         for values, warned in (("0,0.5", False), ("0.5,0", False), ("0,0", True)):
-            done = self.good("compare", "sphere", "--environment", "sky", "--across", "reflectivity=" + values, "-s", "32", "-o", "s.png")
+            done = self.good("compare", "sphere", "--reflection-map", "sky", "--across", "reflectivity=" + values, "-s", "32", "-o", "s.png")
             self.assertEqual(b"environment is invisible" in done.stderr, warned, values)
         words = ("sphere", "--light", "point:position=1.15/1.05/0.9", "--background", "white", "-s", "192", "-o", "-")
         (_, _, plain), (_, _, marked) = (read_png(self.good(*words, *more).stdout) for more in ((), ("--show-lights",)))

@@ -91,13 +91,16 @@ static struct lam_environment *load(struct reader *r, const struct place *place,
 bool read_environment(struct reader *r, const json_t *root)
 {
     static const char *const keys[] = {"faces", "equirectangular", "builtin", "rotation", NULL};
-    const json_t *value = json_object_get(root, "environment");
-    const struct place *place = KEY_OF(NULL, "environment");
+    const json_t *lights = json_object_get(root, "environment"), *map = json_object_get(root, "reflection_map");
+    const json_t *value = map ? map : lights;
+    const struct place *place = KEY_OF(NULL, map ? "reflection_map" : "environment");
     lam_picture_settings *s = r->settings;
     const char *picture = NULL;
     double rotation = 0;
     if (!value)
         return true;
+    if (lights && map)
+        return json_fail(&r->json, place, "found together with 'environment', expected one of the two");
     if (!json_check_keys(&r->json, place, value, keys) || !take_text(r, place, value, "equirectangular", &picture) ||
         !read_built_in(r, place, json_object_get(value, "builtin"), &s->environment_built_in) ||
         !json_take_number(&r->json, place, value, "rotation", -360000, 360000, &rotation))
@@ -106,10 +109,11 @@ bool read_environment(struct reader *r, const json_t *root)
     if ((faces != NULL) + (picture != NULL) + (s->environment_built_in != NULL) != 1)
         return json_fail(&r->json, place, "expected one of faces, equirectangular and builtin");
     s->environment_rotation_rad = math_radians(rotation);
+    s->reflection_map = map != NULL;
     s->present |= LAM_SETTING_ENVIRONMENT;
     lam_environment *environment = load(r, place, faces, picture);
-    bool ok =
-        environment && lam_scene_set_environment(r->scene, environment, s->environment_rotation_rad, r->json.error);
+    bool ok = environment && (map ? lam_scene_set_reflection_map : lam_scene_set_environment)(
+                                 r->scene, environment, s->environment_rotation_rad, r->json.error);
     lam_environment_free(environment);
     return ok;
 }

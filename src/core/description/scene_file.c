@@ -130,8 +130,8 @@ static bool read_sections(struct reader *r, const json_t *root)
 
 static bool read_root(struct reader *r, const json_t *root)
 {
-    static const char *const others[] = {"lambent", "image",     "camera",  "ambient", "environment",
-                                         "up",      "materials", "objects", "lights",  "sections"};
+    static const char *const others[] = {"lambent",   "image",   "camera", "ambient",  "environment",   "up",
+                                         "materials", "objects", "lights", "sections", "reflection_map"};
     enum { OTHERS = sizeof others / sizeof *others };
     const char *keys[OTHERS + LAM_SETTINGS_MAX + 1];
     int count = 0;

@@ -591,7 +591,7 @@ static void put_image(struct scene_writer *w, json_t *root, const lam_picture_se
 static bool put_environment(struct scene_writer *w, json_t *root, const lam_picture_settings *s)
 {
     json_t *out = json_object(), *faces = s->environment_picture || s->environment_built_in ? NULL : json_array();
-    put(w, root, "environment", out);
+    put(w, root, s->reflection_map ? "reflection_map" : "environment", out);
     if (s->environment_built_in)
         put(w, out, "builtin", json_string(s->environment_built_in));
     if (faces)

@@ -6,6 +6,7 @@
 #include "linear.h"
 #include "pixels.h"
 #include "pool.h"
+#include "sky.h"
 
 #include <string.h>
 
@@ -53,7 +54,8 @@ static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_cam
     if (params->no_surfaces &&
         !frame_build(&device->frame, scene, camera, &lines, target->width, target->height, call, error))
         return false;
-    if (!device->type->draw(device, &device->frame, target, call, error))
+    if (!(sky_is_drawn(&device->frame) ? sky_draw(device, target, call, error)
+                                       : device->type->draw(device, &device->frame, target, call, error)))
         return false;
     if (device->frame.draws_edges)
         edges_blend(&device->edges, &device->frame, target, device->pool);

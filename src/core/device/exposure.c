@@ -56,6 +56,7 @@ bool lam_exposure_fit(lam_device *device, const lam_scene *scene, const lam_came
     if (params)
         drawn = *params;
     drawn.background = (lam_rgba){0, 0, 0, 0};
+    drawn.background_environment = 0;
     drawn.exposure = 0;
     drawn.samples = 1;
     drawn.output = LAM_OUTPUT_PICTURE;

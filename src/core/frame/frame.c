@@ -410,6 +410,8 @@ static void leave_normals(struct frame *frame)
 static void set_glass(struct frame *frame, const lam_mat4 *pixel)
 {
     static const lam_rgba white = {1, 1, 1, 1};
+    if (frame->settings.background_environment > 0)
+        frame->settings.background = (lam_rgba){0, 0, 0, 0}; // sky.h
     bool clear =
         // a picture of a single term excludes the background
         frame->settings.background.a <= 0 && output_is_picture(frame->settings.output);
@@ -434,6 +436,7 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
                     camera->height, width, height);
     resolve_settings(frame, params, width, height);
     const lam_draw_params *settings = &frame->settings;
+    frame->lights_classic = scene->environment && !scene->reflection_map;
     if (!allocate_arrays(frame, scene, call, error))
         return false;
     frame->token = scene->token;

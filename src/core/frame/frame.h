@@ -207,6 +207,7 @@ struct frame {
 
     const lam_environment *environment; // may be NULL
     lam_environment *studio;            // the built-in studio, owned; NULL until a frame uses it
+    bool lights_classic;                // whether the environment lights classic materials, too, which are converted
     bool environment_lights;    // whether the environment lights a range with a physical model (environment_light.h)
     float to_environment[3][3]; // from eye space to the environment's axes
 

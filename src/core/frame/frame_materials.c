@@ -20,7 +20,7 @@ lam_reflection frame_reflection(const struct frame *frame, const lam_material *m
         return frame->settings.reflection;
     if (material->unlit)
         return LAM_REFLECTION_NONE;
-    return material->physical ? LAM_REFLECTION_GGX : LAM_REFLECTION_BLINN_PHONG;
+    return material->physical || frame->lights_classic ? LAM_REFLECTION_GGX : LAM_REFLECTION_BLINN_PHONG;
 }
 
 // Returns whether a model can be used with this kind of material. LAM_REFLECTION_NONE shows the diffuse colour of both

@@ -385,9 +385,21 @@ bool lam_scene_set_environment(lam_scene *scene, const lam_environment *environm
     struct lam_environment *previous = scene->environment;
     scene->environment = cube_share(environment);
     scene->environment_rotation_rad = rotation_rad;
+    scene->reflection_map = false;
     lam_environment_free(previous);
     return true;
 }
+
+bool lam_scene_set_reflection_map(lam_scene *scene, const lam_environment *environment, double rotation_rad,
+                                  lam_error *error)
+{
+    bool ok = lam_scene_set_environment(scene, environment, rotation_rad, error);
+    if (ok)
+        scene->reflection_map = environment != NULL;
+    return ok;
+}
+
+bool lam_scene_has_reflection_map(const lam_scene *scene) { return scene && scene->reflection_map; }
 
 const lam_environment *lam_scene_environment(const lam_scene *scene) { return scene ? scene->environment : NULL; }
 

@@ -109,6 +109,7 @@ struct lam_scene {
     lam_material *default_material;  // for parts without a material
     lam_environment *environment;    // may be shared with other scenes; NULL if there is none
     double environment_rotation_rad; // rotation about the up axis
+    bool reflection_map;             // lam_scene_set_reflection_map has set the environment
     struct lazy_environment *studio; // the built-in studio environment (scene_lit_by_environment)
     lam_color_mode color;            // the encoding of the file's colours
     const char *format;
@@ -131,10 +132,13 @@ struct lam_scene {
 struct lam_scene *scene_make(struct call_control *call, lam_error *error);
 void scene_built(struct lam_scene *scene);
 
-// Returns whether a scene contains at least one lit physical material, but no lights and no lit classic material. Such
-// a scene is lit by its environment instead of a rig. If the scene has no environment, the built-in studio environment
-// lights the scene.
+// Returns whether the environment lights a scene instead of a rig. The scene contains no lights. Either the scene has an
+// environment that lights all materials, or it contains at least one lit physical and no lit classic material. Without an
+// environment, the built-in studio environment then lights the scene.
 bool scene_lit_by_environment(const struct lam_scene *scene);
+
+// Returns whether the rig of a scene without lights may depend on the scene's form (scene_form).
+bool scene_needs_form(const struct lam_scene *scene);
 
 struct scene_token *scene_token_make(lam_error *error); // NULL if memory runs out
 struct scene_token *scene_token_hold(struct scene_token *token);

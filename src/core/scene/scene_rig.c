@@ -30,10 +30,10 @@ static bool shows_default(const struct lam_scene *scene)
     return shows;
 }
 
-bool scene_lit_by_environment(const struct lam_scene *scene)
+// Returns whether the environment, or the studio if there is none, lights the materials: all are physical.
+static bool all_physical(const struct lam_scene *scene)
 {
-    if (scene->lights.count ||
-        (!scene->environment && !environment_lookups_of(1))) // a build without effects has no studio
+    if (!scene->environment && !environment_lookups_of(1)) // a build without effects has no studio
         return false;
     int physical = 0, classic = 0;
     for (int i = shows_default(scene) ? -1 : 0; i < scene->materials.count; i++) {
@@ -43,6 +43,13 @@ bool scene_lit_by_environment(const struct lam_scene *scene)
     }
     return physical && !classic;
 }
+
+bool scene_lit_by_environment(const struct lam_scene *scene)
+{
+    return !scene->lights.count && ((scene->environment && !scene->reflection_map) || all_physical(scene));
+}
+
+bool scene_needs_form(const struct lam_scene *scene) { return !scene->lights.count && !all_physical(scene); }
 
 // Returns the largest kd of the materials if all are a grey of at least GREY_MIN without textures, and no mesh has
 // colours; otherwise 0.

@@ -102,7 +102,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     if (scene->settings && scene->settings->section_count &&
         !scene_cut(scene, scene->settings->sections, scene->settings->section_count, source->call, error))
         return false;
-    if (!scene->lights.count && !scene_lit_by_environment(scene))
+    if (scene_needs_form(scene))
         scene_find_form(scene, source->pool);
     scene->prepare_ms = (double)(now_ns() - read_ns) * 1e-6;
     call_progress(source->call, 1, "normals");

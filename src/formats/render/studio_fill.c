@@ -67,6 +67,7 @@ static struct lighting measure(lam_device *device, const lam_scene *scene, const
     bool ground = params->ground != LAM_GROUND_NONE;
     lam_draw_params drawn = *params;
     drawn.background = ground ? (lam_rgba){1, 1, 1, 1} : (lam_rgba){0, 0, 0, 0};
+    drawn.background_environment = 0;
     drawn.samples = 1;
     drawn.wireframe = drawn.no_surfaces = false;
     drawn.edges = 0;
@@ -131,7 +132,7 @@ bool lam_studio_fill(lam_device *device, lam_scene *scene, const lam_camera *cam
     double scale =
         math_exp2(params->exposure - LAM_STUDIO_FILL_EXPOSURE) / (measured.lit_ratio > 1 ? measured.lit_ratio : 1);
     lam_environment *studio = lam_environment_built_in("studio", error);
-    bool ok = studio && lam_scene_set_environment(scene, studio, 0, error) && scale_lights(scene, scale, error);
+    bool ok = studio && lam_scene_set_reflection_map(scene, studio, 0, error) && scale_lights(scene, scale, error);
     lam_environment_free(studio);
     if (!ok)
         return false;

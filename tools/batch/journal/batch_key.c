@@ -114,8 +114,8 @@ char *batch_options_text(const struct options *o, lam_error *error)
                                               !*(const bool *)((const char *)o + option->has_field)))
             continue;
         fprintf(out, "%s=", option->name);
-        if (strcmp(option->name, "environment") == 0)
-            ok = print_environment(out, o, error);
+        if (option->kind == VALUE_ENVIRONMENT)
+            ok = strcmp(option->name, environment_option_name(o)) != 0 || print_environment(out, o, error);
         else
             print_value(out, option, o);
         putc('\n', out);

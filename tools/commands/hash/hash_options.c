@@ -37,15 +37,15 @@ static int split(char *text, char **words)
     return count;
 }
 
-// The picture options whose values are paths of files: one or six paths for `environment`, and one for `look`. Both
+// The picture options whose values are paths of files: one path for `look`, and one or six paths for the others. All
 // options also accept built-in names.
-static const char *const of_files[] = {"environment", "look"};
+static const char *const of_files[] = {"environment", "reflection-map", "look"};
 
 // Writes the value of an option that of_files lists. `map` converts each path first.
 static bool put_paths(FILE *out, const char *name, const char *value, const char *file,
                       char *(*map)(const char *file, const char *path))
 {
-    bool environment = strcmp(name, "environment") == 0;
+    bool environment = strcmp(name, "look") != 0;
     if (environment ? environment_option_built_in(value) != NULL : look_find(value) != NULL)
         return fputs(value, out) >= 0;
     for (const char *from = value; from;) {
@@ -97,7 +97,7 @@ char *hash_options_text(const struct options *options, const char *path)
 // to the current folder.
 static bool may_name(const char *path, const char *name, const char *value, const struct options *o, lam_error *error)
 {
-    bool environment = strcmp(name, "environment") == 0, ok = true;
+    bool environment = strcmp(name, "look") != 0, ok = true;
     if (environment ? environment_option_built_in(value) != NULL : look_find(value) != NULL)
         return true;
     for (const char *from = value; ok && from;) {

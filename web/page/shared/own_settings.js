@@ -11,8 +11,9 @@ function textOf(value, name) {
 }
 
 // Returns the values of a scene file's settings by the names of their options. A flag has the value 'on' or 'off'.
-function settingsOf({ image = {}, environment, camera, ...settings }) {
-  const surroundings = environment && { environment: environment.builtin ?? environment.equirectangular ?? environment.faces, environment_rotation: environment.rotation };
+function settingsOf({ image = {}, environment, reflection_map: map, camera, ...settings }) {
+  const around = environment ?? map, name = around?.builtin ?? around?.equirectangular ?? around?.faces;
+  const surroundings = around && { [map ? 'reflection-map' : 'environment']: name, environment_rotation: around.rotation };
   const found = { ...settings, ...image, ...surroundings, projection: camera?.ortho ? 'orthographic' : undefined };
   return new Map(Object.entries(found).filter(([name, value]) => value !== undefined && !NOT_SETTINGS.includes(name))
     .map(([name, value]) => [name.replaceAll('_', '-'), textOf(value, name)]));

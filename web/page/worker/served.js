@@ -31,7 +31,7 @@ async function fileOf(path) {
 
 // Returns the facts about the model. The module then has its files, unless the program draws it.
 async function take(call, words) {
-  const key = [words[0], ...words.filter((word) => word.startsWith('--environment='))].join('\n');
+  const key = [words[0], ...words.filter((word) => /^--(environment|reflection-map)=/.test(word))].join('\n');
   if (known?.key === key && !known.stale) return known;
   const taken = (known = { key, stale: true, paths: new Set([words[0]]), native: null });
   const about = await (await ask('model', words)).json();

@@ -63,18 +63,22 @@ lam_material lam_material_as_physical(const lam_material *material)
     if (m.physical)
         return m;
     double exponent = within((double)m.shininess, 1, 4096), energy = (exponent + 8) / 8;
-    const float *kd = &material->diffuse.r, *ks = &material->specular.r;
-    int brightest = ks[1] > ks[0] ? 1 : 0;
-    brightest = ks[2] > ks[brightest] ? 2 : brightest;
-    double metallic = metallic_of((double)kd[brightest], within((double)ks[brightest] / energy, 0, 1));
+    const float *kd = &material->diffuse.r, *ks = &material->specular.r, *kr = &material->reflectivity.r;
+    const bool mirror = kr[0] > 0 || kr[1] > 0 || kr[2] > 0;
+    const bool matt = !mirror && ks[0] == 0 && ks[1] == 0 && ks[2] == 0;
+    double f0[3];
+    for (int i = 0; i < 3; i++) // a mirror reflects at least the share kr
+        f0[i] = within((double)kr[i] > (double)ks[i] / energy ? (double)kr[i] : (double)ks[i] / energy, 0, 1);
+    int brightest = f0[1] > f0[0] ? 1 : 0;
+    brightest = f0[2] > f0[brightest] ? 2 : brightest;
+    double metallic = metallic_of((double)kd[brightest], f0[brightest]);
     float *base = &m.diffuse.r;
     for (int i = 0; i < 3; i++) {
-        double f0 = within((double)ks[i] / energy, 0, 1);
-        double metal = metallic > 0 ? within((f0 - dielectric_f0 * (1 - metallic)) / metallic, 0, 1) : 0;
+        double metal = metallic > 0 ? within((f0[i] - dielectric_f0 * (1 - metallic)) / metallic, 0, 1) : 0;
         base[i] = (float)within((double)kd[i] + metallic * metal, 0, 1);
     }
     m.physical = true;
     m.metallic = (float)metallic;
-    m.roughness = (float)math_sqrt(math_sqrt(2 / (exponent + 2)));
+    m.roughness = mirror ? 0 : matt ? 1 : (float)math_sqrt(math_sqrt(2 / (exponent + 2)));
     return m;
 }

@@ -129,6 +129,10 @@ static const lam_setting rows[] = {
      .summary = "Reduce glitter on bumpy physical materials: auto, off or on."},
     {"brighten", MEMBER(WORD, brighten), WORDS_OF(brighten_words), .expected = "lam_brighten",
      .summary = "Use a brighter studio for dark models and a dimmer studio for white models: auto or off."},
+    {"background_environment", MEMBER(NUMBER, background_environment), .max = 1, .zero = true, .expected = "0 to 1",
+     .summary =
+         "Show the environment behind the model, blurred like in a surface of this roughness, up to 1; 0.045 and "
+         "less is sharp, and 0 shows the background's colour."},
     {"ao_radius", MEMBER(NUMBER, occlusion_radius), .min = 0.001, .max = 10, .standard = 0.1,
      .expected = "more than 0, up to 10",
      .summary = "The largest distance at which surfaces occlude, as a fraction of half the diagonal of the scene's "

@@ -396,7 +396,7 @@ async function lights() {
   for (const words of [['teapot', '--size=96x96', '--background=white'], ['cube', '--size=96x96', '--background=white', '--rig=lecture', '--shadows']]) {
     const page = await start(words), hash = await pixels(page);
     await page.locator('#tab-lights').click();
-    await page.getByRole('button', { name: 'Write out the lights' }).click();
+    await page.getByRole('button', { name: 'Turn the lights into options' }).click();
     await until(page, () => /--light/.test(document.getElementById('command').textContent));
     await settled(page, 'lights written out');
     ok((await pixels(page)) === hash, `lights are written out: the same picture of ${words.join(' ')}`, await commandOf(page));

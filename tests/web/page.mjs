@@ -2,7 +2,7 @@
 // Protocol without numbers.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
-import { around, cameraText, cut, cutShare, onBall, orbit, pan, project, readCamera, shifted, zoom } from '../../web/page/words/camera.js';
+import { around, cameraText, onBall, orbit, pan, project, readCamera, shifted, zoom } from '../../web/page/words/camera.js';
 import { dirname, join } from 'node:path';
 import { open } from '../../web/lambent.js';
 import { aroundEquations, lightEquations, pixelEquations, sumEquation } from '../../web/page/explain/equations.js';
@@ -54,11 +54,8 @@ ok(near(pan(camera, 0, 0.5).target, [0, -5 * Math.tan(Math.PI / 12), 0]), 'half 
 ok(near(zoom(camera, 2).eye, [0, 0, 2.5]) && zoom({ ...camera, ortho: 3 }, 2).ortho === 1.5, 'zoom');
 ok(Math.abs(around(camera, { centre: [1, 2, 3], radius: 2 }, 1).eye[2] - 3 - 2 / Math.sin(Math.PI / 12)) < 1e-9, 'a ball fills the picture');
 ok(cameraText(orbit(camera, 1, 0.5, [0, 1, 0], [0, 0, 0])) === 'eye=3.6923/2.39713/2.3708,target=0/0/0,up=0/1/0,fovy=30', 'decimal text');
-const unitBall = { centre: [0, 0, 0], radius: 1 }, half = cut(camera, unitBall, 0.5), halfWords = cameraText(half);
-ok(halfWords.endsWith(',fovy=30,near=5,far=25') && cutShare(readCamera(halfWords), unitBall) === 0.5, 'half of a ball is cut away', halfWords);
-ok(cutShare(zoom(orbit(half, 1, 0.5, [0, 1, 0], [0, 0, 0]), 2), unitBall).toFixed(9) === '0.500000000', 'the cut stays in its place when the camera turns and comes nearer');
-ok(zoom(half, 1000).near > 0 && cameraText(cut(half, unitBall, 0)) === cameraText(camera), 'the near plane stays in front of the eye, and a cut ends');
 
+const unitBall = { centre: [0, 0, 0], radius: 1 };
 // Handles of lights: each move of a handle by a fraction of the picture's height, and the resulting words. The picture is 10 tan 15° = 2.679 high
 // at the model's middle.
 const ball = { centre: [0, 0, 0], radius: 2 };

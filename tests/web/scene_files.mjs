@@ -24,7 +24,7 @@ async function sceneOptions({ open, origin, models }) {
   await settled(page, 'a scene');
   ok((await commandOf(page)) === 'lambent sized.json', "a scene file opens without the last model's options", await commandOf(page));
   const reflecting = await pixels(page), surroundings = page.getByRole('group', { name: 'Surroundings' });
-  ok((await surroundings.getByRole('button', { pressed: true }).textContent()) === 'Its own', 'the surroundings of the scene are chosen');
+  ok((await surroundings.getByRole('button', { pressed: true }).textContent()) === 'Default', 'the surroundings of the scene are chosen');
   await surroundings.getByRole('button', { name: 'None' }).click();
   await settled(page, 'no surroundings');
   ok(/ --environment=none$/.test(await commandOf(page)) && (await pixels(page)) !== reflecting, 'None removes the surroundings of the scene', await commandOf(page));

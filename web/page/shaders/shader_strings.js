@@ -3,7 +3,7 @@ import { addStrings } from '../base/strings.js';
 
 addStrings({
   shaderHint: 'Edit the shaders. The page draws them with this browser’s WebGL 2 and compares them with the reference. Tab indents; Escape and then Tab leaves the editor.',
-  shaderContract: 'Names',
+  shaderContract: 'Contract',
   shaderTask: 'Program',
   shaderPrograms: 'Correct programs',
   shaderExercises: 'Find what is wrong',

@@ -12,12 +12,12 @@ import { viewControls } from './view_controls.js';
 // [title of the section, function that makes the content above the rows, rows: [option, plain name, slider]]. A slider is minimum, maximum, step and start
 // (default: the option's default).
 const SECTIONS = [
-  ['sectionView', viewControls, [['projection', 'plainProjection']]],
+  ['sectionView', viewControls, [['projection', 'plainProjection'], ['up', 'plainUp']]],
   ['sectionMaterial', materials, [['color', 'plainColor'], ['opacity', 'plainOpacity', [0, 1, 0.01, 1]]]],
   ['sectionLight', lightControls, [['light-scale', 'plainLightScale', [0, 4, 0.05]], ['shadows', 'plainShadows'], ['ao', 'plainAo']]],
   ['sectionEnvironment', environments, [['environment-rotation', 'plainRotation', [0, 360, 5]]]],
   ['sectionBackground', backgrounds, [['background', 'plainBackground'], ['ground', 'plainGround']]],
-  ['sectionLook', looks, [['exposure', 'plainExposure', [-4, 4, 0.1]], ['wireframe', 'plainWireframe'], ['edges', 'plainEdges']]],
+  ['sectionLook', looks, [['exposure', 'plainExposure', [-4, 4, 0.1]], ['wireframe', 'plainWireframe'], ['edges', 'plainEdges'], ['dimensions', 'plainDimensions'], ['axes', 'plainAxes'], ['grid', 'plainGrid']]],
   ['sectionShading', null, [['reflection', 'plainReflection'], ['shading', 'plainShading'], ['show', 'plainShow'], ['shininess', 'plainShininess'], ['normals', 'plainNormals'], ['size', 'plainSize']]],
 ];
 

@@ -1,8 +1,6 @@
 // view_controls.js: makes buttons for views from all sides, for the whole model and for full screen, and a slider that cuts the model open.
 import { gestureKey, on, refuse, state, view } from '../shared/app.js';
-import { cut, cutShare } from '../words/camera.js';
 import { $, button, element } from '../base/dom.js';
-import { move } from '../shared/move.js';
 import { setOption } from '../controls/row.js';
 import { showNumber, slider } from '../controls/slider.js';
 import { VIEW, without } from '../words/state.js';
@@ -19,19 +17,19 @@ function toggleFullScreen() {
   done.catch((error) => refuse(error.message));
 }
 
-// Cuts the front of the model away. Both sides of the faces are then drawn, because the inside of the model is visible.
-function cutTo(share) {
-  if (!view.camera) return;
-  const key = gestureKey(), culled = state.values('cull');
-  move(cut(view.camera, view.sphere, share));
-  if (share > 0 && !culled.length) state.set(state.withValues('cull', ['none']), key);
-  if (!(share > 0) && culled.join() === 'none') state.set(state.withValues('cull', []), key);
-}
-
+// A slider that cuts the model by a plane across an axis (--section); at its right end, the model is whole.
 function cutControl() {
-  const made = slider(element('span', { textContent: text('viewCut') }), text('viewCut'), [0, 1, 0.01], 0, (value) => cutTo(Number(value)));
-  const show = () => !view.moving && view.camera && showNumber(made, cutShare(view.camera, view.sphere).toFixed(2));
-  on('picture', show);
+  const axes = element('select', { translate: false, attributes: { 'aria-label': text('viewCutAxis') } }, ...['x', 'y', 'z'].map((axis) => new Option(axis, axis)));
+  const cut = (percent) => setOption('section', percent < 100 ? [`${axes.value}=${percent}%`] : [], gestureKey());
+  const made = slider(element('span', { textContent: text('viewCut') }), text('viewCut'), [0, 100, 1], 100, (value) => cut(Number(value)));
+  axes.onchange = () => cut(Number(made.querySelector('input').value));
+  made.prepend(axes);
+  const show = () => {
+    const [, axis, percent] = /^([xyz])=([\d.]+)%$/.exec(state.values('section').join()) ?? [];
+    if (axis) axes.value = axis;
+    showNumber(made, percent ?? 100);
+  };
+  on('words', show);
   show();
   return made;
 }

@@ -70,20 +70,6 @@ export function zoom(camera, factor) {
   return { ...camera, ...planes, eye: add(camera.target, out, 1 / factor) };
 }
 
-// Makes the near plane cut the model. If `share` is 0, the near plane is in front of the model's sphere, and the program fits both planes. If it is 1, the near
-// plane is behind the sphere.
-export function cut(camera, sphere, share) {
-  if (!(share > 0)) return { ...camera, near: null, far: null };
-  const middle = dot(sub(camera.eye, sphere.centre), unit(sub(camera.eye, camera.target))), near = middle + (2 * share - 1) * sphere.radius;
-  return { ...camera, near: camera.ortho > 0 ? near : Math.max(near, 1e-3 * sphere.radius), far: middle + 20 * sphere.radius };
-}
-
-export function cutShare(camera, sphere) {
-  if (!isCut(camera)) return 0;
-  const middle = dot(sub(camera.eye, sphere.centre), unit(sub(camera.eye, camera.target)));
-  return Math.max(0, Math.min(1, ((camera.near - middle) / sphere.radius + 1) / 2));
-}
-
 // Returns the planes that a value of --camera sets. They are null if the program fits them.
 export function planesOf(text) {
   const [near, far] = [/,near=([^,]+)/, /,far=([^,]+)/].map((pattern) => pattern.exec(text)?.[1]);

@@ -55,7 +55,9 @@ LAM_API lam_environment *lam_environment_load_faces(const char *const paths[LAM_
 LAM_API lam_environment *lam_environment_load(const char *path, lam_color_mode color, const lam_control *control,
                                               lam_error *error);
 
-// Computes a built-in environment: "sky" (a low sun over grey-brown ground) or "studio" (softboxes in a dark room).
+// Computes a built-in environment: "sky" (a low, weak sun over grey-brown ground), "studio" (softboxes in a dark room),
+// "soft" (a tent of white cloth), "outdoor" (a meadow at noon, with a bright sun), "night" (moon and street lamps) or
+// "cyclorama" (a white wall that curves into the floor, under a panel).
 // Fails with LAM_BAD_ARGUMENT (no such name), LAM_LIMIT.
 LAM_API lam_environment *lam_environment_built_in(const char *name, lam_error *error);
 

@@ -761,10 +761,11 @@ struct option option_table[OPTIONS_MAX] = {
      "`gyroid`, `metaballs` and `--implicit` accept only N, the number of cells, up to 1024.",
      .store = store_segments, .others = "subdivisions slices stacks tessellation", .max = 16384, .loads = true},
     {"environment", 0, GROUP_SHADING, "IMAGE", "the model's",
-     "Light the model with an environment (HDRI): an image, six faces, sky, studio or none.",
+     "Light the model with an environment (HDRI): an image, studio, soft, outdoor ... or none.",
      "An image is either a cross of six squares (4:3 or 3:4) or an equirectangular picture (2:1). Its format is PNG, "
      "JPEG, WebP, BMP, TGA, PPM, PFM, EXR or Radiance (.hdr). Six faces are a list of files, separated by commas, in "
-     "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `sky` and `studio` are "
+     "OpenGL's order: `px,nx,py,ny,pz,nz`. All faces must be square and have the same size. `studio`, `soft`, "
+     "`outdoor`, `night`, `cyclorama` and `sky` are "
      "built in. `none` removes the environment of a scene file. For a model without lights, `none` replaces the "
      "built-in studio environment with the rig's lights. To use a file named `sky`, write `./sky`. The environment "
      "lights classic materials, too, unless `--reflection` names a classic model; it replaces the rig, and is added to "

@@ -152,7 +152,7 @@ class Scene:
         lib.lam_scene_set_up(self._handle, choose("up", words_of("lam_up"), value))
 
     def set_environment(self, name: str, rotation: float = 0.0, _control=ffi.NULL, _mode=lib.LAM_COLOR_SRGB) -> None:
-        """Lights the scene with a built-in environment ("sky", "studio") or with a picture (2:1 or a cross), turned by degrees about the up axis."""
+        """Lights the scene with a built-in environment ("studio", "soft", "outdoor", "night", "cyclorama", "sky") or with a picture (2:1 or a cross), turned by degrees about the up axis."""
         self._surround(lib.lam_scene_set_environment, name, rotation, _control, _mode)
 
     def set_reflection_map(self, name: str, rotation: float = 0.0, _control=ffi.NULL, _mode=lib.LAM_COLOR_SRGB) -> None:

@@ -307,7 +307,7 @@ class Environment(Case):
             self.assertEqual((self.folder / "asked.png").read_bytes(), (self.folder / "saved.png").read_bytes())
         self.scene("bad.json", {"lambent": 1, "environment": {"builtin": "studoi"}, "objects": [{"shape": "cube"}]})
         self.given |= self.new_files()
-        self.bad(2, "bad.json", says=("environment.builtin", "studoi", "sky or studio", "did you mean 'studio'"))
+        self.bad(2, "bad.json", says=("environment.builtin", "studoi", "sky, studio", "did you mean 'studio'"))
         self.scene("bad.json", {"lambent": 1, "objects": [{"shape": "cube"}], "lights": [{"type": "point", "position": ["2r", "2r", "2x"]}]})
         self.bad(2, "bad.json", says=('lights[0].position[2]: found "2x"', 'such as "2r"'))
 

@@ -183,7 +183,7 @@ class Wrong(Settings):
         ('{ "ao_radius": 1e999 }', ":1: "),
         ('{ "ao_radius": -1 }', ":1: ao_radius: found '-1', expected a number from 0.001 to 10"),
         ('{ "ground_color": "red" }', ':1: ground_color: expected "ground": "color" as well'),
-        ('{ "environment": { "builtin": "secret.hdr" } }', ':1: environment.builtin: found a file, expected "sky" or "studio"'),
+        ('{ "environment": { "builtin": "secret.hdr" } }', ':1: environment.builtin: found a file, expected the name of a built-in environment, such as "studio"'),
         ('{ "environment": { "equirectangular": "a.hdr" } }', ":1: environment.equirectangular: unknown key"),
         ('{ "environment": { "file": "a.hdr" } }', ":1: environment.file: unknown key, expected one of builtin, rotation"),
         ('{ "background": "white" }', ":1: background: unknown key; did you mean 'image.background'?"),

@@ -501,18 +501,31 @@ TEST(test_built_in)
             bright = fmax(bright, (double)c.g);
             dark = fmin(dark, (double)c.g);
         }
-        assert_true(dark > 0 && dark < 0.5 && bright > 3 && bright < 100);
+        assert_true(dark > 0 && dark < 0.5 && bright > 1.5 && bright < 500);
+        // What a horizontal white surface returns: at most a quarter above white, and less at night. The mean of max(y, 0)
+        // over random directions is 1/4 for a constant environment of 1.
+        double up = 0;
+        for (int i = 0; i < 200000; i++) {
+            double x = random_number() * 2 - 1, y = random_number() * 2 - 1, z = random_number() * 2 - 1;
+            double length = sqrt(x * x + y * y + z * z);
+            i -= length > 1 || length == 0;
+            if (length <= 1 && y > 0)
+                up += 4 * (double)look_at(e, of(x, y, z)).g * y / length / 200000;
+        }
+        bool is_night = strcmp(lam_environment_built_in_name(count), "night") == 0;
+        assert_true(is_night ? up > 0.1 && up < 0.5 : up > 0.3 && up < 1.3);
         lam_environment_free(e);
     }
-    assert_int_equal(count, 2);
+    assert_int_equal(count, 6);
     assert_null(lam_environment_built_in_name(-1));
 }
 
 // A hash of every third texel of every third row: faster computations must not change the light.
 TEST(test_built_in_texels)
 {
-    static const uint64_t expected[2] = {0x6aa02f8d7b5c2bd7, 0x8253e980332de23e};
-    for (int index = 0; index < 2; index++) {
+    static const uint64_t expected[] = {0x6aa02f8d7b5c2bd7, 0x8253e980332de23e, 0x900046591e364453,
+                                        0x6526c342cc076356, 0x298e9198f4c6a323, 0x6e865b74aad903d1};
+    for (int index = 0; index < 6; index++) {
         lam_environment *e = lam_environment_built_in(lam_environment_built_in_name(index), NULL);
         assert_non_null(e);
         int size = lam_environment_size(e);

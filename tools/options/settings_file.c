@@ -191,7 +191,7 @@ static bool take_value(struct settings_parser *r, const char *group, const char 
         return wrong(r, group, key, reason);
     }
     if (option->kind == VALUE_ENVIRONMENT && !environment_option_built_in(text))
-        return wrong(r, group, key, "found a file, expected \"sky\" or \"studio\"");
+        return wrong(r, group, key, "found a file, expected the name of a built-in environment, such as \"studio\"");
     const char *given = option->value ? text : NULL;
     bool decided = is_decided(r, option) || (!given && json_is_false(value));
     struct options scratch = *r->options; // an overridden value is checked too

@@ -1,4 +1,4 @@
-// environment_made.c: computes the built-in environments, a sky and a studio, with + − × ÷ √ only.
+// environment_made.c: computes the built-in environments with + − × ÷ √ only.
 #include "environment.h"
 #include "fail.h"
 #include "float_state.h"
@@ -54,15 +54,59 @@ static struct rgb sky(lam_vec3 d)
     return mix(mix(near_ground, below, ramp(0, 0.7, down)), air, ramp(-0.015, 0.015, d.y));
 }
 
-static void sky_row(int face, int t, float *texels)
+// Adds a round lamp: full light where the cosine of the angle to its direction is above `full`, none below `none`.
+static void add_lamp(struct rgb *light, lam_vec3 d, lam_vec3 direction, double none, double full, struct rgb lamp)
 {
-    for (int s = 0; s < SIDE; s++) {
-        double d[3];
-        cube_direction(face, SIDE, 2 * s + 1 - SIDE, 2 * t + 1 - SIDE, d);
-        struct rgb c = sky(v3_unit(v3(d[0], d[1], d[2])));
-        for (int channel = 0; channel < 3; channel++)
-            *texels++ = (float)c.c[channel];
-    }
+    double share = ramp(none, full, v3_dot(d, v3_unit(direction)));
+    for (int i = 0; i < 3; i++)
+        light->c[i] += share * lamp.c[i];
+}
+
+// Returns the light on a meadow at noon: the sky with a bright sun, which casts a shadow, over green ground.
+static struct rgb outdoor(lam_vec3 d)
+{
+    static const struct rgb far = {{0.27, 0.27, 0.19}}, grass = {{0.12, 0.135, 0.075}}, sun = {{310, 290, 250}};
+    struct rgb light = mix(mix(far, grass, ramp(0, 0.6, -d.y)), sky(d), ramp(-0.02, 0.02, d.y));
+    add_lamp(&light, d, v3(0.6, 0.9, 0.65), 0.9975, 0.9988, sun);
+    return light;
+}
+
+// Returns the light of a tent of white cloth: all of it shines, most above and towards the front on the left.
+static struct rgb soft(lam_vec3 d)
+{
+    static const struct rgb low = {{0.34, 0.33, 0.32}}, high = {{0.95, 0.96, 1.0}}, panel = {{0.85, 0.83, 0.8}};
+    struct rgb light = mix(low, high, ramp(-0.8, 0.9, d.y));
+    add_lamp(&light, d, v3(-0.7, 0.7, 0.8), 0.2, 0.95, panel);
+    return light;
+}
+
+// Returns the light of a street at night: a deep blue sky with a moon, dark ground, a glow of the town at the horizon,
+// and street lamps.
+static struct rgb night(lam_vec3 d)
+{
+    static const struct rgb zenith = {{0.012, 0.02, 0.055}}, town = {{0.16, 0.1, 0.06}},
+                            ground = {{0.018, 0.016, 0.015}}, moon = {{32, 38, 50}}, sodium = {{42, 24, 8}},
+                            lantern = {{18, 17, 15}};
+    static const lam_vec3 lamps[] = {{-0.9, 0.3, 0.5}, {0.95, 0.22, 0.3}, {0.5, 0.12, -0.9}, {-0.45, 0.1, -0.9}};
+    double up = d.y > 0 ? d.y : 0;
+    struct rgb light = mix(ground, mix(zenith, town, squared(1 - up, 3)), ramp(-0.02, 0.02, d.y));
+    add_lamp(&light, d, v3(-0.35, 0.8, 0.75), 0.996, 0.9975, moon);
+    for (int i = 0; i < 4; i++)
+        add_lamp(&light, d, lamps[i], 0.997, 0.9985, i % 2 ? lantern : sodium);
+    return light;
+}
+
+// Returns the light of a white cyclorama: a wall that curves into the floor, lit from a large panel above. The side of
+// the camera (+X +Z) is darker, so that edges and polished surfaces stand out.
+static struct rgb cyclorama(lam_vec3 d)
+{
+    static const struct rgb floor_color = {{0.72, 0.72, 0.72}}, wall = {{1, 1, 1}}, dark = {{0.25, 0.25, 0.26}},
+                            panel = {{0.6, 0.6, 0.6}}, key = {{1.6, 1.55, 1.5}};
+    struct rgb light = mix(floor_color, wall, ramp(-0.7, 0.1, d.y));
+    light = mix(light, dark, ramp(0.1, 0.8, v3_dot(d, v3_unit(v3(0.5, -0.1, 0.85)))));
+    add_lamp(&light, d, v3(0, 1, 0), 0.75, 0.85, panel);
+    add_lamp(&light, d, v3(-0.75, 0.6, 0.6), 0.9, 0.94, key);
+    return light;
 }
 
 // The studio for physical materials is a cubic room around the origin. The lamps are small and bright. A clear coat
@@ -128,17 +172,28 @@ static void studio_row(int face, int t, float *texels)
 
 static const struct {
     const char *name;
-    void (*row)(int face, int t, float *texels); // computes the texels of row t of a face
-} table[] = {{"sky", sky_row}, {"studio", studio_row}};
+    struct rgb (*color)(lam_vec3 direction); // NULL: studio_row
+} table[] = {{"sky", sky},         {"studio", NULL}, {"soft", soft},
+             {"outdoor", outdoor}, {"night", night}, {"cyclorama", cyclorama}};
 enum { COUNT = sizeof table / sizeof *table };
 
 const char *lam_environment_built_in_name(int index) { return index >= 0 && index < COUNT ? table[index].name : NULL; }
 
-static void fill(struct lam_environment *cube, void (*row)(int face, int t, float *texels))
+static void fill(struct lam_environment *cube, struct rgb (*color)(lam_vec3 direction))
 {
     for (int face = 0; face < LAM_FACE_COUNT; face++)
-        for (int t = 0; t < SIDE; t++)
-            row(face, t, cube_texel(cube, face, 0, t));
+        for (int t = 0; t < SIDE; t++) {
+            float *texels = cube_texel(cube, face, 0, t);
+            if (!color)
+                studio_row(face, t, texels);
+            for (int s = 0; color && s < SIDE; s++) {
+                double d[3];
+                cube_direction(face, SIDE, 2 * s + 1 - SIDE, 2 * t + 1 - SIDE, d);
+                struct rgb c = color(v3_unit(v3(d[0], d[1], d[2])));
+                for (int channel = 0; channel < 3; channel++)
+                    *texels++ = (float)c.c[channel];
+            }
+        }
     cube_close(cube);
 }
 
@@ -149,12 +204,14 @@ lam_environment *lam_environment_built_in(const char *name, lam_error *error)
             uint64_t state = float_state_enter();
             struct lam_environment *cube = cube_make(SIDE, error);
             if (cube)
-                fill(cube, table[i].row);
+                fill(cube, table[i].color);
             float_state_leave(state);
             return cube;
         }
     }
-    fail(error, LAM_BAD_ARGUMENT, "environment: '%s' is not built in, expected sky or studio", name ? name : "");
+    fail(error, LAM_BAD_ARGUMENT,
+         "environment: '%s' is not built in, expected sky, studio, soft, outdoor, night or cyclorama",
+         name ? name : "");
     return NULL;
 }
 

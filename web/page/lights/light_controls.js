@@ -49,7 +49,7 @@ function chosenIn(texts) {
 }
 
 // The angle of a built-in environment's brightest side in front of the model, in degrees around the up axis, from +X to -Z.
-const BRIGHT = { studio: -90, sky: -47 };
+const BRIGHT = { studio: -90, sky: -47, soft: -131, outdoor: -47, night: -115, cyclorama: -141 };
 
 // Metals reflect mainly their surroundings. Therefore a built-in environment turns with the light.
 export function withTurned(words) {

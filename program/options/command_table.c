@@ -155,7 +155,9 @@ const struct command command_table[] = {
                         .one_more = "the command lists all shapes; lambent teapot draws one shape"},
     [COMMAND_formats] = {"formats", NULL, "List the formats of models and pictures.", ABOUT, .also = "list-formats",
                          .min_operands = 0, .max_operands = 0, .one_more = "the command lists all formats"},
-    [COMMAND_looks] = {"looks", "[NAME]", "List the built-in looks (--look), or print the text of one look.", ABOUT,
+    [COMMAND_looks] = {"looks", "[NAME]",
+                       "List the built-in looks (--look), or print the text of one look; --sheet draws each.",
+                       (ALL & ~(1ull << GROUP_REPORT)) | 1ull << GROUP_SHEET | 1ull << GROUP_CAPTIONS | TAKES_QUIET,
                        .also = "list-looks", .min_operands = 0, .max_operands = 1},
     [COMMAND_materials] =
         {"materials", NULL,

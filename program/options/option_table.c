@@ -1020,7 +1020,7 @@ struct option option_table[OPTIONS_MAX] = {
      .store = store_bytes, .others = "line-length job-limit", FIELD(batch.line_limit_bytes)},
     {"report", 0, GROUP_BATCH, "FILE.html", NULL, "Also write an HTML page that shows all pictures, failures first.",
      "Lambent writes the thumbnails to the folder FILE-files next to the page. The page needs only this folder, and no "
-     "network.",
+     "network. Without `-o`, `lambent batch` writes the pictures and the journal to the folder FILE-pictures.",
      .kind = VALUE_FILE, .store = store_text, .others = "contact-sheet html gallery page", FIELD(batch.report_page),
      .single = TAKES_REPORT},
 
@@ -1087,7 +1087,7 @@ struct option option_table[OPTIONS_MAX] = {
 
     {"sheet", 0, GROUP_SHEET, "NAME", "summary",
      "The sheet: summary, terms, stages, light, ambient, frames or surfaces.", NULL, sheet_words, .store = store_word,
-     .others = "layout", FIELD(sheet.name)},
+     .alone = "summary", .others = "layout", FIELD(sheet.name)},
     {"captions", 0, GROUP_SHEET, "STYLE", "full", "Whether the captions of a sheet contain options: full or plain.",
      NULL, captions_words, .store = store_word, FIELD(captions.style)},
     {"title", 0, GROUP_SHEET, "TEXT", NULL,

@@ -426,6 +426,10 @@ class Gif(Animated):
         frames = self.gif(knight, "--animation", "Walking_A", "--fps", "10")[3]
         self.assertEqual(len(frames), round(10 * length))
         self.assertGreater(len({pixels for _, pixels in frames}), len(frames) // 2)
+        # The surfaces of the frames fill the picture, as in a still picture, and not only a box around all poses.
+        boxes = [covered(picture) for picture in self.animated(knight, "--animation", "Walking_A", "--sweep", "time", "--frames", "8").pictures]
+        height = max(box[3] for box in boxes) - min(box[1] for box in boxes)
+        self.assertTrue(0.86 * 64 <= height < 64, height)
         for words in (("--time", "0.3", "-o", "b.gif"), ("-o", "b.png")):
             self.good(knight, "--animation", "Walking_A", *words, *SMALL)
         self.assertEqual(len(read_gif((self.folder / "b.gif").read_bytes())[3]), 1)
@@ -457,7 +461,7 @@ class Reports(Animated):
         self.assertEqual(self.report("cube.obj", "--turntable", "3", "--dry-run", "-o", "{frame}.png")["planned"]["animation"]["last"], "2.png")
 
     def test_warnings_are_printed_once(self):
-        text = self.good("sphere", "--environment", "sky", "--turntable", "4", "-s", "32", "-o", "a.png").stderr.decode()
+        text = self.good("sphere", "--reflection-map", "sky", "--turntable", "4", "-s", "32", "-o", "a.png").stderr.decode()
         self.assertEqual(text.count("the environment is invisible"), 1)
 
     def test_interrupt(self):

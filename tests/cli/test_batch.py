@@ -218,6 +218,12 @@ class Page(Batch):
             self.assertEqual({s[:2] for s in small}, {(24, 24)})
         self.batch("in", "-o", "large/", "--report", "p.html", "--sizes", "400x200,20", code=7)
         sizes = [read_png(path.read_bytes())[:2] for path in (self.folder / "p-files").iterdir()]
+        # Without -o, nothing is written beside the page but its own folders; a folder is no page.
+        self.batch("in", "--report", "own/q.html", code=7)
+        self.assertEqual({path.name for path in (self.folder / "own").iterdir()}, {"q.html", "q-files", "q-pictures"})
+        self.assertTrue((self.folder / "own/q-pictures/lambent.jsonl").is_file())
+        for folder in ("own", "new/"):
+            self.bad(1, "batch", "in", "--report", folder, says=("is a folder", "index.html"))
         self.assertEqual(sorted(set(sizes)), [(20, 20), (160, 80)])
 
 

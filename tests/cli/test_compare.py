@@ -21,6 +21,15 @@ def part(picture, left, top, width, height):
     return b"".join(data[4 * (y * page + left):4 * (y * page + left + width)] for y in range(top, top + height))
 
 
+class Looks(Case):
+    def test_sheet(self):
+        """`looks --sheet` is the comparison of all built-in looks."""
+        self.good("looks", "--sheet", "-s", 48, "-q")
+        names = [line.split()[0] for line in self.good("looks").stdout.decode().splitlines()]
+        self.good("compare", "teapot", "--across", "look=" + ",".join(names), "-s", 48, "-q", "-o", "same.png")
+        self.assertEqual((self.folder / "looks.png").read_bytes(), (self.folder / "same.png").read_bytes())
+
+
 class Mistakes(Case):
     """Sheets of `--across mistake`, which OpenGL draws."""
 

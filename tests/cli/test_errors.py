@@ -285,6 +285,7 @@ class Outputs(Case):
         for name in ("x.giff", "x.png.zip", ".png/x.bmp"):
             self.bad(3, "cube.obj", "-o", name, says=name)
         self.bad(3, "cube.obj", "-o", "x.step", says="lambent cannot write .step; use .png")
+        self.bad(3, "cube.obj", "-o", "x.apng", says="use .png, which contains all frames of an animation (APNG)")
         self.bad(3, "cube.obj", "-o", "part-v1.0", says="the extension .0 is not a picture format; expected .png")
 
     def test_full_device(self):

@@ -108,6 +108,7 @@ class Gltf(GltfCase):
         self.good("a.json", "-o", "a.png", "-q")
         self.assertEqual((self.folder / "a.png").read_bytes(), first)
         self.bad(1, model, "--animation", "fly", says="there is no animation 'fly'; expected one of 0 ('still'), 1 ('slide')")
+        self.bad(1, model, "--animation", "slid", says="there is no animation 'slid'; did you mean 'slide'? expected one of")
 
     def test_one_warning_for_one_cause(self):
         """Each file is drawn with exactly the warnings listed: a consequence of a wrong value is not reported again, and nothing is left out in silence."""

@@ -4,6 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+
+#include <lambent/path.h>
 
 #include "batch.h"
 #include "batch_shard.h"
@@ -48,6 +51,13 @@ static bool check(int operands, const struct options *o, lam_error *error)
             "batch: cannot write several pictures to standard output; expected a folder (-o pictures/) or a pattern");
     if (o->picture.term != TERM_AUTO && o->picture.term != TERM_OFF)
         return complain(error, LAM_BAD_ARGUMENT, "batch: option '--term' shows a single picture, but batch draws many");
+    const char *page = o->batch.report_page;
+    struct stat about;
+    if (page && (page[strlen(page) - 1] == '/' || (lam_path_stat(page, &about) == 0 && S_ISDIR(about.st_mode))))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--report': '%.200s' is a folder, expected the name of an HTML file, such as "
+                        "%.200s%sindex.html",
+                        page, page, page[strlen(page) - 1] == '/' ? "" : "/");
     if (o->picture.save_scene)
         return complain(error, LAM_BAD_ARGUMENT, "option '--save-scene' works only with a single model");
     return job_check_options(o, error);
@@ -99,9 +109,17 @@ static bool fill(struct batch_plan *plan, int count, char **operands, lam_error 
     return batch_plan_check(plan, error);
 }
 
-int run_batch(int operand_count, char **operands, const struct options *options)
+int run_batch(int operand_count, char **operands, const struct options *given)
 {
     lam_error error = {0};
+    struct options own = *given, *options = &own;
+    char *folder = NULL; // with a page but no -o, the pictures and the journal go to the page's own folder
+    const char *page = given->batch.report_page;
+    if (page && !given->picture.output && !given->batch.jobs) {
+        const char *slash = strrchr(page, '/'), *dot = strrchr(slash ? slash : page, '.');
+        int length = dot ? (int)(dot - page) : (int)strlen(page);
+        own.picture.output = asprintf(&folder, "%.*s-pictures/", length, page) < 0 ? (folder = NULL) : folder;
+    }
     struct batch_plan plan = {0};
     bool none = false;
     bool ok = check(operand_count, options, &error) && batch_plan_start(&plan, options, &error) &&
@@ -117,6 +135,7 @@ int run_batch(int operand_count, char **operands, const struct options *options)
     else if (!options->report.dry_run)
         code = batch_run(&plan, none ? NULL : journal, true);
     free(journal);
+    free(folder);
     batch_plan_free(&plan);
     return code;
 }

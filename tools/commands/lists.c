@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "console.h"
 #include "limit_options.h"
@@ -14,10 +15,29 @@ int run_shapes(int operand_count, char **operands, const struct options *options
     return 0;
 }
 
+// Draws a teapot in each built-in look, as `lambent compare` does.
+static int draw_looks(const struct options *given)
+{
+    char across[OPTION_WORDS_SIZE] = "look=", model[] = "teapot", option[] = "--across";
+    char *words[] = {option, across}, *operands[] = {model};
+    struct options own = *given;
+    lam_error error = {0};
+    for (int i = 0; look_name(i); i++)
+        snprintf(across + strlen(across), sizeof across - strlen(across), "%s%s", i ? "," : "", look_name(i));
+    if (options_parse(2, words, find_groups("compare"), &own, &error) < 0) {
+        say_error(error.text);
+        return exit_code_of(error.code)->code;
+    }
+    if (!own.picture.output)
+        own.picture.output = "looks.png";
+    return run_compare(1, operands, &own);
+}
+
 int run_looks(int operand_count, char **operands, const struct options *options)
 {
-    (void)options;
     char summary[200];
+    if (!operand_count && (options->picture.output || option_given(options, "sheet")))
+        return draw_looks(options);
     for (int i = 0; look_name(i) && !operand_count; i++) {
         look_summary(look_text(i), summary, sizeof summary);
         printf("%-12s %s\n", look_name(i), summary);

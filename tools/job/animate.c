@@ -6,6 +6,7 @@
 // camera and exposure of the first frame are used for all frames.
 #include "animate_frame.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -330,16 +331,83 @@ static void extend(lam_vec3 *low, lam_vec3 *high, lam_vec3 a, lam_vec3 b)
     high->z = b.z > high->z ? b.z : high->z;
 }
 
-// For a model whose pose changes, computes one centre of rotation and one camera. The function computes both from the
-// bounding box around the model's poses in all frames.
+// The vertices of all frames that reach farthest in directions to the sides of the picture. A camera that shows these
+// vertices shows all, because a side of its view is perpendicular to one of the directions, or lies between two.
+struct reach {
+    lam_vec3 right, up, ahead; // the axes of the camera
+    double far[26];            // along each direction
+    lam_vec3 points[26];
+    bool any;
+};
+
+static double dot(lam_vec3 a, lam_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+// Returns the unit vector along a × b.
+static lam_vec3 across(lam_vec3 a, lam_vec3 b)
+{
+    lam_vec3 v = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    double length = sqrt(dot(v, v));
+    return length > 0 ? (lam_vec3){v.x / length, v.y / length, v.z / length} : v;
+}
+
+static void reach_point(struct reach *reach, lam_vec3 p)
+{
+    static const double slopes[6] = {0, 0.1, 0.2, 0.35, 0.6, 1.2}; // half widths of views at distance 1
+    double x = dot(p, reach->right), y = dot(p, reach->up), z = dot(p, reach->ahead);
+    for (int i = 0; i < 26; i++) {
+        double side = i < 12 ? x : i < 24 ? y : 0, slope = i < 24 ? slopes[i / 2 % 6] : 1;
+        double far = (i % 2 ? -side : side) + (i == 25 ? slope : -slope) * z;
+        if (reach->any && far <= reach->far[i])
+            continue;
+        reach->far[i] = far;
+        reach->points[i] = p;
+    }
+    reach->any = true;
+}
+
+static void reach_scene(struct reach *reach, const lam_scene *scene)
+{
+    for (int i = 0; i < lam_scene_object_count(scene); i++) {
+        const lam_object *object = lam_scene_object(scene, i);
+        const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
+        const double(*m)[4] = object->transform.m;
+        for (uint32_t k = 0; k < mesh->vertex_count; k++) {
+            double p[3], w[3];
+            for (int c = 0; c < 3; c++)
+                p[c] = (double)mesh->positions[3 * (size_t)k + (size_t)c] + mesh->origin[c];
+            for (int c = 0; c < 3; c++)
+                w[c] = m[c][0] * p[0] + m[c][1] * p[1] + m[c][2] * p[2] + m[c][3];
+            reach_point(reach, (lam_vec3){w[0], w[1], w[2]});
+        }
+    }
+}
+
+// Returns whether the surfaces decide the camera. Otherwise the box of all poses does: a model that turns, a ground, and
+// parts that are hidden need more or less space.
+static bool fits_surfaces(const struct job *job)
+{
+    const struct options *o = job->options;
+    return !o->animation.turntable && !o->shading.rotations.count && !o->draw.ground && !o->material.hidden.count &&
+           !o->material.only.count;
+}
+
+// For a model whose pose changes, computes one centre of rotation and one camera. The centre is that of the bounding box
+// around the model's poses in all frames, and the camera fits the surfaces of all frames.
 static bool fit_poses(struct job *job, lam_error *error)
 {
     struct animation *a = job->animation;
     lam_vec3 low = {0}, high = {0}, one_low, one_high;
     bool any = false;
+    const lam_camera start = job_fit_camera(job->scene, (lam_vec3){0}, job->options, job->rig);
+    const lam_vec3 view = {start.target.x - start.eye.x, start.target.y - start.eye.y, start.target.z - start.eye.z};
+    struct reach reach = {.right = across(view, start.up)};
+    reach.up = across(reach.right, view);
+    reach.ahead = across(reach.up, reach.right);
     for (int i = 0; i < a->count; i++) {
         if (i > 0 && !load_frame(job, i, error))
             return false;
+        if (fits_surfaces(job))
+            reach_scene(&reach, job->scene);
         if (!lam_scene_bounds(job->scene, &one_low, &one_high))
             continue;
         if (!any)
@@ -355,8 +423,10 @@ static bool fit_poses(struct job *job, lam_error *error)
     lam_scene_sphere(box, -1, &a->sphere.centre, &a->sphere.radius);
     a->has_sphere = a->sphere.radius > 0;
     if (!job->options->view.camera && !scene_settings_has_camera(job)) {
-        a->camera = job_fit_camera(box, a->sphere.centre, job->options, job->rig);
+        lam_scene *surfaces = reach.any ? job_points_scene(reach.points, 26, a->up, error) : NULL;
+        a->camera = job_fit_camera(surfaces ? surfaces : box, a->sphere.centre, job->options, job->rig);
         a->has_camera = true;
+        lam_scene_free(surfaces);
     }
     lam_scene_free(box);
     return true;

@@ -65,22 +65,23 @@ lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct 
                                  turns ? &axis : NULL);
 }
 
-lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error)
+lam_scene *job_points_scene(const lam_vec3 *points, int count, lam_up up, lam_error *error)
 {
-    static const uint32_t corners[36] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
-                                         2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
-    float positions[24];
-    lam_vec3 middle = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
-    for (int i = 0; i < 8; i++) {
-        positions[3 * i] = (float)((i & 1 ? high.x : low.x) - middle.x);
-        positions[3 * i + 1] = (float)((i & 2 ? high.y : low.y) - middle.y);
-        positions[3 * i + 2] = (float)((i & 4 ? high.z : low.z) - middle.z);
+    enum { MOST = 32 };
+    uint32_t corners[3 * MOST];
+    float positions[3 * MOST];
+    for (int i = 0; i < count; i++) {
+        const double p[3] = {points[i].x - points[0].x, points[i].y - points[0].y, points[i].z - points[0].z};
+        for (int c = 0; c < 3; c++) {
+            positions[3 * i + c] = (float)p[c];
+            corners[3 * i + c] = (uint32_t)((i + c) % count);
+        }
     }
     lam_mesh mesh = {.positions = positions,
-                     .vertex_count = 8,
+                     .vertex_count = (uint32_t)count,
                      .indices = corners,
-                     .triangle_count = 12,
-                     .origin = {middle.x, middle.y, middle.z}};
+                     .triangle_count = (uint32_t)count,
+                     .origin = {points[0].x, points[0].y, points[0].z}};
     lam_scene *scene = lam_scene_make(error);
     lam_object object = lam_object_default();
     if (scene && (lam_scene_add_mesh(scene, &mesh, error) < 0 || lam_scene_add_object(scene, &object, error) < 0)) {
@@ -90,6 +91,14 @@ lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *erro
     if (scene)
         lam_scene_set_up(scene, up);
     return scene;
+}
+
+lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error)
+{
+    lam_vec3 corners[8];
+    for (int i = 0; i < 8; i++)
+        corners[i] = (lam_vec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    return job_points_scene(corners, 8, up, error);
 }
 
 // Stores the scene's own lights. After these, the options' lights are added, again for each view's camera.

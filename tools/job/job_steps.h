@@ -10,7 +10,8 @@ bool job_control(const struct job *job, struct progress *progress, lam_control *
 // Returns a camera that fits the scene. If the options rotate the model, the camera fits every rotation about `centre`.
 lam_camera job_fit_camera(const lam_scene *scene, lam_vec3 centre, const struct options *o, lam_rig rig);
 
-// Makes a scene that consists of a box, to which a camera can be fitted.
+// Make a scene with these vertices (at most 32), or the corners of a box, to which a camera can be fitted.
+lam_scene *job_points_scene(const lam_vec3 *points, int count, lam_up up, lam_error *error);
 lam_scene *job_box_scene(lam_vec3 low, lam_vec3 high, lam_up up, lam_error *error);
 
 // Sets the options for the picture of one of several views.

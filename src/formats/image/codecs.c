@@ -68,8 +68,9 @@ static const char *instead_of(const char *word)
     static const struct {
         const char *words[12], *instead;
     } rows[] = {
-        {{"mp4", "mov", "avi", "mkv", "webm", "m4v", "mpg", "mpeg", "ogv", "apng"},
+        {{"mp4", "mov", "avi", "mkv", "webm", "m4v", "mpg", "mpeg", "ogv"},
          "gif or .webp, which support animations; for a video, pipe frames to ffmpeg: -o - (docs/animation.md)"},
+        {{"apng"}, "png, which contains all frames of an animation (APNG)"},
         {{"bmp", "tga", "tif", "tiff", "heic", "avif", "jp2", "svg", "pdf", "eps", "ico"}, "png"},
         {{"hdr", "rgbe"}, "exr"},
         {{"obj", "stl", "ply", "gltf", "glb", "3mf", "json", "step", "fbx"}, "png"}, // models

@@ -3,6 +3,7 @@
 
 #include "fail.h"
 #include "json_parse.h"
+#include "spelling.h"
 #include "texture_batch.h"
 
 #include <math.h>
@@ -398,7 +399,11 @@ int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, c
     unsigned long number = strtoul(wanted, &end, 10);
     if (*wanted >= '0' && *wanted <= '9' && !*end && number < count)
         return (int)number;
-    char known[400] = "", shown[SHOWN_NAME_SIZE];
+    char known[400] = "", shown[SHOWN_NAME_SIZE], near[SHOWN_NAME_SIZE];
+    struct spelling spelling = spelling_of(wanted);
+    for (size_t i = 0; i < count; i++)
+        if (name_of(list, i) && strlen(wanted) <= 60 && strlen(name_of(list, i)) <= 60)
+            spelling_try(&spelling, name_of(list, i));
     for (size_t i = 0; i < count; i++) {
         const char *name = name_of(list, i);
         size_t used = strlen(known);
@@ -409,7 +414,9 @@ int gltf_find_named(struct gltf *gltf, const json_t *list, const char *wanted, c
         snprintf(known + used, sizeof known - used, "%s%zu%s%s%s", i ? ", " : "", i, name ? " ('" : "",
                  name ? shown_name(name, shown) : "", name ? "')" : "");
     }
-    fail(gltf->json.error, LAM_BAD_ARGUMENT, "%s: there is no %s '%s'; %s%s", gltf->source->name, what,
-         shown_name(wanted, shown), count ? "expected one of " : "the file contains none", known);
+    const char *nearest = spelling.nearest ? shown_name(spelling.nearest, near) : NULL;
+    fail(gltf->json.error, LAM_BAD_ARGUMENT, "%s: there is no %s '%s'; %s%s%s%s%s", gltf->source->name, what,
+         shown_name(wanted, shown), nearest ? "did you mean '" : "", nearest ? nearest : "", nearest ? "'? " : "",
+         count ? "expected one of " : "the file contains none", known);
     return -1;
 }

@@ -142,7 +142,8 @@ static struct reflected reflect_ggx(const struct geometry *g)
     double v = 0.5 / (n_l * sqrt(n_v * n_v * (1 - square) + square) + n_v * sqrt(n_l * n_l * (1 - square) + square));
     double mirrored = 0.04 + 0.96 * pow(1 - limit(inner(g->v, h), 0, 1), 5);
     int seen = n_l > 0 && inner(h, g->v) > 0;
-    return (struct reflected){fmax(n_l, 0) * (1 - mirrored), seen ? PI * d * v * n_l : 0, seen, 1};
+    return (struct reflected){
+        .diffuse = fmax(n_l, 0) * (1 - mirrored), .base = seen ? PI * d * v * n_l : 0, .lit = seen, .microfacet = 1};
 }
 
 // The number of the first step that n.l does not exceed, and a highlight of 0 or 1.
@@ -164,7 +165,7 @@ static struct reflected reflect_gooch(const struct geometry *g)
 {
     double w = (1 + g->n_l) / 2;
     int seen = !none(g->n);
-    return (struct reflected){seen ? (1 - w) * 0.2 + w * 0.6 : 0, 1, seen, .toned = 1};
+    return (struct reflected){.diffuse = seen ? (1 - w) * 0.2 + w * 0.6 : 0, .base = 1, .lit = seen, .toned = 1};
 }
 
 // Each row contains the hash over the results of all widths (printed by test_widths.c).

@@ -182,16 +182,18 @@ static bool is_searchable(struct run *r, bool writes)
 {
     double clear = 0;
     int usable = 0;
-    lam_reflection model = r->interface.printed_model;
+    lam_reflection model = r->interface.printed_model, highlight = r->interface.contract->reflection;
     bool form = !r->interface.infinite_viewer && !r->interface.gl1;
     bool known =
-        form && (model == LAM_REFLECTION_AUTO || model == LAM_REFLECTION_PHONG || model == LAM_REFLECTION_BLINN_PHONG ||
-                 (model == LAM_REFLECTION_GGX && !r->interface.multiple_scattering));
+        form &&
+        (model == LAM_REFLECTION_AUTO || model == LAM_REFLECTION_PHONG || model == LAM_REFLECTION_BLINN_PHONG ||
+         (model == LAM_REFLECTION_GGX && !r->interface.multiple_scattering)) &&
+        highlight != LAM_REFLECTION_TOON && highlight != LAM_REFLECTION_GOOCH;
     if (!known)
         diagnostics_add(
             &r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
-            "lambent does not search for mistakes in this shader, which `lambent shader` printed: the search supports "
-            "only Lambert, Phong, Blinn-Phong and GGX with --single-scattering, without --gl1 and --viewer infinite");
+            "lambent does not search for mistakes in this shader: the search supports only "
+            "Lambert, Phong, Blinn-Phong and GGX with --single-scattering, without --gl1 and --viewer infinite");
     for (int i = 0; i < r->scene_count; i++) {
         clear += check_missing_share(&r->scenes[i], false) / r->scene_count;
         r->scenes[i].spoilt = check_missing_share(&r->scenes[i], true) > 0.25;

@@ -1,7 +1,8 @@
 // exercises.c: the command `exercises`: writes exercises for a class. Each exercise is a shader in the lecture style with
-// a known mistake, with its picture beside the right one. A page for students, and a key for the teacher, list them.
+// a known mistake, every third with two, and its picture beside the right one. A page for students, and a key for the teacher, list them.
 #include "commands.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,10 +38,11 @@ enum { SHAPES = 5, LIGHTS = 3, PAINTS = 3, SCENES = SHAPES * LIGHTS * PAINTS };
 
 struct exercise {
     char name[32];
-    const char *mistake;
+    const char *mistakes[2]; // the second is NULL if the exercise contains one mistake
+    char both[128];          // the mistakes as of --mistake
     lam_scene *scene;
     lam_camera camera;
-    double visible; // the share of the pixels that show the mistake
+    double visible; // the share of the pixels that show a mistake, the least of both
 };
 
 // A linear congruential generator (Knuth, MMIX), so that a seed gives the same exercises everywhere.
@@ -129,30 +131,51 @@ static bool save_exercise(const struct exercise *e, const lam_shader *shader, co
     return ok;
 }
 
-// Draws the scene with and without the mistake, and saves the exercise if the mistake is visible.
-static bool try_scene(struct exercise *e, const lam_shader *shader, const struct options *o, lam_error *error)
+// Sets `visible` to 0 if the check does not name exactly the mistakes.
+static bool check_names(struct exercise *e, const lam_shader *shader, lam_error *error)
 {
-    lam_image pictures[2] = {{0}};
-    bool right = draw(e, NULL, &pictures[1], error), ok = right && draw(e, e->mistake, &pictures[0], error);
-    if (ok)
-        e->visible = difference(&pictures[0], &pictures[1]);
-    bool saved = ok && (e->visible < VISIBLE || save_exercise(e, shader, pictures, o, error));
-    if (ok)
-        lam_image_free(&pictures[0]);
-    if (right)
-        lam_image_free(&pictures[1]);
-    return saved;
+    lam_check_report report = {0};
+    bool ok =
+        lam_check_run(&(lam_check_params){.fragment = shader->fragment, .vertex = shader->vertex}, &report, error);
+    int named = 0, wanted = e->mistakes[1] ? 2 : 1;
+    for (int i = 0; ok && i < report.finding_count; i++)
+        for (int k = 0; k < wanted; k++)
+            named += strcmp(report.findings[i].mistake, e->mistakes[k]) == 0;
+    e->visible = named == wanted && report.finding_count == wanted ? e->visible : 0;
+    lam_check_report_free(&report);
+    return ok;
 }
 
-// Makes an exercise with the mistake, in the first scene from `first` on that shows the mistake. Sets `visible` to 0 if
-// none of several scenes shows it.
+// Draws the scene with the mistakes, without them and with one of two, and saves the exercise if each changes the picture
+// of the other and the right picture, and the check names them.
+static bool try_scene(struct exercise *e, const lam_shader *shader, const struct options *o, lam_error *error)
+{
+    const char *const drawn[] = {e->both, NULL, e->mistakes[0], e->mistakes[1]};
+    lam_image pictures[4] = {{0}};
+    int count = e->mistakes[1] ? 4 : 2, made = 0;
+    while (made < count && draw(e, drawn[made], &pictures[made], error))
+        made++;
+    bool ok = made == count;
+    e->visible = ok;
+    for (int i = 1; ok && i < count; i++)
+        for (int k = 0; k < 2; k++)
+            e->visible = i == k ? e->visible : fmin(e->visible, difference(&pictures[k], &pictures[i]));
+    ok = ok && (e->visible < VISIBLE || check_names(e, shader, error));
+    ok = ok && (e->visible < VISIBLE || save_exercise(e, shader, pictures, o, error));
+    while (made > 0)
+        lam_image_free(&pictures[--made]);
+    return ok;
+}
+
+// Makes an exercise with the mistakes, in the first scene from `first` on that shows them. Sets `visible` to 0 if
+// none of several scenes does.
 static bool make_exercise(struct exercise *e, unsigned first, const struct options *o, lam_error *error)
 {
     enum { TRIES = 4 };
     bool ok = true;
     e->visible = 0;
     for (unsigned i = 0, tries = 0; ok && i < SCENES && tries < TRIES && e->visible < VISIBLE; i++) {
-        lam_shader_params params = {.style = LAM_SHADER_STYLE_LECTURE, .mistake = e->mistake};
+        lam_shader_params params = {.style = LAM_SHADER_STYLE_LECTURE, .mistake = e->both};
         lam_error unsupported;
         ok = make_scene(e, (first + 7 * i) % SCENES, error);
         lam_shader *shader =
@@ -193,13 +216,16 @@ static bool save_page(const char *name, const struct exercise *list, int count, 
     html_text(file, FOREIGN(title));
     fprintf(file, "%s</h1>\n", key ? ": key" : "");
     if (!key)
-        fputs("<p>Each program contains one mistake. Find the line, explain what it does, and correct it.</p>\n", file);
+        fputs("<p>Each program contains one or two mistakes. Find the lines, explain what they do, and correct "
+              "them.</p>\n",
+              file);
     for (int i = 0; i < count; i++) {
         fprintf(file, "<h2>%s</h2>\n<p><img src=\"%s.png\" alt=\"the program's picture, and the right picture\"></p>\n",
                 list[i].name, list[i].name);
+        for (int k = 0; key && k < 2 && list[i].mistakes[k]; k++)
+            fprintf(file, "<p><b>%s</b>: %s.</p>\n", list[i].mistakes[k], explanation_of(list[i].mistakes[k]));
         if (key)
-            fprintf(file, "<p><b>%s</b>: %s. Visible in %.0f %% of the pixels.</p>\n", list[i].mistake,
-                    explanation_of(list[i].mistake), 100 * list[i].visible);
+            fprintf(file, "<p>Visible in %.0f %% of the pixels.</p>\n", 100 * list[i].visible);
         else
             fprintf(file, "<p><a href=\"%s.vert\">vertex shader</a>, <a href=\"%s.frag\">fragment shader</a></p>\n",
                     list[i].name, list[i].name);
@@ -242,7 +268,10 @@ int run_exercises(int operand_count, char **operands, const struct options *o)
               output_make_folder(o->picture.output, &error);
     for (; ok && made < o->exercises.count && (next < available || made); next++) {
         struct exercise *e = &list[made];
-        e->mistake = mistakes[next % available];
+        e->mistakes[0] = mistakes[next % available];
+        e->mistakes[1] = made % 3 == 2 ? mistakes[(next + 1 + pick(&seed, (unsigned)available - 1)) % available] : NULL;
+        snprintf(e->both, sizeof e->both, "%s%s%s", e->mistakes[0], e->mistakes[1] ? "+" : "",
+                 e->mistakes[1] ? e->mistakes[1] : "");
         snprintf(e->name, sizeof e->name, "exercise-%02d", made + 1);
         ok = make_exercise(e, pick(&seed, SCENES), o, &error);
         made += e->visible >= VISIBLE;
@@ -250,7 +279,7 @@ int run_exercises(int operand_count, char **operands, const struct options *o)
     ok = ok && (made || complain(&error, LAM_UNSUPPORTED, "no scene shows a mistake")) &&
          save_page("students.html", list, made, false, o, &error) && save_page("key.html", list, made, true, o, &error);
     for (int i = 0; ok && !o->report.quiet && i < made; i++)
-        printf("%s  %s\n", list[i].name, list[i].mistake);
+        printf("%s  %s\n", list[i].name, list[i].both);
     free(list);
     return ok ? 0 : report_failure(&error, o);
 }

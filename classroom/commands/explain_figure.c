@@ -297,34 +297,14 @@ static bool draw_from_the_side(const struct subject *s, const struct sheet_layou
 }
 
 // Draws Lambert's law below the picture: a beam of the light with the width 1, and the area 1/cos θ that it covers.
-static bool draw_beam(const struct subject *s, const struct sheet_layout *at, struct drawing *d, lam_error *error)
+static bool draw_law(const struct subject *s, const struct sheet_layout *at, struct drawing *d, lam_error *error)
 {
     const double u = at->unit, cosine = dot(s->vectors[0], s->vectors[1]), sine = __builtin_sqrt(1 - cosine * cosine);
     const struct point foot = {(at->left + at->right) / 2, at->y + 148 * u};
-    struct point ground[2] = {{foot.x - 190 * u, foot.y}, {foot.x + 190 * u, foot.y}};
     struct diagram g = {.from = foot, .has = {true, true}, .unit = u};
-    char text[120] = "the light is behind the surface: cos θ ≤ 0";
-    bool ok = draw_line(d, ground, 2, 2 * u, GREY, 0, error);
     g.tips[0] = (struct point){foot.x, foot.y - 118 * u};
     g.tips[1] = (struct point){foot.x - 118 * u * sine, foot.y - 118 * u * cosine};
-    if (cosine > 0) {
-        const double half = 30 * u, area = half / cosine < 190 * u ? half / cosine : 190 * u;
-        struct point trace[2] = {{foot.x - area, foot.y}, {foot.x + area, foot.y}}, across[2];
-        for (int side = -1; ok && side <= 1; side += 2) {
-            struct point edge[2] = {trace[side > 0], {trace[side > 0].x - 150 * u * sine, foot.y - 150 * u * cosine}};
-            ok = draw_line(d, edge, 2, u, arrows[1].color, 4 * u, error);
-            // the beam's width, perpendicular to l
-            across[side > 0] = (struct point){foot.x - 75 * u * sine + side * half * cosine,
-                                              foot.y - 75 * u * cosine - side * half * sine};
-        }
-        ok = ok && draw_line(d, trace, 2, 5 * u, arrows[1].color, 0, error) &&
-             draw_line(d, across, 2, 3 * u, arrows[1].color, 0, error);
-        snprintf(text, sizeof text, "light on an area of 1: cos θ = n·l = %.6g", cosine);
-        draw_text(d, (struct point){foot.x, foot.y + 40 * u}, 12.5 * u, ALIGN_MIDDLE, INK, text);
-        snprintf(text, sizeof text, "beam: 1, surface: 1/cos θ = %.6g", 1 / cosine);
-    }
-    draw_text(d, (struct point){foot.x, foot.y + 24 * u}, 12.5 * u, ALIGN_MIDDLE, INK, text);
-    return ok && draw_diagram(&g, d, error);
+    return draw_beam(d, foot, u, cosine, arrows[1].color, error) && draw_diagram(&g, d, error);
 }
 
 // --- tables
@@ -721,7 +701,7 @@ static bool draw(const struct figure *f, const char *own_title, struct drawing *
     struct sheet_layout below = {
         .unit = unit, .left = corner.x, .right = corner.x + left_width(f), .y = corner.y + f->height};
     bool ok = draw_vectors(f, &s, corner, unit, d, error) &&
-              (f->beam && s.light ? draw_beam(&s, &below, d, error) : draw_from_the_side(&s, &below, d, error));
+              (f->beam && s.light ? draw_law(&s, &below, d, error) : draw_from_the_side(&s, &below, d, error));
     return ok && put_places(s.fragment, d, &at, error) && put_vectors(&s, d, &at, error) &&
            put_light(s.light, d, &at, error) && put_terms(&s, d, &at, error) && put_steps(e, &s, d, &at, error);
 }

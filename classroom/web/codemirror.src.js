@@ -1,5 +1,6 @@
 // codemirror.src.js: imports the modules of CodeMirror 6 (npm, MIT) that the page uses, and makes an editor with them. esbuild bundles them into codemirror.js
 // (web/build.py). CodeMirror's styles are added to the shadow root of the editor's element, because the page's content security policy allows them there.
+import { autocompletion } from '@codemirror/autocomplete';
 import { indentWithTab } from '@codemirror/commands';
 import { HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
 import { shader } from '@codemirror/legacy-modes/mode/clike';
@@ -26,6 +27,15 @@ const theme = EditorView.theme({
   '.cm-tooltip, .cm-panels': { color: 'var(--front)', backgroundColor: 'var(--back)' },
 });
 
+// Chromium replaces a selection of several lines by a <span> with a style attribute, which the page's content security policy blocks.
+function replaceLines(event, view) {
+  const { main } = view.state.selection, { doc } = view.state;
+  if (event.inputType !== 'insertText' || !event.data || doc.lineAt(main.from).number === doc.lineAt(main.to).number) return false;
+  event.preventDefault();
+  view.dispatch({ ...view.state.replaceSelection(event.data), userEvent: 'input.type', scrollIntoView: true });
+  return true;
+}
+
 // Makes an editor in `place`. Its `text` can be read and set, showErrors([{line, text}]) shows the messages of a compiler, and goTo(line) scrolls to a line.
 export function makeEditor(place, { label, onchange }) {
   const root = place.attachShadow({ mode: 'open' });
@@ -34,7 +44,8 @@ export function makeEditor(place, { label, onchange }) {
     root,
     parent: root,
     state: EditorState.create({
-      extensions: [basicSetup, keymap.of([indentWithTab]), StreamLanguage.define(shader), syntaxHighlighting(colors), theme, lintGutter(),
+      // Completions appear only if the user asks for them (Ctrl-Space): otherwise they would cover messages and take Enter.
+      extensions: [basicSetup, autocompletion({ activateOnTyping: false }), EditorView.domEventHandlers({ beforeinput: replaceLines }), keymap.of([indentWithTab]), StreamLanguage.define(shader), syntaxHighlighting(colors), theme, lintGutter(),
         EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }), EditorView.updateListener.of((update) => update.docChanged && !silent && onchange())],
     }),
   });

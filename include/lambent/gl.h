@@ -44,8 +44,8 @@ typedef struct lam_gl_params {
     // Draws with shaders of the lecture style (lam_shader_style); a draw fails with LAM_UNSUPPORTED if the style lacks
     // a feature of the scene.
     bool lecture;
-    // The id of a mistake that the lecture-style shader contains; a draw fails with LAM_UNSUPPORTED if its shader
-    // cannot contain the mistake. NULL: none.
+    // The id of a mistake, or of two ("no-gate+no-ambient"), that the lecture-style shader contains; a draw fails with LAM_UNSUPPORTED if its shader
+    // cannot contain it. NULL: none.
     const char *mistake;
     // The graphics card filters textures, with 8-bit texels if the picture has 8 bits. Drawing is then faster, but the
     // picture may differ from the CPU device's picture by a few hundredths of the range (docs/opengl.md). By default,

@@ -148,6 +148,8 @@ typedef struct lam_material {
     // The lam_material_id + 1 of a metal that lam_material_parse or a scene file read by its name alone; 0: none. Under
     // the built-in studio environment, the program replaces it by the physical metal (lam_material_metal).
     int metal;
+    // Steps of light of LAM_REFLECTION_TOON, 0..256; default 3; below 1, 1 is used.
+    float toon_steps;
     LAM_RESERVED(63);
 } lam_material;
 

@@ -20,6 +20,8 @@ typedef enum lam_reflection {
     LAM_REFLECTION_KAJIYA_KAY_LECTURE, // the form that lectures print
     LAM_REFLECTION_OREN_NAYAR,         // rough diffuse surfaces, no highlight
     LAM_REFLECTION_GGX,                // microfacet model for metals and dielectrics, as in glTF
+    LAM_REFLECTION_TOON,               // flat steps of light and a highlight with an edge
+    LAM_REFLECTION_GOOCH,              // warm colours towards the light, cool colours away from it
     LAM_REFLECTION_COUNT
 } lam_reflection;
 
@@ -38,6 +40,8 @@ typedef struct lam_reflection_info {
     bool backlit, backlit_fibre;
     // Whether the model lights physical materials; the Fresnel factor then colours its highlight.
     bool microfacet;
+    // Whether the second term is Gooch's tone: specular ⊙ Ls ⊙ (w, w, 1 − w) with w = (1 + n·l)/2.
+    bool toned;
     LAM_RESERVED(7);
 } lam_reflection_info;
 

@@ -1209,14 +1209,16 @@ struct option option_table[OPTIONS_MAX] = {
      lights_in_words, .store = store_word, FIELD(shader.lights_in)},
     {"style", 0, GROUP_SHADER, "STYLE", "full", "The style of the shaders: full or lecture.",
      "The lecture style uses symbols that are common in lectures: N, L, V, R, H, ka, kd, ks. For `lambert`, `phong`, "
-     "`blinn-phong` "
-     "and `kajiya-kay`, with any lights and any shading, the uniforms and the picture are the same as in the full "
+     "`blinn-phong`, "
+     "`kajiya-kay`, `toon` and `gooch`, with any lights and any shading, the uniforms and the picture are the same as "
+     "in the full "
      "style. Lambent rejects textures and other reflection models in this style. With `--stage application`, Lambent "
      "also prints a C function that computes the lighting of the vertices. See `docs/teaching.md`.",
      style_words, .store = store_word, FIELD(shader.style)},
     {"mistake", 0, GROUP_SHADER, "NAME", NULL,
      "Introduce a known mistake into shaders of the lecture style; `list` prints the known mistakes.",
-     "Use this option for exercises such as \"find the mistake\": `lambent check` reports the mistake. `lambent "
+     "`no-gate+no-ambient` introduces two. `lambent check` reports the mistakes, and `lambent exercises` makes "
+     "exercises of them. `lambent "
      "compare MODEL "
      "--across mistake=A,B` shows the effect of mistakes. `--mistake list --json` prints the list for programs.",
      .store = store_text, .others = "error bug fault wrong", FIELD(shader.mistake)},

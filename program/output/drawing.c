@@ -437,3 +437,29 @@ bool drawing_write_packed(const lam_bytes *page, int size[2], const char *path, 
         return complain(error, LAM_MACHINE, "%s: the figure is incomplete", path);
     return output_save(&image, path, params, &written, error);
 }
+
+bool draw_beam(struct drawing *d, struct point foot, double u, double cosine, uint32_t color, lam_error *error)
+{
+    enum { INK = 0x222222, GREY = 0x9a9a9a };
+    const double sine = __builtin_sqrt(1 - cosine * cosine);
+    struct point ground[2] = {{foot.x - 190 * u, foot.y}, {foot.x + 190 * u, foot.y}};
+    char text[120] = "the light is behind the surface: cos θ ≤ 0";
+    bool ok = draw_line(d, ground, 2, 2 * u, GREY, 0, error);
+    if (cosine > 0) {
+        const double half = 30 * u, area = half / cosine < 190 * u ? half / cosine : 190 * u;
+        struct point trace[2] = {{foot.x - area, foot.y}, {foot.x + area, foot.y}}, across[2];
+        for (int side = -1; ok && side <= 1; side += 2) {
+            struct point edge[2] = {trace[side > 0], {trace[side > 0].x - 150 * u * sine, foot.y - 150 * u * cosine}};
+            ok = draw_line(d, edge, 2, u, color, 4 * u, error);
+            // the beam's width, perpendicular to l
+            across[side > 0] = (struct point){foot.x - 75 * u * sine + side * half * cosine,
+                                              foot.y - 75 * u * cosine - side * half * sine};
+        }
+        ok = ok && draw_line(d, trace, 2, 5 * u, color, 0, error) && draw_line(d, across, 2, 3 * u, color, 0, error);
+        snprintf(text, sizeof text, "light on an area of 1: cos θ = n·l = %.6g", cosine);
+        draw_text(d, (struct point){foot.x, foot.y + 40 * u}, 12.5 * u, ALIGN_MIDDLE, INK, text);
+        snprintf(text, sizeof text, "beam: 1, surface: 1/cos θ = %.6g", 1 / cosine);
+    }
+    draw_text(d, (struct point){foot.x, foot.y + 24 * u}, 12.5 * u, ALIGN_MIDDLE, INK, text);
+    return ok;
+}

@@ -53,6 +53,11 @@ double text_width(const struct drawing *drawing, double size, const char *text);
 
 // Draws a picture (LAM_RGBA8) onto the page, clipped at the page's edges. In an SVG, the picture is an embedded PNG,
 // with the label as its title. Returns false if memory runs out.
+// Draws Lambert's law: a surface around `foot`, and a beam with a width of 60 units, in the direction whose angle from
+// the normal has this cosine. It covers an area that is larger by 1 / cosine.
+bool draw_beam(struct drawing *drawing, struct point foot, double unit, double cosine, uint32_t color,
+               lam_error *error);
+
 bool draw_image(struct drawing *drawing, const lam_image *image, int left, int top, const char *label,
                 lam_error *error);
 

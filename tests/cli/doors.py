@@ -33,7 +33,7 @@ SUBJECTS = {
 }
 # Further settings for the rows of a key, so that the key is visible.
 CONTEXT = {
-    "material: fibre": {"reflection": "kajiya-kay"}, "material: roughness_angle": {"reflection": "oren-nayar"},
+    "material: fibre": {"reflection": "kajiya-kay"}, "material: roughness_angle": {"reflection": "oren-nayar"}, "material: toon_steps": {"reflection": "toon"},
     "setting: match_highlights": {"material": PAINT}, "setting: single_scattering": PHYSICAL, "setting: reference": PHYSICAL, "setting: background_environment": PHYSICAL, "setting: specular_aa": PHYSICAL,
     "setting: gl1": {"material": {**PAINT, "shininess": 200}}, "setting: shadow_terminator": {"shadows": True},
     "setting: shadow_samples": {"shadows": True, "lights": [{**LAMP, "radius": 1}]}, "setting: flat_normal": {"shading": "flat"}, "setting: ao": {"ao_radius": 1}, "setting: ao_radius": {"ao": "rays"},

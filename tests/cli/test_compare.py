@@ -100,7 +100,7 @@ class Compare(Case):
             self.assertEqual(part(page, gap + i * (48 + gap), gap, 48, 40), one, shading)
 
     def test_named_sheets(self):
-        sizes = {"summary": (5, 1), "terms": (3, 2), "stages": (2, 1), "light": (2, 2), "ambient": (3, 1), "frames": (3, 2),
+        sizes = {"summary": (5, 1), "terms": (3, 3), "stages": (2, 1), "light": (2, 2), "ambient": (3, 1), "frames": (3, 2),
                  "surfaces": (3, 1)}
         for name, (columns, rows) in sizes.items():
             with self.subTest(name):
@@ -279,7 +279,7 @@ class Compare(Case):
 
     def test_json_says_the_words_of_each_picture(self):
         """The options alone draw the same picture as on the sheet."""
-        for words in (("cube.obj", "--across", "shading", "--azimuth", "50"), ("torus", "--sheet", "terms"),
+        for words in (("cube.obj", "--across", "shading", "--azimuth", "50"), ("torus", "--sheet", "frames"),
                       ("sphere", "--across", "ao=off,screen", "--across", "reflection=phong,ggx", "-b", "black")):
             with self.subTest(words):
                 sheet = ("-s", "48x40", "--no-captions")

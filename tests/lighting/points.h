@@ -63,6 +63,7 @@ static inline void points_fill(struct points *p, uint64_t seed)
         for (int k = IN_PARAMETERS; k < INPUTS; k++)
             p->in[k][i] = random_between(&own, 0, 1.5f);
         p->in[IN_SHININESS][i] = exponents[i % 8];
+        p->in[IN_PARAMETERS + 5][i] = 1 + 3 * p->in[IN_PARAMETERS + 5][i]; // steps of toon shading
         for (int c = 0; i % 32 == 9 && c < 3; c++) // along the normal, within the precision of floats
             p->in[IN_TANGENT + c][i] = p->in[IN_NORMAL + c][i] * 0.7f;
     }

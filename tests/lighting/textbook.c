@@ -76,6 +76,8 @@ struct reflected {
     double diffuse, base;
     int lit;        // there is a highlight if the eye sees the point
     int microfacet; // its S is the base itself
+    int toned;      // Gooch's tone colours it
+    double step;    // distance to the nearest edge
 };
 
 static struct reflected reflect_none(const struct geometry *g)
@@ -140,7 +142,30 @@ static struct reflected reflect_ggx(const struct geometry *g)
     double v = 0.5 / (n_l * sqrt(n_v * n_v * (1 - square) + square) + n_v * sqrt(n_l * n_l * (1 - square) + square));
     double mirrored = 0.04 + 0.96 * pow(1 - limit(inner(g->v, h), 0, 1), 5);
     int seen = n_l > 0 && inner(h, g->v) > 0;
-    return (struct reflected){fmax(n_l, 0) * (1 - mirrored), seen ? PI * d * v * n_l : 0, seen, 1};
+    return (struct reflected){
+        .diffuse = fmax(n_l, 0) * (1 - mirrored), .base = seen ? PI * d * v * n_l : 0, .lit = seen, .microfacet = 1};
+}
+
+// The number of the first step that n.l does not exceed, and a highlight of 0 or 1.
+static struct reflected reflect_toon(const struct geometry *g)
+{
+    struct reflected r = reflect_blinn_phong(g);
+    double steps = (double)g->parameters[5], level = fmax(g->n_l, 0) * steps;
+    double highlight = raise(limit(r.base, 0, 1), (double)g->parameters[0]);
+    r.diffuse = 0;
+    for (int i = 0; i < 256 && i < level - 1e-5; i++)
+        r.diffuse = (i + 1) / steps;
+    r.base = highlight >= 0.5 ? 1 : 0;
+    r.step = fmin(fabs(level - floor(level + 0.5)), fabs(highlight - 0.5));
+    return r;
+}
+
+// Gooch et al. (1998) with alpha = 0.2 and beta = 0.6: the mix of cool and warm.
+static struct reflected reflect_gooch(const struct geometry *g)
+{
+    double w = (1 + g->n_l) / 2;
+    int seen = !none(g->n);
+    return (struct reflected){.diffuse = seen ? (1 - w) * 0.2 + w * 0.6 : 0, .base = 1, .lit = seen, .toned = 1};
 }
 
 // Each row contains the hash over the results of all widths (printed by test_widths.c).
@@ -156,6 +181,8 @@ static const struct lobe {
     [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = {reflect_kajiya_kay_lecture, 0x7914335629de57cd},
     [LAM_REFLECTION_OREN_NAYAR] = {reflect_oren_nayar, 0xc42745003ceb023c},
     [LAM_REFLECTION_GGX] = {reflect_ggx, 0xa71be5c4cae324a9},
+    [LAM_REFLECTION_TOON] = {reflect_toon, 0x8a3b03b63f757421},
+    [LAM_REFLECTION_GOOCH] = {reflect_gooch, 0x62cf9b7e6c0bab9b},
 };
 
 uint64_t textbook_hash(int model) { return lobes[model].hash; }
@@ -193,6 +220,7 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
     double base = lobe.microfacet ? lobe.base : limit(lobe.base, 0, 1);
     double specular = !lobe.lit || none(v) ? 0 : lobe.microfacet ? base : raise(base, (double)in[IN_SHININESS]);
 
+    result.step = lobe.step;
     put(out + OUT_L, l);
     out[OUT_DISTANCE] = d;
     out[OUT_ATTENUATION] = arrives;
@@ -206,7 +234,8 @@ struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]
         double dome = none(n) ? 0 : (double)in[IN_SKY + i] * w + (double)in[IN_GROUND + i] * (1 - w);
         out[OUT_AMBIENT + i] = tint * ((double)in[IN_AMBIENT + i] + dome);
         out[OUT_DIFFUSE + i] = tint * (double)in[IN_DIFFUSE + i] * arrives * narrowed * lobe.diffuse;
-        out[OUT_SPECULAR + i] = (double)in[IN_SPECULAR + i] * arrives * narrowed * specular;
+        double warm = (1 + g.n_l) / 2, tone = !lobe.toned ? 1 : i == 2 ? 1 - warm : warm;
+        out[OUT_SPECULAR + i] = (double)in[IN_SPECULAR + i] * arrives * narrowed * specular * tone;
         out[OUT_REFLECTION + i] = (double)in[IN_MIRROR + i] * (double)in[IN_ENVIRONMENT + i];
         out[OUT_SUM + i] = (double)in[IN_EMISSION + i] + out[OUT_AMBIENT + i] + out[OUT_DIFFUSE + i] +
                            out[OUT_SPECULAR + i] + out[OUT_REFLECTION + i];

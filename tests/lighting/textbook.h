@@ -11,6 +11,7 @@ struct textbook {
     double cone_cosine;  // between the axis and the direction to the point
     double half_length;  // |l + v|
     double tangent_sine; // of the angle between the given normal and tangent
+    double step;         // of toon shading: distance to the nearest edge of a step or of the highlight
 };
 
 struct textbook textbook_light(const struct modes *modes, const float in[INPUTS]);

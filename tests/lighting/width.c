@@ -95,6 +95,8 @@ static void light(const struct modes *modes, const float *const in[INPUTS], floa
 
         terms sum = start_terms(load3(in, IN_AMBIENT, i), load3(in, IN_EMISSION, i));
         sum = add_hemisphere(sum, s, h);
+        if (lobe_properties(modes->model) & LOBE_TONED)
+            l = with_tone(l, s.n, t.l);
         sum = add_reflected(sum, l, t, r);
         sum = tint_terms(sum, load3(in, IN_TINT, i));
         sum = add_environment(sum, load3(in, IN_MIRROR, i), load3(in, IN_ENVIRONMENT, i));

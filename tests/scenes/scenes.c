@@ -119,6 +119,9 @@ static bool knot_lecture(struct demo *d, lam_error *e)
     return reflected_knot(d, LAM_REFLECTION_KAJIYA_KAY_LECTURE, e);
 }
 
+static bool knot_toon(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_TOON, e); }
+static bool knot_gooch(struct demo *d, lam_error *e) { return reflected_knot(d, LAM_REFLECTION_GOOCH, e); }
+
 // --- lights
 
 static bool lights(struct demo *d, lam_error *error)
@@ -704,6 +707,8 @@ const struct demo_row demos[] = {
     {"knot-blinn-phong", "Blinn's highlight: wider at the same exponent", knot_blinn},
     {"knot-kajiya-kay", "highlights along threads round the axis", knot_kajiya},
     {"knot-kajiya-kay-lecture", "the same with the lecture's sign", knot_lecture},
+    {"knot-toon", "flat steps of light, a highlight with an edge", knot_toon},
+    {"knot-gooch", "yellow towards the light, violet away from it", knot_gooch},
     {"lights", "every type of light on one sphere and a plane", lights},
     {"frames", "three lights: in world, camera and object space", frames},
     {"two-sides", "a bowl, blue outside, red inside", two_sides},

@@ -149,6 +149,33 @@ async function tab(address, label) {
   await there.locator('#shader-task').selectOption('exercise:reflect-sign');
   await judged(there, 'differs');
   say(!(await hint.isDisabled()), 'another one has hints again');
+
+  // Another program in place of an exercise: its names are recognised, and the hints go. Completions wait until they are asked for.
+  await hint.click();
+  const learnopengl = (ending) => readFileSync(new URL(`../../classroom/tests/check/learnopengl.${ending}`, import.meta.url), 'utf8');
+  const replace = async (name, content) => {
+    await textIn(there, name).click();
+    await there.keyboard.press('Control+a');
+    await insertText(there, textIn(there, name), content);
+  };
+  await replace('Fragment shader', learnopengl('frag'));
+  await judged(there, 'passes');
+  say((await there.locator('#shader-contract').inputValue()) === 'learnopengl' && (await hint.isHidden()) && !(await reportText()).includes('Look at these'), 'another program has its own names and no hints', await reportText());
+  await replace('Vertex shader', learnopengl('vert'));
+  await judged(there, 'passes');
+  await replace('Fragment shader', learnopengl('frag').replace('uniform vec3 lightPos', 'uniform vec3 unheardOf').replaceAll('lightPos', 'unheardOf').replaceAll('objectColor', 'strange'));
+  await there.waitForTimeout(1500);
+  say(!/(^|\s)--\w/m.test(await reportText()), 'a message names no option of the command line', await reportText());
+  await textIn(there, 'Fragment shader').click();
+  await there.keyboard.press('Control+a');
+  await there.keyboard.type('n');
+  await there.keyboard.type('orm');
+  await there.waitForTimeout(300);
+  say((await there.locator('.cm-tooltip-autocomplete').count()) === 0, 'completions do not appear unasked');
+  await there.keyboard.press('Enter');
+  say((await textIn(there, 'Fragment shader').evaluate((node) => node.cmView?.view?.state.doc.toString() ?? node.innerText)).trim() === 'norm', 'and Enter is a new line');
+  await there.getByRole('button', { name: 'Reset' }).click();
+  await judged(there, 'passes');
   await there.setViewportSize({ width: 320, height: 700 });
   say(await until(there, () => document.documentElement.scrollWidth <= 320).catch(() => false), 'it fits 320 pixels', await there.evaluate(() =>
     [document.documentElement.scrollWidth, ...[...document.querySelectorAll('*')].filter((node) => node.getBoundingClientRect().right > 320 && !node.closest('.wide'))

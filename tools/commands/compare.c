@@ -26,7 +26,8 @@ enum {
     ENLARGED = 3,
     INK = 0x222222,
     GREY = 0x777777,
-    FRAME = 0xd55e00
+    FRAME = 0xd55e00,
+    BEAM = 0xc77700
 };
 
 // The layout of the page in pixels. `unit` is 1 for cells 480 pixels wide. The text size is proportional to `unit`.
@@ -352,6 +353,35 @@ static void draw_caption(struct compare *c, const struct cell *cell, int left, i
     draw_words(c, (struct point){middle, top + 55 * u}, width, line);
 }
 
+static struct point cell_corner(const struct compare *c, int i)
+{
+    const struct page *p = &c->page;
+    return (struct point){p->gap + i % c->sheet.columns * (p->cell_width + p->gap),
+                          p->gap + p->head + i / c->sheet.columns * (p->cell_height + p->inset + p->foot + p->gap)};
+}
+
+// Draws Lambert's law after the last picture: an oblique beam, whose cosine is 0.6.
+static bool draw_oblique_beam(struct compare *c, lam_error *error)
+{
+    const struct point corner = cell_corner(c, c->sheet.count);
+    const double u = c->page.unit, middle = corner.x + c->page.cell_width / 2.0;
+    const struct point foot = {middle, corner.y + 0.8 * c->page.cell_height};
+    const struct {
+        const char *name;
+        struct point tip;
+    } arrows[] = {{"n", {foot.x, foot.y - 170 * u}}, {"l", {foot.x - 136 * u, foot.y - 102 * u}}};
+    bool ok = draw_beam(&c->drawing, foot, 1.2 * u, 0.6, BEAM, error);
+    for (int i = 0; ok && i < 2; i++) {
+        ok = draw_line(&c->drawing, (struct point[]){foot, arrows[i].tip}, 2, 2 * u, INK, 0, error);
+        draw_text(&c->drawing, (struct point){arrows[i].tip.x, arrows[i].tip.y - 8 * u}, 20 * u, ALIGN_MIDDLE, INK,
+                  arrows[i].name);
+    }
+    if (!c->options->captions.no_captions)
+        draw_fitting(&c->drawing, (struct point){middle, corner.y + c->page.cell_height + 32 * u}, 23 * u,
+                     c->page.cell_width, INK, "An oblique beam covers more area");
+    return ok;
+}
+
 static bool lay_out(struct compare *c, const char *path, lam_error *error)
 {
     const struct options *o = c->options;
@@ -362,7 +392,7 @@ static bool lay_out(struct compare *c, const char *path, lam_error *error)
     p->gap = (int)(24 * p->unit) + 1;
     p->head = o->captions.no_captions ? 0 : (int)((c->default_count ? 100 : 60) * p->unit);
     p->foot = o->captions.no_captions ? 0 : (int)(82 * p->unit);
-    p->rows = (c->sheet.count + c->sheet.columns - 1) / c->sheet.columns;
+    p->rows = (c->sheet.count + c->sheet.beam + c->sheet.columns - 1) / c->sheet.columns;
     p->inset = c->sheet.inset ? p->cell_height / (2 * ENLARGED) * ENLARGED + p->gap / 2 : 0;
     int64_t width = (int64_t)c->sheet.columns * (p->cell_width + p->gap) + p->gap;
     int64_t height = (int64_t)p->rows * (p->cell_height + p->inset + p->foot + p->gap) + p->head + p->gap;
@@ -436,8 +466,8 @@ static bool draw_sheet(struct compare *c, lam_error *error)
     draw_words(c, (struct point){middle, 75 * p->unit}, width, line);
     for (int i = 0; i < c->sheet.count; i++) {
         const struct cell *cell = &c->sheet.cells[i];
-        int left = p->gap + i % c->sheet.columns * (p->cell_width + p->gap);
-        int top = p->gap + p->head + i / c->sheet.columns * (p->cell_height + p->inset + p->foot + p->gap);
+        const struct point corner = cell_corner(c, i);
+        int left = (int)corner.x, top = (int)corner.y;
         lam_image image;
         if (!draw_cell(c, cell, 1, NULL, NULL, &image, error))
             return false;
@@ -455,7 +485,7 @@ static bool draw_sheet(struct compare *c, lam_error *error)
             return false;
         draw_caption(c, cell, left, top + p->cell_height + p->inset);
     }
-    return true;
+    return !c->sheet.beam || draw_oblique_beam(c, error);
 }
 
 static bool has_argument(const char *const *words, int count, const char *argument)

@@ -172,11 +172,14 @@ static void print(const struct options *o, const lam_shader *shader, const char 
 
 bool shader_mistake_is_known(const char *name, lam_error *error)
 {
-    struct suggestion nearest = suggest_start(name);
+    char first[64];
+    const char *second = strchr(name, '+');
+    snprintf(first, sizeof first, "%.*s", (int)strcspn(name, "+"), name);
+    struct suggestion nearest = suggest_start(first);
     lam_shader_mistake mistake;
     for (int i = 0; lam_shader_mistake_row(i, &mistake); i++) {
-        if (strcmp(name, mistake.id) == 0)
-            return true;
+        if (strcmp(first, mistake.id) == 0)
+            return !second || shader_mistake_is_known(second + 1, error);
         suggest_try(&nearest, mistake.id);
     }
     return complain(

@@ -238,7 +238,8 @@ static void write_fragment(struct json *json, const lam_explanation *e, const la
              // "gated" means that the result is 0 if n·l is not positive
              OBJECT("formulas", TEXT("D", model->diffuse), TEXT("base", model->base),
                     FLAG("gated", !model->backlit && !(model->backlit_fibre && f->surface.fibre)),
-                    FLAG("microfacet", model->microfacet), FLAG("threads", model->tangents)),
+                    FLAG("microfacet", model->microfacet), FLAG("toned", model->toned),
+                    FLAG("threads", model->tangents)),
              TEXT("side", f->back ? "back" : "front"), TEXT("lit_normal", f->flipped ? "-n" : "n"),
              COUNT("samples", f->samples));
     json_open(json, "shown", '[');

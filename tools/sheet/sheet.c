@@ -46,6 +46,7 @@ static const struct sheet sheets[] = {
     [SHEET_TERMS] = {.name = "terms",
                      .title = "The terms of the sum",
                      .columns = 3,
+                     .beam = true,
                      .defaults = {COARSE, LIT, {"--material", "specular=0.7"}},
                      .count = 6,
                      .cells = {{"Ambient only", {"--material", "ambient=0.62,diffuse=0,specular=0"}},

@@ -27,6 +27,7 @@ struct sheet {
     char title[160];
     int columns;
     bool inset;  // frames and enlarges the brightest highlight
+    bool beam;   // the last cell shows the area that an oblique beam covers (draw_beam)
     bool across; // a row of variants: `words` of each picture contains pairs of an option and a value
     // The first picture is correct; the shaders of the other pictures contain mistakes. With `all`, mistakes that the
     // scene cannot show are omitted.

@@ -49,7 +49,7 @@ enum uniform_semantic {
     SEMANTIC_SHININESS,
     SEMANTIC_METALLIC,
     SEMANTIC_ROUGHNESS,
-    SEMANTIC_ROUGHNESS_ANGLE, // Oren–Nayar's sigma
+    SEMANTIC_ROUGHNESS_ANGLE, // Oren–Nayar's sigma, or the steps of toon shading: bits of 64 roles are in use
     SEMANTIC_EMISSION,        // factor of the emission map; 0 if there is no emission map
     // Maps: textures with one texel, which differs between scenes.
     SEMANTIC_BASE_COLOR_MAP,
@@ -90,6 +90,7 @@ enum uniform_semantic {
     SEMANTIC_FACTOR, // a colour or strength, the same in every scene
     SEMANTIC_COUNT
 };
+_Static_assert(SEMANTIC_COUNT <= 64, "sets of roles are bits of uint64_t");
 
 // The kinds of input to which a role can be assigned.
 enum role_use {

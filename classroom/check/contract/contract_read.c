@@ -180,6 +180,8 @@ static bool read_root(struct contract_reader *r, const json_t *root)
     static const struct json_choice highlights[] = {{"phong", LAM_REFLECTION_PHONG},
                                                     {"blinn-phong", LAM_REFLECTION_BLINN_PHONG},
                                                     {"metallic-roughness", LAM_REFLECTION_GGX},
+                                                    {"toon", LAM_REFLECTION_TOON},
+                                                    {"gooch", LAM_REFLECTION_GOOCH},
                                                     {NULL, 0}};
     static const struct json_choice spaces[] = {{"eye", LAM_FRAME_CAMERA},
                                                 {"world", LAM_FRAME_WORLD},

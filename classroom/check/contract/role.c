@@ -42,6 +42,7 @@ const struct role roles[] = {
     {SEMANTIC_ROUGHNESS, "roughness", UNIFORM, TYPE_SCALAR,
      "0: a mirror, 1: matt; alpha is the square of the roughness"},
     {SEMANTIC_ROUGHNESS_ANGLE, "roughness_angle", UNIFORM, TYPE_SCALAR, "Oren-Nayar's sigma, in radians"},
+    {SEMANTIC_ROUGHNESS_ANGLE, "toon_steps", UNIFORM, TYPE_SCALAR, "number of steps of toon shading"},
     {SEMANTIC_EMISSION, "emission", UNIFORM, TYPE_VECTOR, "factor of the emission map; 0 if there is no emission map"},
     {SEMANTIC_BASE_COLOR_MAP, "base_color_map", UNIFORM, TYPE_SAMPLER, "map of the base colour"},
     {SEMANTIC_METALLIC_ROUGHNESS_MAP, "metallic_roughness_map", UNIFORM, TYPE_SAMPLER,

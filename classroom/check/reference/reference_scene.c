@@ -338,7 +338,8 @@ lam_scene *reference_to_scene(const struct reference_scene *s, lam_camera *camer
     material.physical = s->physical;
     material.metallic = s->metallic;
     material.roughness = s->roughness;
-    material.roughness_angle_rad = s->roughness_angle_rad;
+    material.roughness_angle_rad = s->roughness_angle_rad < 1.5f ? s->roughness_angle_rad : 0;
+    material.toon_steps = s->roughness_angle_rad;
     material.emission = s->emission;
     lam_object object = lam_object_default();
     object.mesh = add_mesh(scene, s->mesh, error);

@@ -86,7 +86,7 @@ struct reference_scene {
     bool is_radiance; // the shader divides by pi, so its lights are pi times as bright
     // as in OpenGL 1, each light has its own ambient light, which is attenuated; there is no other ambient light
     bool dims_ambient;
-    float roughness_angle_rad; // used by shaders of rough matt surfaces (Oren–Nayar)
+    float roughness_angle_rad; // used by shaders of rough matt surfaces (Oren–Nayar); the steps of toon shading
     bool flat;
     // The normal in a normal map, with components along tangent, bitangent and normal. A zero vector means a flat
     // surface. As in filtered maps, the vector does not have exactly unit length.

@@ -322,7 +322,10 @@ struct reference_scene shader_interface_scene(const struct shader_interface *r,
         adapt_physical(r, &s);
     } else {
         adapt_material(r, &s);
-        s.roughness_angle_rad = shader_interface_uses(r, SEMANTIC_ROUGHNESS_ANGLE) ? s.roughness : 0;
+        lam_reflection model = r->printed_model ? r->printed_model : r->contract->reflection;
+        s.roughness_angle_rad = model == LAM_REFLECTION_TOON                         ? 3
+                                : shader_interface_uses(r, SEMANTIC_ROUGHNESS_ANGLE) ? s.roughness
+                                                                                     : 0;
         s.metallic = s.roughness = 0;
     }
     s.ka = terms & TERM_AMBIENT ? s.ka : 0;

@@ -88,7 +88,9 @@ lam_reflection lecture_model(const struct declarations *lit)
     if (threads)
         return gated ? LAM_REFLECTION_KAJIYA_KAY : LAM_REFLECTION_KAJIYA_KAY_LECTURE;
     for (int i = 0; i < lit->word_count; i++)
-        if (word_is(lit, i, "vec3") && word_is(lit, i + 2, "=")) {
+        if (word_is(lit, i, "ceil") || (word_is(lit, i, "float") && word_is(lit, i + 1, "w"))) {
+            return word_is(lit, i, "ceil") ? LAM_REFLECTION_TOON : LAM_REFLECTION_GOOCH;
+        } else if (word_is(lit, i, "vec3") && word_is(lit, i + 2, "=")) {
             if (word_is(lit, i + 1, "R"))
                 return LAM_REFLECTION_PHONG;
             if (word_is(lit, i + 1, "H"))

@@ -1,6 +1,7 @@
 """lecture_rows.py: the statements, formulas, figures, methods and printed programs of three lectures, in our words, with the command that shows
 each of them. The lectures are "Lighting and Shading" (Pittsburgh), "Using Shaders for Lighting" (Oregon State) and "Fragment shaders and basic
-lighting" (New York University). docs/lectures.md is made of this table by test_lectures.py.
+lighting" (New York University). Rows 68 and later are what
+today's courses add. docs/lectures.md is made of this table by test_lectures.py.
 
 Each row: number, statement, command without `lambent`, result, and the page that explains it. The result is PICTURE (the command draws docs/pictures/
 lectures/NUMBER.png), or a list of names: the lines of the output that begin with them. Commands of CHECK read the programs of
@@ -78,5 +79,14 @@ ROWS = [
     (65, "The programs with corrected normals, without a gate, as taught.", "check nyu-normals.frag --vertex nyu-normals.vert", CHECK, "check/contracts.md#nyu"),
     (66, "1/(1 + a x + b x²) with x = d/5, a = 2.7 and b = 5.", "plot attenuation 1/0.54/0.2 1/2.7/5", PICTURE, "lighting/lights.md#attenuation"),
     (67, "Uniforms lights[0].position and others, by name.", "shader teapot --glsl 120 --host c --light point:position=1/2/3", ["//   vec4        lights[0].position"], "shaders.md#uniforms"),
+    (68, "Toon shading: light in flat steps, and a highlight with an edge (Lake et al. 2000).", f"compare teapot --across reflection=blinn-phong,toon {LAMP} --material diffuse=0.2/0.4/0.75,specular=0.4", PICTURE, "lighting/toon.md#toon"),
+    (69, "A toon step, number by number.", POINT.replace("160,110", "147,153") + " --reflection toon", ["toon_steps ", "n·l ", "D ", "ψ ", "S "], "lighting/toon.md#toon"),
+    (70, "Warm and cool colours (Gooch et al. 1998, equations 2 and 3).", f"compare torus-knot --across reflection=lambert,gooch {LAMP} --material diffuse=0.6/0.15/0.1,specular=0.4", PICTURE, "lighting/toon.md#gooch"),
+    (71, "Gooch's warmth, number by number.", POINT + " --reflection gooch", ["D ", "w ", "S "], "lighting/toon.md#gooch"),
+    (72, "Toon shading as GLSL.", "shader teapot --reflection toon --style lecture", ["vec3 diffuse"], "teaching.md"),
+    (73, "The lobes of Phong, Blinn–Phong and GGX as a polar figure.", "plot lobe phong:50 blinn-phong:200 ggx:0.3", PICTURE, "lighting/specular.md"),
+    (74, "Fresnel: a surface reflects more at grazing angles.", "plot fresnel 0.04 ior=1.5", PICTURE, "lighting/physical.md"),
+    (75, "Tone curves map light to the screen.", "plot tone none reinhard contrast", PICTURE, "lighting/tone.md"),
+    (76, "The depth buffer has coarse steps far from the eye.", "plot depth 0.1/100 1/100", PICTURE, "lighting/pixels.md"),
 ]
-LECTURES = [("Pittsburgh: lighting and shading", 1, 45), ("Oregon State: shaders for lighting", 46, 57), ("New York University: fragment shaders and basic lighting", 58, 67)]
+LECTURES = [("Pittsburgh: lighting and shading", 1, 45), ("Oregon State: shaders for lighting", 46, 57), ("New York University: fragment shaders and basic lighting", 58, 67), ("What today's courses add", 68, 76)]

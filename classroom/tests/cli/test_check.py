@@ -125,6 +125,30 @@ class Right(CheckTest):
                     self.assertEqual((report.get("verdict"), report["mistakes"], self.notes(report, "unknown")), ("passes", [], []), report)
             self.assertEqual(done.stdout.count(b"\n"), sum(file.endswith("frag") for file in files), done.stderr)
 
+    def test_toon_and_gooch(self):
+        """Own programs with these lobes pass a contract that names the lobe, whatever the word of a printed shader; a wrong one differs."""
+        matt, shiny = "max(dot(n, l), 0.0);", "pow(max(dot(n, h), 0.0), shininess);"
+        gate, warm = "    if (dot(n, l) <= 0.0)\n        specular = vec4(0.0);\n", "0.5 + 0.5 * dot(n, l)"
+        lobes = {"toon": ((matt, "ceil(3.0 * max(dot(n, l), 0.0)) / 3.0;"), (shiny, "step(0.5, %s);" % shiny[:-1])),
+                 "gooch": ((matt, "mix(0.2, 0.6, %s);" % warm), (shiny, "vec4(vec2(%s), 0.5 - 0.5 * dot(n, l), 1.0);" % warm), (gate, ""))}
+        contract, right = json.loads(self.good("generate", "contract-pittsburgh").stdout), (SHADERS / "pittsburgh.frag").read_text()
+        words = ("own.frag", "--vertex", str(SHADERS / "pittsburgh.vert"), "--contract", "own.json")
+        for lobe, edits in lobes.items():
+            (self.folder / "own.json").write_text(json.dumps({**contract, "name": "own", "highlight": lobe}))
+            text = right
+            for old, new in edits:
+                self.assertEqual(text.count(old), 1)
+                text = text.replace(old, new)
+            (self.folder / "own.frag").write_text(text)
+            report = self.report_of(*words)
+            self.assertEqual((report["verdict"], len(report["notes"])), ("passes", int(lobe == "gooch")), lobe)  # Gooch ignores the shininess
+            (self.folder / "own.frag").write_text(text.replace("3.0", "4.0").replace("0.6", "0.8"))
+            report = self.report_of(*words, code=6)
+            self.assertIn("does not search for mistakes", " ".join(self.notes(report, "hint")))
+            self.good("shader", "--reflection", lobe, "--style", "lecture", "-q", "-o", "p")
+            self.assertEqual(self.report_of("p.frag", "--vertex", "p.vert")["verdict"], "passes")
+            self.given |= {"own.json", "own.frag", "p.frag", "p.vert"}
+
     def test_printed_shaders(self):
         """Shaders printed by `lambent shader` pass: their loops show which lights they use."""
         light = {"point": "point:attenuation=1/0.1/0.02", "plain": "point:position=1/2/3", "sun": "directional",

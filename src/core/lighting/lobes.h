@@ -210,6 +210,39 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
     return b;
 }
 
+// Toon shading, as in Lake, Marshall, Harris and Blackstein (2000): light in flat steps, and a highlight with an edge at
+// half of Blinn and Phong's. Lake's table of colours is here a stair with steps of equal height:
+//    D = ceil(steps max(n.l, 0)) / steps
+//    S = [n.l > 0] [max(n.h, 0)^shininess >= 1/2]
+// The edges are moved by 1e-5 of a step, so that rounding does not decide on a plane whose n.l is 1/3.
+FN lobe_sample toon_lobe(surface s, vec3 l, num steps, num shininess)
+{
+    lobe_sample b = blinn_phong_lobe(s, l);
+    steps = max_of(steps, num_of(1.0f));
+    num level = positive(steps * b.diffuse - 1.0e-5f);
+    num below = whole(level);
+    b.diffuse = pick(level > below, below + 1.0f, below) / steps;
+    b.base = pick(unit_power(positive(b.base), shininess) >= 0.5f, num_of(1.0f), num_of(0.0f));
+    return b;
+}
+
+// Gooch, Gooch, Shirley and Cohen (1998), equations 2 and 3: technical drawings blend from a cool colour on the far side
+// to a warm colour towards the light, with w = (1 + n.l) / 2:
+//    (1 - w) (k_blue + 0.2 kd) + w (k_yellow + 0.6 kd)   where   k_blue = (0, 0, b), k_yellow = (y, y, 0)
+// The share of kd is D; the rest is the second term, ks (w, w, 1 - w), with ks = (y, y, b). Gooch gives y = b = 0.4.
+//    D = 0.2 + 0.4 w
+FN num warmth(vec3 n, vec3 l) { return 0.5f + 0.5f * cosine(dot3(n, l)); }
+
+FN lobe_sample gooch_lobe(surface s, vec3 l)
+{
+    lobe_sample b;
+    b.n_dot_l = cosine(dot3(s.n, l));
+    b.diffuse = pick(present(s.n), 0.2f + 0.4f * warmth(s.n, l), num_of(0.0f));
+    b.base = num_of(1.0f);
+    b.lit = both(present(s.n), present(s.v));
+    return b;
+}
+
 // A position in the tables of the light that GGX's microfacets return under uniform light: 32 roughnesses,
 // ROUGHNESS_MIN to 1, times 32 roots of n.v (scripts/albedo_tables.py).
 STRUCT(albedo_cell)
@@ -303,7 +336,8 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       .max = 90, .standard = {30}, \
       .summary = "sigma of Oren-Nayar: standard deviation of the facets' slopes") \
     X(roughness) \
-    X(metallic)
+    X(metallic) \
+    X(toon_steps, .key = "toon_steps", .max = 256, .standard = {3}, .summary = "toon: number of steps of light, 1 or more")
 // clang-format on
 
 // The table of the reflection models. This table generates the dispatch in C and in GLSL, the keywords of the command
@@ -318,6 +352,7 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
 //                 LOBE_BACKLIT     light from behind (n.l < 0) contributes
 //                 LOBE_BACKLIT_FIBRE   light from behind contributes if the material is a fibre
 //                 LOBE_MIRRORED    Lambert's lobe with phong_base, r.v
+//                 LOBE_TONED       the second term is Gooch's tone (with_tone)
 //                 LOBE_HALFWAY     Lambert's lobe with the base n.h (halfway_of), which needs four times the exponent
 //     the keyword, a one-line summary, the formula of D, the formula of the highlight's base ("" if none)
 // clang-format off
@@ -342,7 +377,13 @@ FN lobe_value reflected_of(lobe_sample b, num shininess)
       "max(n·l, 0) (A + B max(l·v − n·l n·v, 0) ÷ max(n·l, n·v))", "") \
     X(GGX, ggx_lobe(s, l, m.roughness), LOBE_HIGHLIGHT | LOBE_MICROFACET, \
       "ggx", "microfacets, for glTF's metallic-roughness materials", \
-      "max(n·l, 0) (1 − F)", "π D V max(n·l, 0)")
+      "max(n·l, 0) (1 − F)", "π D V max(n·l, 0)") \
+    X(TOON, toon_lobe(s, l, m.toon_steps, m.shininess), LOBE_HIGHLIGHT, \
+      "toon", "flat steps of light, and a highlight with an edge", \
+      "max(ceil(steps n·l), 0) ÷ steps", "[max(n·h, 0)^α ≥ 1/2]") \
+    X(GOOCH, gooch_lobe(s, l), LOBE_HIGHLIGHT | LOBE_BACKLIT | LOBE_TONED, \
+      "gooch", "warm colours towards the light, cool colours away from it", \
+      "0.2 + 0.4 (1 + n·l) ÷ 2", "1")
 // clang-format on
 
 enum {
@@ -352,7 +393,8 @@ enum {
     LOBE_BACKLIT_FIBRE = 8,
     LOBE_MICROFACET = 16,
     LOBE_MIRRORED = 32,
-    LOBE_HALFWAY = 64
+    LOBE_HALFWAY = 64,
+    LOBE_TONED = 128
 };
 
 STRUCT(lobe_parameters){

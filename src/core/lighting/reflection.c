@@ -13,6 +13,7 @@
                                .base = TEXT_OR_NULL(base_formula),                                                     \
                                .tangents = ((flags) & LOBE_TANGENT) != 0,                                              \
                                .microfacet = ((flags) & LOBE_MICROFACET) != 0,                                         \
+                               .toned = ((flags) & LOBE_TONED) != 0,                                                   \
                                .backlit = ((flags) & LOBE_BACKLIT) != 0,                                               \
                                .backlit_fibre = ((flags) & LOBE_BACKLIT_FIBRE) != 0},
 

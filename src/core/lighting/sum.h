@@ -74,6 +74,14 @@ FN light_source with_fresnel(light_source light, fresnel f, vec3 v, vec3 l)
     return light;
 }
 
+// Returns the light with its specular colour multiplied by Gooch's tone.
+FN light_source with_tone(light_source light, vec3 n, vec3 l)
+{
+    num w = warmth(n, l);
+    light.specular = mul3(light.specular, vec3_of(w, w, 1.0f - w));
+    return light;
+}
+
 // Adds spot * attenuation * (kd * Ld D + ks * Ls S) for known D and S.
 FN terms add_reflected(terms sum, light_source light, light_sample t, lobe_value r)
 {

@@ -91,7 +91,7 @@ struct glsl_choices {
     lam_tone tone;    // used for GLSL_ENCODED; with AUTO and NONE the light is clamped
     bool exposes;     // the fragment multiplies its light by the uniform `exposure`
     const struct glsl_style *style; // writes the sources; NULL means the full style
-    int mistake;                    // the number of a deliberate mistake (glsl_style); 0 means no mistake
+    int mistake;                    // the deliberate mistake or two (mistake_find); 0 means no mistake
     bool products;                  // uniforms are the products ka·La, kd·Ld, ks·Ls; otherwise material and lights
     bool two_sided;                 // the back is lit with −n
     bool back_material;             // the back has its own material

@@ -153,6 +153,7 @@ static void find_material(struct glsl_stage *f, const struct glsl_choices *c)
     const lam_reflection_info *lobe = lam_reflection_describe(c->reflection);
     f->highlights = f->adds_lights && c->light_count > 0 && lobe->base;
     f->microfacet = lobe && lobe->microfacet && (f->highlights || f->environment_light);
+    f->toned = lobe && lobe->toned && f->highlights;
     f->layers = f->microfacet ? c->layers : 0;
     f->widens_roughness = c->widens && f->microfacet && f->per_fragment && f->shading == LAM_SHADING_PHONG;
     f->layered = f->layers != 0;

@@ -87,6 +87,7 @@ enum { GLSL_ROWS_MAX = 30 + 2 * LAM_FIELDS_MAX + 6 * LAM_MAP_COUNT };
     /* material */ \
     X(highlights) /* the reflection model has a highlight */ \
     X(microfacet) /* the Fresnel factor colours it */ \
+    X(toned) /* its second term is Gooch's tone */ \
     X(layered) /* layers lie over the surface */ \
     X(has_clearcoat) X(has_anisotropy) \
     X(one_point) /* all samples of a triangle in a pixel are lit at one point */ \

@@ -75,6 +75,11 @@ static void print_highlight(const lam_explained_fragment *f, const lam_explained
             explain_light_layers(layers, p->layers);
         return;
     }
+    if (model->toned) {
+        row_number(4, "w", 0.5 + 0.5 * (double)l->n_dot_l, "(1 + n·l) ÷ 2: warmth");
+        row_number(4, "S", (double)l->S, "the colour of the second term is ks ⊙ Ls ⊙ (w, w, 1 − w)");
+        return;
+    }
     row_number(4, "base", (double)l->base, model->base);
     row_number(4, "power α", (double)l->power, "the shininess");
     snprintf(remark, sizeof remark, "%sbase^α = %s%.7g^%.7g", gate, gated && !(l->n_dot_l > 0) ? "0 · " : "",
@@ -367,7 +372,7 @@ static void print_color(const lam_explanation *e, const lam_field *field, const 
         row_three(4, field_label(field, text), numbers[0], numbers[1], numbers[2], "");
 }
 
-// Prints the shininess, and other values that differ from their defaults.
+// Prints the shininess, the steps of toon shading, and other values that differ from their defaults.
 static void print_number(const lam_explained_fragment *f, const lam_field *field, const lam_material *m)
 {
     double numbers[4];
@@ -377,7 +382,7 @@ static void print_number(const lam_explained_fragment *f, const lam_field *field
     if (field->offset == offsetof(lam_material, shininess))
         row_number(4, field_label(field, text), (double)f->shininess,
                    f->shininess == m->shininess ? "" : "as changed by the options");
-    else if (differs(field, numbers))
+    else if (differs(field, numbers) || (strcmp(field->key, "toon_steps") == 0 && f->reflection == LAM_REFLECTION_TOON))
         row_number(4, field_label(field, text), numbers[0], field->unit ? field->unit : "");
 }
 

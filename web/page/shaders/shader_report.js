@@ -25,17 +25,20 @@ function scenesTable(report, size) {
 
 const lineButton = (file, line, goTo) => button('shaderLine', () => goTo(file, line), { textContent: text('shaderLine', { file, line }) });
 
+// Removes the clauses of a message that name options of the command line, which the page does not have.
+export const withoutOptions = (said) => said.split('; ').filter((clause) => !/(^|[\s`])--\w/.test(clause)).join('; ');
+
 function notesList(report, goTo) {
   return element('ul', { className: 'shader-notes' }, ...report.notes.map(({ file, line, text: said }) => {
     const place = file && line ? [lineButton(file, line, goTo), ' '] : [];
-    return element('li', {}, ...place, ours('span', said));
+    return element('li', {}, ...place, ours('span', withoutOptions(said)));
   }));
 }
 
 function mistakesList(report, withCode) {
   const { certain, share } = report.mistakes.at(-1);
   const items = report.mistakes.map((mistake) => {
-    const item = element('li', {}, ours('strong', mistake.id), ours('span', ` ${mistake.says}`),
+    const item = element('li', {}, ours('strong', mistake.id), ours('span', ` ${withoutOptions(mistake.says)}`),
       element('small', { textContent: ` (${text('shaderMeans', { before: number(mistake.mean_before, 4), after: number(mistake.mean_after, 4) })})` }));
     if (withCode) item.append(element('div', {}, `${text('shaderWrite')} `, ours('code', mistake.write)));
     return item;

@@ -5,7 +5,7 @@ import { $, button, element, ours } from '../base/dom.js';
 import { PROGRAMS } from './programs.js';
 import { Checks } from './shader_checks.js';
 import { makeEditor } from './shader_editor.js';
-import { HINTS, report } from './shader_report.js';
+import { HINTS, report, withoutOptions } from './shader_report.js';
 import { text } from '../base/strings.js';
 
 const SIZE = 128, TYPING_MS = 350;
@@ -37,6 +37,7 @@ place.append(
 const checks = new Checks();
 let asked = { hints: 0, exercise: null }; // the subject of the report
 let shown = null; // the last report
+let own = false; // whether the texts are another program than the chosen one
 let timer = 0;
 
 async function run() {
@@ -44,20 +45,27 @@ async function run() {
   verdict.textContent = text('shaderWaits');
   const texts = { fragment: editors.fragment.text, vertex: editors.vertex.text };
   const highlight = asked.exercise?.highlight ?? '';
-  await checks.run({ ...texts, contract: contracts.value, highlight, size: SIZE }, (report) => {
+  // The program recognises the names of a text that the page did not write.
+  await checks.run({ ...texts, contract: own ? '' : contracts.value, highlight, size: SIZE }, (report) => {
     shown = report;
+    if (own) showNames(report.contract);
     show();
   }).catch(refused);
 }
 
 // Shows an error that occurred in place of an answer of the worker.
 function refused({ message }) {
-  shown = { verdict: 'fails', mistakes: [], notes: [{ kind: 'hint', file: null, line: 0, text: message }], scenes: [], searched: true };
+  shown = { verdict: 'fails', mistakes: [], notes: [{ kind: 'hint', file: null, line: 0, text: withoutOptions(message) }], scenes: [], searched: true };
   show();
 }
 
 function changed() {
   if (!lists) return;
+  if (!own && isOther()) {
+    own = true;
+    asked = { hints: 0, exercise: null };
+    if (editors.vertex.text === begun.vertex) editors.vertex.text = '';
+  }
   clearTimeout(timer);
   timer = setTimeout(run, TYPING_MS);
 }
@@ -90,7 +98,18 @@ function missingLines({ texts, correct }) {
   });
 }
 
+let begun = null; // the texts that the page wrote
+
+// Returns whether the fragment shader is another program: most of its lines are not those of the chosen program.
+function isOther() {
+  const lines = (code) => code.split('\n').map((line) => line.trim()).filter((line) => line.length > 3);
+  const known = new Set(lines(begun.fragment)), now = lines(editors.fragment.text);
+  return now.filter((line) => known.has(line)).length < now.length / 2;
+}
+
 function begin(texts, exercise = null) {
+  begun = texts;
+  own = false;
   editors.fragment.text = texts.fragment;
   editors.vertex.text = texts.vertex;
   asked = { hints: 0, exercise };
@@ -102,6 +121,7 @@ function begin(texts, exercise = null) {
 
 // Starts the chosen program or exercise. Exercises use the names of `lambent shader`.
 async function beginTask() {
+  if (!tasks.value) tasks.selectedIndex = 0; // the texts were another program
   const task = tasks.value;
   clearTimeout(timer);
   if (!task.startsWith(EXERCISE)) return begin(PROGRAMS.find(({ name }) => name === task));
@@ -114,6 +134,11 @@ async function beginTask() {
 const start = () => beginTask().catch(refused);
 
 let lists = null;
+
+// Shows the names of a contract that the program has recognised.
+function showNames(name) {
+  if (name !== contracts.value && lists.contracts.some((one) => one.name === name) && PROGRAMS.some(({ contract }) => contract === name)) showContract(name, '');
+}
 
 // Lists the contract's names, its correct programs and the exercises, and selects `task`, or the first program if `task` is null.
 function showContract(name, task = null) {

@@ -66,6 +66,8 @@ static const struct {
     {"blinn-phong", "blinn modified-phong half-vector"},
     {"kajiya-kay", "kajiya hair anisotropic threads"},
     {"oren-nayar", "oren rough"},
+    {"toon", "cel cartoon"},
+    {"gooch", "warm-cool cool-to-warm"},
     {"none", "off no unlit"},
     {"application", "app cpu host"},
     {"vertex", "per-vertex"},

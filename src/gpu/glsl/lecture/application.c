@@ -143,7 +143,7 @@ static void add_matrix(struct text *text, const char *before, const float *rows,
 }
 
 struct members {
-    bool fibre, opacity;
+    bool fibre, toon_steps, opacity;
 };
 
 // Appends the matrices and the material of each draw, with the same values as a shader's uniforms.
@@ -154,8 +154,8 @@ static void add_draws(struct text *text, const struct frame *frame, const struct
                "\nstatic const struct draw {\n"
                "    double model_view[3][4], normal_matrix[3][4]; // to eye space, by rows\n"
                "    vec3 ka, kd, ks, emission;\n"
-               "    double shininess%s%s;\n} draws[] = {\n",
-               has.fibre ? ", fibre" : "", has.opacity ? ", opacity" : "");
+               "    double shininess%s%s%s;\n} draws[] = {\n",
+               has.fibre ? ", fibre" : "", has.toon_steps ? ", toon_steps" : "", has.opacity ? ", opacity" : "");
     for (int i = 0; i < count; i++) {
         const struct frame_draw *draw = &frame->draws[ranges[i]->draw];
         const lam_material *material = frame->materials[ranges[i]->front];
@@ -171,6 +171,8 @@ static void add_draws(struct text *text, const struct frame *frame, const struct
         add_number(text, shininess);
         if (has.fibre)
             text_print(text, ", .fibre = %d", material->fibre);
+        if (has.toon_steps)
+            add_member(text, ", .toon_steps = ", &material->toon_steps, 1);
         if (has.opacity) {
             text_add(text, ", .opacity = ");
             add_number(text, material->diffuse.a);
@@ -267,7 +269,8 @@ char *lecture_application(const struct glsl_choices *choices, const struct frame
     add_body(&body, &f, origin);
     bool ok = !body.failed && body.bytes && (!choices->mistake || mistake_apply(choices, &body.bytes, 1, error));
     if (ok) {
-        struct members has = {f.needs_tangent && glsl_lobe_reads(&f, "fibre"), lit.alpha[0] != LAM_ALPHA_OPAQUE};
+        struct members has = {f.needs_tangent && glsl_lobe_reads(&f, "fibre"), glsl_lobe_reads(&f, "toon_steps"),
+                              lit.alpha[0] != LAM_ALPHA_OPAQUE};
         add_all(&text, &f, body.bytes, frame, order, ranges, count, has);
     }
     const lam_error *first = body.failed ? &body.error : &text.error;

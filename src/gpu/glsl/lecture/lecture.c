@@ -8,17 +8,19 @@
 
 bool lecture_check(const struct glsl_choices *c, const struct glsl_stage *f, lam_error *error)
 {
+    const lam_reflection_info *lobe = lam_reflection_describe(c->reflection);
     bool masked = c->alpha[0] == LAM_ALPHA_MASK || c->alpha[1] == LAM_ALPHA_MASK;
     bool other = f->lit && c->reflection != LAM_REFLECTION_LAMBERT && c->reflection != LAM_REFLECTION_PHONG &&
                  c->reflection != LAM_REFLECTION_BLINN_PHONG && c->reflection != LAM_REFLECTION_KAJIYA_KAY &&
-                 c->reflection != LAM_REFLECTION_KAJIYA_KAY_LECTURE;
-    const lam_reflection_info *lobe = lam_reflection_describe(c->reflection);
+                 c->reflection != LAM_REFLECTION_KAJIYA_KAY_LECTURE && c->reflection != LAM_REFLECTION_TOON &&
+                 !(lobe && lobe->toned);
     const struct {
         bool asked;
         const char *what, *instead;
     } missing[] = {
         {!output_is_picture(c->output), "'lam_draw_params.output'", ""},
-        {other, NULL, "'lam_draw_params.reflection lambert', 'phong', 'blinn-phong' or 'kajiya-kay', or "},
+        {other, NULL,
+         "'lam_draw_params.reflection lambert', 'phong', 'blinn-phong', 'kajiya-kay', 'toon' or 'gooch', or "},
         {f->has_maps || masked, "textures", ""},
         {c->storage == GLSL_TEXTURE, "'lam_shader_params.lights texture'", "'lam_shader_params.lights array' or "},
         {c->shadows || c->passed || c->catches, "'lam_draw_params.shadows'", ""},
@@ -82,6 +84,7 @@ void lecture_add_flags(struct constant_table *t, const struct glsl_stage *f)
     constant_flag(t, "has_cutoff", has_kind(c, LIGHT_SPOT_CUTOFF));
     constant_flag(t, "gated_threads", c->reflection == LAM_REFLECTION_KAJIYA_KAY);
     constant_flag(t, "phong", f->highlights && c->reflection == LAM_REFLECTION_PHONG);
+    constant_flag(t, "toon", f->highlights && c->reflection == LAM_REFLECTION_TOON);
     constant_flag(t, "blinn_phong", f->highlights && c->reflection == LAM_REFLECTION_BLINN_PHONG);
 }
 
@@ -132,6 +135,7 @@ static void add_material(struct constant_table *t, const struct glsl_stage *f)
     text_print(constant_made(t, "EMISSION"), "%semission.rgb", p);
     text_print(constant_made(t, "SHININESS"), "%sshininess", p);
     text_print(constant_made(t, "FIBRE"), "%sfibre", p);
+    text_print(constant_made(t, "STEPS"), "%stoon_steps", p);
     text_print(constant_made(t, "REFLECTIVITY"), "%sreflectivity.rgb", p);
     text_print(constant_made(t, "PARAMETERS"), "vec3 P, vec3 N%s%s", f->needs_tangent_attribute ? ", vec3 T" : "",
                *tint ? ", vec4 tint" : "");

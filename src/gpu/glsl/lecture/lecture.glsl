@@ -93,6 +93,14 @@ if (lights_here) {
                         vec3 diffuse = DIFFUSE_LIGHT * sin_TL; // Kajiya and Kay
                         float S = pow(max(sin_TL * sin_TV + dot(T, L) * dot(T, V), 0.0), SHININESS); // the sign that some lectures print
                     }
+                } else if (toon) {
+                    vec3 diffuse = DIFFUSE_LIGHT * ceil(STEPS * max(dot(N, L), 0.0) - 1.0e-5) / STEPS; // flat steps of light
+                    vec3 H = normalize(L + V);
+                    float S = dot(N, L) > 0.0 && pow(max(dot(N, H), 0.0), SHININESS) >= 0.5 ? 1.0 : 0.0; // an edge
+                } else if (toned) {
+                    float w = 0.5 + 0.5 * dot(N, L); // Gooch: 1 towards the light, 0 away from it
+                    vec3 diffuse = DIFFUSE_LIGHT * mix(0.2, 0.6, w);
+                    vec3 S = vec3(w, w, 1.0 - w); // yellow towards the light, blue away from it
                 } else {
                     vec3 diffuse = DIFFUSE_LIGHT * max(dot(N, L), 0.0); // Lambert
                 }

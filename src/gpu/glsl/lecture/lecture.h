@@ -38,7 +38,7 @@ void lecture_add_spots(struct text *text, const struct glsl_choices *choices, co
 // LAM_LIMIT.
 bool mistake_apply(const struct glsl_choices *choices, char **texts, int count, lam_error *error);
 
-// Returns the value of glsl_choices.mistake for an id, or 0 if there is no such mistake.
+// Returns the value of glsl_choices.mistake for an id or for two ("no-gate+no-ambient"), or 0 if there is no such mistake.
 int mistake_find(const char *id);
 
 #endif

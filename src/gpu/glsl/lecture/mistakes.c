@@ -235,13 +235,15 @@ static const struct mistake mistakes[] = {
             EDIT("material.diffuse.a)", "1.0)")),
     FORM("alpha-one", EDIT("), diffuse.a)", "), 1.0)")),
 };
-enum { MISTAKES = sizeof mistakes / sizeof *mistakes };
+enum { MISTAKES = sizeof mistakes / sizeof *mistakes, SECOND = 1 << 8 }; // SECOND: the factor of the second mistake
 
 int mistake_find(const char *id)
 {
-    for (int i = 0; id && i < MISTAKES; i++)
-        if (strcmp(mistakes[i].id, id) == 0)
-            return i + 1;
+    size_t length = id ? strcspn(id, "+") : 0;
+    int second = length && id[length] ? mistake_find(id + length + 1) : 0;
+    for (int i = 0; length && (second || !id[length]) && second < SECOND && i < MISTAKES; i++)
+        if (strlen(mistakes[i].id) == length && memcmp(mistakes[i].id, id, length) == 0)
+            return i + 1 + SECOND * second;
     return 0;
 }
 
@@ -350,12 +352,11 @@ static enum outcome apply_row(const struct mistake *m, int lights, char *const *
     return outcome;
 }
 
-bool mistake_apply(const struct glsl_choices *c, char **texts, int count, lam_error *error)
+static bool apply_one(int first, int lights, char **texts, int count, lam_error *error)
 {
-    int first = c->mistake - 1;
     for (int i = first; i < next_id(first); i++) {
         char *edited[TEXTS_MAX];
-        enum outcome outcome = apply_row(&mistakes[i], c->light_count, texts, count, edited);
+        enum outcome outcome = apply_row(&mistakes[i], lights, texts, count, edited);
         if (outcome == NO_MEMORY)
             return fail(error, LAM_MACHINE, "out of memory");
         if (outcome == APPLIED) {
@@ -367,4 +368,10 @@ bool mistake_apply(const struct glsl_choices *c, char **texts, int count, lam_er
     return fail(error, LAM_UNSUPPORTED,
                 "mistake '%s': the shader lacks the code that this mistake changes; expected %s", mistakes[first].id,
                 mistakes[first].needs ? mistakes[first].needs : "lighting in a shader");
+}
+
+bool mistake_apply(const struct glsl_choices *c, char **texts, int count, lam_error *error)
+{
+    return apply_one(c->mistake % SECOND - 1, c->light_count, texts, count, error) &&
+           (c->mistake < SECOND || apply_one(c->mistake / SECOND - 1, c->light_count, texts, count, error));
 }

@@ -21,6 +21,9 @@
             if (microfacet) {
                 light = with_fresnel(light, mirror, s.v, t.l);
             }
+            if (toned) {
+                light = with_tone(light, s.n, t.l);
+            }
             sum = add_reflected(sum, light, t, LOBE);
         }
     }

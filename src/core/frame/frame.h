@@ -132,7 +132,8 @@ struct frame_edges {
     bool of_model;               // edges of the model are drawn, not only annotations
     bool has_box;                // the scene has the box `low`..`high`; without it, there are no annotations
     lam_vec3 low, high;
-    int up; // the index of the world's up axis
+    int up;        // the index of the world's up axis
+    double unit_m; // the length of a model unit in metres, or 0
 };
 
 struct frame {

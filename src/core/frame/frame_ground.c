@@ -26,17 +26,6 @@
 // The brightness of a checker's dark squares relative to the bright squares.
 #define DARK_SQUARE 0.45f
 
-// Returns the largest number that is at most x and equals 1, 2 or 5 times a power of ten.
-static double round_number(double x)
-{
-    double power = 1;
-    for (; power > x && power > 1e-300; power /= 10)
-        ;
-    for (; power * 10 <= x; power *= 10)
-        ;
-    return power * 5 <= x ? power * 5 : power * 2 <= x ? power * 2 : power;
-}
-
 // Returns the height of the scene's lowest vertex along `up`, from `centre`.
 static double lowest(const lam_scene *scene, lam_vec3 right, lam_vec3 front, lam_vec3 up, lam_vec3 centre)
 {
@@ -75,7 +64,7 @@ void frame_ground_place(struct frame *frame, const lam_scene *scene, const lam_c
     bool catcher = params->ground == LAM_GROUND_SHADOW;
     ground->whole = (catcher ? 0.5 * CATCHER_END : WHOLE) * radius;
     ground->end = (catcher ? CATCHER_END : END) * radius;
-    ground->square = params->ground == LAM_GROUND_CHECKER ? round_number(0.5 * radius)
+    ground->square = params->ground == LAM_GROUND_CHECKER ? math_round_down(0.5 * radius)
                                                           : (catcher ? CATCHER_SQUARE : PLAIN_SQUARE) * ground->end;
     // A model so small or so large that doubles do not represent its ground has none.
     double reach = v3_dot(ground->middle, ground->middle) + ground->end * ground->end;

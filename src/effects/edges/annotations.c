@@ -62,6 +62,11 @@ static const struct letter {
     {'x', "0046/4006", 6},
     {'y', "0023/4023/2326", 6},
     {'z', "00400646", 6},
+    {'m', "0602/03122326/23324346", 6},
+    {'c', "4332120305163645", 6},
+    {'i', "0602/0000", 2},
+    {'n', "0602/0312324346", 6},
+    {' ', "\0\0", 3},
 };
 
 static const struct letter *letter_of(char c)
@@ -104,20 +109,18 @@ static bool text_at(const struct pen *pen, struct place middle, const char *text
     return true;
 }
 
-static void number_text(double value, char text[32])
+// Writes a length in model units, with the unit if the file defines it.
+static void length_text(const struct frame *frame, double value, char text[32])
 {
-    snprintf(text, 32, value >= 1000 && value < 1e6 ? "%.0f" : "%.4g", value);
-}
-
-// Returns the largest number that is at most x and equals 1, 2 or 5 times a power of ten.
-static double round_number(double x)
-{
-    double power = 1;
-    for (; power > x && power > 1e-300; power /= 10)
-        ;
-    for (; power * 10 <= x; power *= 10)
-        ;
-    return power * 5 <= x ? power * 5 : power * 2 <= x ? power * 2 : power;
+    static const struct {
+        const char *symbol;
+        double metres;
+    } units[] = {{" m", 1}, {" cm", 0.01}, {" mm", 0.001}, {" in", 0.0254}};
+    size_t i = 0, count = sizeof units / sizeof *units;
+    while (i < count &&
+           !(frame->edges.unit_m > 0.999 * units[i].metres && frame->edges.unit_m < 1.001 * units[i].metres))
+        i++;
+    snprintf(text, 32, value >= 1000 && value < 1e6 ? "%.0f%s" : "%.4g%s", value, i < count ? units[i].symbol : "");
 }
 
 // --- the box in the picture
@@ -229,7 +232,7 @@ static bool draw_dimensions(const struct pen *pen)
         double gap = 0.4 * pen->height, offset = 1.6 * pen->height;
         struct place from = moved(a, outward, offset), to = moved(b, outward, offset);
         char text[32];
-        number_text(size[axis], text);
+        length_text(frame, size[axis], text);
         double x = outward.x < 0 ? -outward.x : outward.x, y = outward.y < 0 ? -outward.y : outward.y;
         double reach = offset + (x * text_width(pen, text) + y * pen->height) / 2 + 0.7 * pen->height;
         struct place middle = moved((struct place){(a.x + b.x) / 2, (a.y + b.y) / 2}, outward, reach);
@@ -261,11 +264,11 @@ static bool draw_scale_bar(const struct pen *pen)
     double pixels = pixels_per_unit(frame), units = pixels > 0 ? 0.25 * frame->width / pixels : 0;
     if (!(units > 1e-290 && units < 1e290))
         return true;
-    units = round_number(units);
+    units = math_round_down(units);
     double length = units * pixels, margin = 1.2 * pen->height, tick = 0.4 * pen->height;
     struct place right = {frame->width - margin, frame->height - margin}, left = {right.x - length, right.y};
     char text[32];
-    number_text(units, text);
+    length_text(frame, units, text);
     return line(pen, left, right) &&
            line(pen, (struct place){left.x, left.y - tick}, (struct place){left.x, left.y + tick}) &&
            line(pen, (struct place){right.x, right.y - tick}, (struct place){right.x, right.y + tick}) &&
@@ -304,7 +307,7 @@ static bool draw_grid(const struct pen *pen, void *scratch)
     for (int i = 0; i < 3; i++)
         radius += (high[i] - low[i]) * (high[i] - low[i]);
     radius = math_sqrt(radius) / 2;
-    double square = radius > 1e-290 && radius < 1e290 ? round_number(0.3 * radius) : 0;
+    double square = radius > 1e-290 && radius < 1e290 ? math_round_down(0.3 * radius) : 0;
     for (int i = 0; square > 0 && i < 2; i++) {
         int64_t from = (int64_t)((low[axes[i]] - 0.6 * radius) / square - 1);
         first[i] = (double)from * square;

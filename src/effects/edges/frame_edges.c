@@ -45,7 +45,8 @@ void frame_edges_build(struct frame *frame, const lam_scene *scene, const lam_ma
                   [EDGE_STYLE_Y] = {0.02f, 0.3f, 0.02f, 1},
                   [EDGE_STYLE_Z] = {0.03f, 0.12f, 0.75f, 1}},
         .of_model = of_model,
-        .up = scene->up == LAM_UP_Z ? 2 : 1};
+        .up = scene->up == LAM_UP_Z ? 2 : 1,
+        .unit_m = lam_scene_file_info(scene)->unit_m};
     frame->edges.has_box = annotates && lam_scene_bounds(scene, &frame->edges.low, &frame->edges.high);
     memcpy(frame->edges.pixel, to_pixel.m, sizeof frame->edges.pixel);
 }

@@ -313,3 +313,13 @@ lam_mat4 mat4_orthographic(double half_height, double aspect, double near_plane,
     m.m[3][3] = 1;
     return m;
 }
+
+double math_round_down(double x)
+{
+    double power = 1;
+    for (; power > x && power > 1e-300; power /= 10)
+        ;
+    for (; power * 10 <= x; power *= 10)
+        ;
+    return power * 5 <= x ? power * 5 : power * 2 <= x ? power * 2 : power;
+}

@@ -30,6 +30,8 @@ double math_tan(double x);
 double math_acos(double x); // the argument is clamped to −1…1; the result is 0…π
 double math_atan2(double y, double x);
 double math_exp2(double x); // 2^x, |x| ≤ 1000; exact for whole numbers
+// Returns the largest number that is at most x and equals 1, 2 or 5 times a power of ten. x must be above 0.
+double math_round_down(double x);
 double math_radians(double degrees);
 double math_degrees(double radians);
 bool math_finite(double x);

@@ -772,15 +772,15 @@ struct option option_table[OPTIONS_MAX] = {
      "the model's own lights (`docs/lighting/environment.md`). `docs/lighting/reflection.md` describes how Lambent "
      "maps "
      "each kind of environment around the model.",
-     .kind = VALUE_ENVIRONMENT, .store = store_environment, .others = "e sky",
+     .kind = VALUE_ENVIRONMENT, .store = store_environment, .replaces = "reflection-map", .others = "e sky",
      .also = "hdri hdr env environment-map ibl skybox", FIELD(shading.environment)},
     {"reflection-map", 0, GROUP_SHADING, "IMAGE", NULL,
      "An environment that classic materials only reflect, by their reflectivity; values as for --environment.",
      "The lights or the rig light classic materials, and the environment adds kr times the light from the mirrored "
      "direction, as the lectures describe (`docs/lighting/reflection.md`). Set kr with `--material reflectivity=0.5`. "
      "Physical materials are lit as with `--environment`. The last of the two options counts.",
-     .kind = VALUE_ENVIRONMENT, .store = store_environment, .also = "envmap cubemap cube-map",
-     FIELD(shading.environment)},
+     .kind = VALUE_ENVIRONMENT, .store = store_environment, .replaces = "environment",
+     .also = "envmap cubemap cube-map", FIELD(shading.environment)},
     {"environment-rotation", 0, GROUP_SHADING, "DEGREES", "0",
      "Rotate the environment about the up axis, counter-clockwise from above.", NULL, .store = store_number,
      FIELD(shading.environment_rotation_deg), .min = -360000, .max = 360000, .also = "hdri-rotation env-rotation"},

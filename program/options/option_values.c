@@ -45,7 +45,6 @@ bool store_environment(const struct option *option, const char *value, struct op
     if (!copy && strchr(value, ','))
         return false;
     bool map = strcmp(option->name, "reflection-map") == 0;
-    options->values[option_find(map ? "environment" : "reflection-map") - option_table] = NULL;
     options->shading.reflection_map = map;
     return store_text(option, value, options, error);
 }

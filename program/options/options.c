@@ -262,6 +262,8 @@ static void option_mark(struct options *options, const struct option *option, co
 {
     options->given[option - option_table] = true;
     options->values[option - option_table] = value;
+    if (option->replaces)
+        options->values[option_find(option->replaces) - option_table] = NULL;
     options->by_look[option - option_table] = by_look;
     options->by_config[option - option_table] = 0;
 }

@@ -168,6 +168,7 @@ struct option {
     uint8_t also_in, not_in;    // bits of option_use to add to the group's uses, and bits to remove from the group's
                                 // uses
     const lam_setting *setting; // the library's setting that the option stores, or NULL
+    const char *replaces;       // the option whose value this option's value replaces, or NULL
     // The option that accepts several values separated by commas, suggested if a value contains a comma. May be NULL.
     const char *several;
     const char *now;    // the option that replaces this obsolete option, or NULL

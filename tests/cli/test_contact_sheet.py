@@ -45,6 +45,13 @@ class ContactSheets(Case):
             self.assertIn(word, text)
         self.bad(1, "sheet", "models", "torus", "--per-page", "1", "-o", "-", says=["--per-page 3"])
 
+    def test_dark_page(self):
+        """The page has the colour of the background, and light captions."""
+        self.good("models", "-b", "#202428", "-s", "64", "-o", "sheet.png")
+        sheet = read_png((self.folder / "sheet.png").read_bytes())
+        self.assertEqual(pixel(sheet, 1, 1), (0x20, 0x24, 0x28, 255))
+        self.assertGreater(max(pixel(sheet, x, y)[0] for x in range(sheet[0]) for y in range(70, sheet[1])), 0x80)
+
     def test_failures(self):
         (self.folder / "models" / "c.stl").write_text("solid x\nfacet oops\n")
         (self.folder / "empty").mkdir()

@@ -48,7 +48,7 @@ does | lambent a.stl --show mask -o m.png
 does | lambent a.stl --show silhouette -o m.png
 does 6 | lambent diff a.stl b.stl
 says lambent sheet | lambent compare a.stl b.stl -o c.png
-pending | lambent check a.stl
+says lambent info --print | lambent check a.stl
 does | lambent validate a.stl
 pending | lambent info --check a.stl
 does | lambent a.stl --scale-bar -o s.png

@@ -11,6 +11,7 @@
 #include "console.h"
 #include "failure.h"
 #include "file_io.h"
+#include "output.h"
 
 enum { READ_BYTES = 1 << 16, NOT_STARTED = 127, PATH_SIZE = PATH_MAX + 100 };
 
@@ -36,9 +37,15 @@ static bool find(const struct options *options, char path[PATH_SIZE], lam_error 
 
 int classroom_run(int operand_count, char **operands, const struct options *options)
 {
-    (void)operand_count, (void)operands;
     char path[PATH_SIZE];
     lam_error error = {0};
+    if (operand_count && is_model_name(operands[0]) &&
+        !complain(&error, LAM_BAD_ARGUMENT,
+                  "%.300s is a model, and the command checks or plots shading; lambent info --print MODEL checks a "
+                  "model for 3D "
+                  "printing",
+                  operands[0]))
+        return report_failure(&error, options);
     if (find(options, path, &error)) {
         fflush(stdout);
         execv(path, options->line);

@@ -18,7 +18,7 @@
 #include "report.h"
 #include "sandbox.h"
 
-enum { CELL = 256, MODELS_MAX = 4000, INK = 0x222222, GREY = 0x777777, RED = 0xb00020 };
+enum { CELL = 256, MODELS_MAX = 4000, RED = 0xb00020 };
 
 struct contact {
     const struct options *options;
@@ -26,6 +26,7 @@ struct contact {
     const char *path;
     int width, height; // pixels of a cell's picture
     int per_page, columns;
+    uint32_t paper, ink, grey; // colours, 0xrrggbb
     double scale; // 0: each model fills its picture; otherwise the largest model units per pixel of all models
 };
 
@@ -152,8 +153,9 @@ static bool draw_page(const struct contact *c, int page, json_t *const *records,
     d.compress = (lam_compress)c->options->picture.compress;
     d.quality = c->options->picture.quality;
     d.durable = c->options->picture.durable;
+    draw_box(&d, (struct point){0, 0}, (double)width, (double)height, c->paper);
     if (head)
-        draw_short(&d, (double)width / 2, gap + 26 * u, 26 * u, (double)width - 2 * gap, INK, captions->title);
+        draw_short(&d, (double)width / 2, gap + 26 * u, 26 * u, (double)width - 2 * gap, c->ink, captions->title);
     bool ok = true;
     for (int i = first; ok && i < last; i++) {
         const char *slash = strrchr(c->plan.models[i].path, '/'),
@@ -168,8 +170,8 @@ static bool draw_page(const struct contact *c, int page, json_t *const *records,
         else
             draw_box(&d, (struct point){left, top}, c->width, c->height, 0xf2f2f2);
         if (foot) {
-            draw_short(&d, middle, top + c->height + 17 * u, 15 * u, c->width, INK, name);
-            draw_short(&d, middle, top + c->height + 35 * u, 13 * u, c->width, drawn ? GREY : RED,
+            draw_short(&d, middle, top + c->height + 17 * u, 15 * u, c->width, c->ink, name);
+            draw_short(&d, middle, top + c->height + 35 * u, 13 * u, c->width, drawn ? c->grey : RED,
                        drawn ? size_text(records[i], size) : "not drawn");
         }
     }
@@ -249,6 +251,25 @@ static bool fill(struct contact *c, int count, char **operands, lam_error *error
     return ok;
 }
 
+// Chooses the colours of the page: the background of the pictures, if it is an opaque colour.
+static void choose_colors(struct contact *c, const char *background)
+{
+    lam_rgba color;
+    lam_error ignored;
+    c->paper = 0xffffff;
+    if (lam_color_parse(background, LAM_COLOR_SRGB, &color, &ignored) && color.a == 1) {
+        const float parts[3] = {color.r, color.g, color.b};
+        c->paper = 0;
+        for (int i = 0; i < 3; i++)
+            c->paper = c->paper << 8 | (uint32_t)lround(255 * (parts[i] <= 0.0031308f
+                                                                   ? 12.92 * (double)parts[i]
+                                                                   : 1.055 * pow((double)parts[i], 1 / 2.4) - 0.055));
+    }
+    const bool dark = ((c->paper >> 16) * 2 + (c->paper >> 8 & 255) * 5 + (c->paper & 255)) / 8 < 110;
+    c->ink = dark ? 0xe6e6e6 : 0x222222;
+    c->grey = dark ? 0xa0a0a0 : 0x777777;
+}
+
 int run_sheet(int operand_count, char **operands, const struct options *options)
 {
     lam_error error = {0};
@@ -261,6 +282,7 @@ int run_sheet(int operand_count, char **operands, const struct options *options)
     drawn.picture.width = c.width;
     drawn.picture.height = c.height;
     drawn.picture.background = options->picture.background ? options->picture.background : SHEET_BACKGROUND;
+    choose_colors(&c, drawn.picture.background);
     struct batch_receiver use = {.draw = draw, .right = right_of, .files = {c.path}, .finish = finish, .user = &c};
     bool ok = check(operand_count, options, c.path, &error) && batch_plan_start(&c.plan, &drawn, &error) &&
               fill(&c, operand_count, operands, &error);

@@ -65,10 +65,12 @@ static bool check_together(int count, char **models, const struct options *o, la
     if (!check_models(count, models, o, error) || !job_check_options(o, error))
         return false;
     if (one_picture && count > 1)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--output' names one picture, but there are %d models ('%.60s', '%.60s'%s); "
-                        "name a folder, -o pictures/, or a pattern, -o '{stem}-{view}.png'",
-                        count, models[0], models[1], count > 2 ? " ..." : "");
+        return complain(
+            error, LAM_BAD_ARGUMENT,
+            "option '--output' names one picture, but there are %d models ('%.60s', '%.60s'%s); "
+            "name a folder, -o pictures/, or a pattern, -o '{stem}-{view}.png'; one picture of several models: "
+            "lambent a.stl + b.stl",
+            count, models[0], models[1], count > 2 ? " ..." : "");
     const struct refusal refusals[] = {
         {b->jobs, OF_BATCH("jobs")},
         {b->ahead, OF_BATCH("ahead")},

@@ -158,11 +158,10 @@ static const char *expected_of(const struct option *option, const json_t *value)
 // Returns whether the command line or a look already sets `option`, or another option that must match `option`.
 static bool is_decided(const struct settings_parser *r, const struct option *option)
 {
-    const char *name = option->name, *pair = strcmp(name, "shading") == 0          ? "stage"
-                                             : strcmp(name, "stage") == 0          ? "shading"
-                                             : strcmp(name, "environment") == 0    ? "reflection-map"
-                                             : strcmp(name, "reflection-map") == 0 ? "environment"
-                                                                                   : name;
+    const char *name = option->name, *pair = strcmp(name, "shading") == 0 ? "stage"
+                                             : strcmp(name, "stage") == 0 ? "shading"
+                                             : option->replaces           ? option->replaces
+                                                                          : name;
     static const char *const phong_only[] = {"ground", "cavity", "specular-aa"};
     lam_stage stage = r->before->draw.stage;
     bool by_vertex =

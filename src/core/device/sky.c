@@ -6,7 +6,6 @@
 #include "lighting.h"
 #include "picture_pixels.h"
 
-#include "cube_map.h"
 #include "environment.h"
 #include "fail.h"
 #include "linear.h"
@@ -85,7 +84,7 @@ static bool prepare(struct sky *sky, struct frame *frame, struct pool *pool, str
     *sky = (struct sky){.frame = frame, .lookups = environment_lookups_of(1), .level = level, .rays = 1};
     sky->view = (struct environment_view){.cube = frame->environment, .to_environment = frame->to_environment};
     // Several rays are averaged if a pixel is larger than a texel in the middle of a face.
-    float texels = frame->pixel_size * (float)frame->environment->size * 0.5f;
+    float texels = frame->pixel_size * (float)lam_environment_size(frame->environment) * 0.5f;
     if (!(level > 0) && !frame->orthographic && texels > 1)
         sky->rays = texels < RAYS_MAX ? (int)texels + 1 : RAYS_MAX;
     if (level > 0)

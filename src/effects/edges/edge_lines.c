@@ -180,8 +180,9 @@ static bool set_segment(const struct edge_view *view, const double p[2][3], int 
         to_window(view, p[k], q[k]);
     double tiny[2] = {q[0][3] - 1e-30, q[1][3] - 1e-30}; // w > 0
     double right = view->window[0] + margin, below = view->window[1] + margin;
-    if (!cut(tiny[0], tiny[1], range) || !cut(q[0][2] + q[0][3], q[1][2] + q[1][3], range) ||
-        !cut(q[0][3] - q[0][2], q[1][3] - q[1][2], range) ||
+    bool planes = style != EDGE_STYLE_GRID; // the grid continues beyond the planes, which are fitted to the model
+    if (!cut(tiny[0], tiny[1], range) || (planes && !cut(q[0][2] + q[0][3], q[1][2] + q[1][3], range)) ||
+        (planes && !cut(q[0][3] - q[0][2], q[1][3] - q[1][2], range)) ||
         !cut(q[0][0] + margin * q[0][3], q[1][0] + margin * q[1][3], range) ||
         !cut(q[0][1] + margin * q[0][3], q[1][1] + margin * q[1][3], range) ||
         !cut(right * q[0][3] - q[0][0], right * q[1][3] - q[1][0], range) ||

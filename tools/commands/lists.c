@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "console.h"
@@ -22,6 +23,7 @@ static int draw_looks(const struct options *given)
     char *words[] = {option, across}, *operands[] = {model};
     struct options own = *given;
     lam_error error = {0};
+    own.sheet.across = (struct texts){0};
     for (int i = 0; look_name(i); i++)
         snprintf(across + strlen(across), sizeof across - strlen(across), "%s%s", i ? "," : "", look_name(i));
     if (options_parse(2, words, find_groups("compare"), &own, &error) < 0) {
@@ -30,7 +32,9 @@ static int draw_looks(const struct options *given)
     }
     if (!own.picture.output)
         own.picture.output = "looks.png";
-    return run_compare(1, operands, &own);
+    int code = run_compare(1, operands, &own);
+    free(own.sheet.across.items);
+    return code;
 }
 
 int run_looks(int operand_count, char **operands, const struct options *options)

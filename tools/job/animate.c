@@ -391,7 +391,7 @@ static bool fits_surfaces(const struct job *job)
            !o->material.only.count;
 }
 
-// For a model whose pose changes, computes one centre of rotation and one camera. The centre is that of the bounding box
+// For a model whose pose changes, computes one centre of rotation and one camera. The centre is the middle of the bounding box
 // around the model's poses in all frames, and the camera fits the surfaces of all frames.
 static bool fit_poses(struct job *job, lam_error *error)
 {

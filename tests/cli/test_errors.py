@@ -44,14 +44,14 @@ class Models(Case):
     def test_folder(self):
         (self.folder / "folder.obj").mkdir()
         for name in ("folder.obj", "folder.obj/", ".", "..", "/"):
-            self.one_sentence(self.bad(2, name, says=f"lambent: {name}"))
+            self.one_sentence(self.bad(2, "render", name, says=f"lambent: {name}"))  # without "render": a contact sheet
 
     def test_not_regular(self):
         """Pipes, devices and folders are never opened, regardless of who names them: models, material files, scene files, pictures."""
         os.mkfifo(self.folder / "pipe")
         for name, says in (("pipe", "pipe: is a pipe, expected a regular file (- is standard input)"),
                            ("/dev/zero", "/dev/zero: is a device, expected a regular file"), (".", ".: is a directory, expected a file")):
-            for words in ([name], ["sphere", "--environment", name], ["diff", name, name] if name != "." else ["info", name], ["lights", name], ["explain", name, "1,1"]):
+            for words in (["render", name], ["sphere", "--environment", name], ["diff", name, name] if name != "." else ["info", name], ["lights", name], ["explain", name, "1,1"]):
                 with self.subTest(words):
                     self.one_sentence(self.bad(2, *words, says=says, timeout=10))
             self.bad(2, "compare", "cube", "--sheet", "light", "-s", 16, "--font", name, "-o", "s.png", says=says.split(" (")[0], timeout=10)

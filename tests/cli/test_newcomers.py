@@ -26,7 +26,7 @@ class Sentences(Case):
         reads = "lambent reads %s and scene files (.json)" % ", ".join("." + ending.strip(".") for line in models for ending in line.split()[1:])
         self.assertIn(".stl, .ply, ", reads)
         self.check({
-            "folder": (2, "lambent batch folder", "lambent view folder"),
+            "folder": (2, "found no model in the folder"), "render folder": (2, "lambent batch folder", "lambent view folder"),
             "https://example.com/a.glb": (2, "download it first", reads),
             "https://example.com/a.fbx": (2, "download it first", reads, "export the model as .glb"),
             "a.fbx": (2, reads, "export the model as .glb"), "a.blend": (2, reads, ".glb"), "a.amf": (2, reads, "as .stl"),

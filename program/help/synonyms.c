@@ -206,6 +206,28 @@ static void imply_command(struct replacing *r)
     }
 }
 
+// The name of an output selects the format. Beside such a name, --format must agree with it.
+static bool check_format(struct replacing *r, lam_error *error)
+{
+    char **made = NULL, *output = NULL;
+    for (int i = 0; i + 1 < r->count; i++)
+        if (strcmp(r->words[i], "-o") == 0 || strcmp(r->words[i], "--output") == 0) {
+            bool by_format = strncmp(r->words[i + 1], "{stem}.", 7) == 0;
+            made = by_format ? &r->words[i + 1] : made;
+            output = by_format ? output : r->words[i + 1];
+        }
+    if (!made || !output)
+        return true;
+    const char *format = *made + strlen("{stem}"), *dot = strrchr(output, '.');
+    if (!dot || strcmp(dot, format) != 0)
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "option '--format': found '%.20s' beside -o '%.200s'; the name selects the format, expected -o "
+                        "'%.200s%s%s'",
+                        format + 1, output, output, output[strlen(output) - 1] == '/' ? "{stem}-{view}" : "", format);
+    *made = output;
+    return true;
+}
+
 char **synonyms_replace(int *count, char **given, lam_error *error)
 {
     struct replacing r = {.groups = command_table->groups};
@@ -233,6 +255,7 @@ char **synonyms_replace(int *count, char **given, lam_error *error)
             add(&r, given[at]);
     for (; at < *count; at++)
         add(&r, given[at]);
+    ok = ok && check_format(&r, error);
     if (r.command && !named)
         insert(&r, r.command->name);
     else if (!r.command)

@@ -259,6 +259,15 @@ class Meanings(Case):
         self.good("stats", "-s", 8, "-o", "a.png")
         self.bad(1, "convert", "cube.stl", "a.glb", "--bg", "white", says="unknown option '--bg'", leaves={"a.png"})
 
+    def test_format_beside_an_output(self):
+        """--format agrees with the name, or is refused with the name to write, in both orders."""
+        for words in (("--format", "exr", "-o", "f/"), ("-o", "f/", "--format", "exr")):
+            self.bad(1, "cube.stl", "-s", 8, *words, says=["expected -o 'f/{stem}-{view}.exr'"])
+        for words in (("--format", "webp", "-o", "a.webp"), ("-o", "a.webp", "--format", "webp")):
+            self.good("cube.stl", "-s", 8, *words)
+            self.assertEqual(self.new_files(), {"a.webp"})
+            (self.folder / "a.webp").unlink()
+
     def test_refused_before_anything_is_drawn(self):
         for word in ("stast", "renderr", "640", "entirely-else"):
             self.bad(2, word, "cube.obj", says=word + ": cannot open")

@@ -206,6 +206,20 @@ static void imply_command(struct replacing *r)
     }
 }
 
+// Returns the command that a command with models means: `compare` with several models and `batch --sheet` draw a sheet, and
+// `check` with a model checks it for printing.
+static const char *command_for_models(const char *name, int count, char **words)
+{
+    int models = 0;
+    bool sheet = false;
+    for (int i = 0; i < count; i++) {
+        models += words[i][0] != '-' && is_model_name(words[i]) && access(words[i], F_OK) == 0;
+        sheet |= strcmp(words[i], "--sheet") == 0;
+    }
+    bool draws_sheet = (strcmp(name, "compare") == 0 && models > 1) || (strcmp(name, "batch") == 0 && sheet);
+    return draws_sheet ? "sheet" : models && strcmp(name, "check") == 0 ? "info" : name;
+}
+
 // The name of an output selects the format. Beside such a name, --format must agree with it.
 static bool check_format(struct replacing *r, lam_error *error)
 {
@@ -245,14 +259,27 @@ char **synonyms_replace(int *count, char **given, lam_error *error)
         given[0] = (char *)(uintptr_t)first;
     int operand = options_first_operand(*count, given), at = 0;
     r.command = operand >= 0 ? find_command(given[operand]) : NULL;
+    if (r.command) {
+        const char *meant = command_for_models(given[operand], *count, given);
+        bool prints = strcmp(meant, "info") == 0 && strcmp(given[operand], "check") == 0;
+        given[operand] = prints ? "--print" : (char *)(uintptr_t)meant;
+        r.command = find_command(meant);
+        if (prints)
+            add(&r, "info");
+    }
     if (r.command)
         r.groups = r.command->groups;
     bool named = r.command, verbatim = named && r.command->verbatim, ok = true;
-    for (; ok && at < *count && !verbatim && strcmp(given[at], "--") != 0; at++)
+    for (; ok && at < *count && !verbatim && strcmp(given[at], "--") != 0; at++) {
+        if (strcmp(given[at], "-f") == 0 || strcmp(given[at], "-t") == 0)
+            given[at] = given[at][1] == 'f' ? "--format" : "--threads";
+        if (strcmp(given[at], "--sheet") == 0 && r.command && strcmp(r.command->name, "sheet") == 0)
+            continue;
         if (strncmp(given[at], "--", 2) == 0)
             ok = replace_option(&r, given, &at, error);
         else if (strcmp(given[at], "-i") != 0)
             add(&r, given[at]);
+    }
     for (; at < *count; at++)
         add(&r, given[at]);
     ok = ok && check_format(&r, error);

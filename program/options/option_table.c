@@ -506,7 +506,8 @@ struct option option_table[OPTIONS_MAX] = {
      "example, see `docs/cameras.md`. You cannot combine this option with `--view`, `--azimuth`, "
      "`--elevation`, `--zoom`, `--fov` or `--projection`. For any picture, `--json` reports the camera under the same "
      "keys.",
-     .kind = VALUE_CAMERA, .store = store_camera, .others = "position near far intrinsics pose extrinsics",
+     .kind = VALUE_CAMERA, .store = store_camera,
+     .others = "intrinsics camera-matrix calibration extrinsics position near far pose",
      .also = "eye=eye=* camera-position=eye=* look-at=target=* lookat=target=* target=target=*", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},
 
@@ -1080,7 +1081,7 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent lists the largest holes with their places, the area of overhangs and the centre of mass. The exit code "
      "is 6 if "
      "the model cannot be printed as it is.",
-     .store = store_switch, .others = "printable watertight manifold check-mesh", FIELD(print.wanted)},
+     .store = store_switch, .also = "check printable watertight manifold check-mesh", FIELD(print.wanted)},
     {"overhang", 0, GROUP_PRINT, "DEGREES", "45",
      "The angle from the vertical above which `--print` counts a face as an overhang.", NULL, .store = store_number,
      FIELD(print.overhang_deg), .max = 90},

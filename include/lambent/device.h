@@ -375,9 +375,11 @@ typedef struct lam_draw_params {
     lam_brighten brighten;       // more light for dark models, less for white ones
     // Annotations, drawn over the picture like the lines above; all measure the scene's box (lam_scene_bounds), in model
     // units along the axes of world space (docs/annotations.md).
-    bool dimensions; // an arrow and a number for each side of the box; lam_camera_fit_ground leaves space for them
-    bool scale_bar;  // a bar of 1, 2 or 5 times a power of ten units; with perspective, valid at the box's middle
-    bool axes;       // the directions of the axes: x red, y green, z blue
+    // An arrow and a number for each side of the box; lam_camera_fit_ground leaves space for them.
+    bool dimensions;
+    // A bar of 1, 2 or 5 times a power of ten units; with perspective, valid at the middle of the box.
+    bool scale_bar;
+    bool axes; // the directions of the axes: x red, y green, z blue
     // Lines on the plane under the box, 1, 2 or 5 times a power of ten units apart. Surfaces hide them.
     bool grid;
     // Above 0, up to 1: pictures (LAM_OUTPUT_PICTURE) show the environment that lights the scene instead of `background`,

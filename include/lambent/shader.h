@@ -61,7 +61,8 @@ typedef struct lam_shader_params {
     // materials and lights.
     bool products;
     lam_shader_style style; // the style of the source
-    const char *mistake;    // id of a lecture-style mistake, or of two with + between them; NULL if there is none
+    // The id of a lecture-style mistake, or of two with + between them; NULL if there is none.
+    const char *mistake;
     // The graphics card filters textures: the program that uses the shaders sets the filters and the wrapping of each
     // texture. By default, the shader filters textures. In GLSL 120, the graphics card always filters textures.
     bool hardware_filter;

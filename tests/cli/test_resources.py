@@ -30,6 +30,7 @@ class Resources(Case):
             batch cube.obj cube.stl -s 16 -o b/{stem}{ext}.png
             batch cube.obj cube.stl -s 16 --isolate -o c/{stem}{ext}.png
             journal b/lambent.jsonl
+            sheet cube.obj cube.stl -s 16 -o contact.png
             compare cube.obj -s 32 -o sheet.png
             compare cube.obj -s 32 -o sheet.svg
             explain cube.obj 16,16 -s 32 -o figure.png

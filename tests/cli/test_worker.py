@@ -207,7 +207,7 @@ class Answers(Jobs):
                              {"id": 3, "model": "in/cube.stl", "options": {"size": 16, "show": "depth"}, "format": "pfm"}, code=0)
         self.assertEqual(base64.b64decode(found[0]["data"]), (self.folder / "out/a.png").read_bytes())
         self.assertIn(b"acTL", base64.b64decode(found[0]["data"]))
-        self.assertTrue(base64.b64decode(found[2]["data"]).startswith(b"PF\n16 16\n"))
+        self.assertTrue(base64.b64decode(found[2]["data"]).startswith(b"Pf\n16 16\n"))
 
     def test_options_of_the_worker_come_first(self):
         found = self.answers({"id": 1, "model": "teapot"}, {"id": 2, "model": "teapot", "options": {"size": 20}}, words=["-s", "12"], code=0)

@@ -144,7 +144,8 @@ static void test_errors(void **state)
         "my.json:1: uniforms: found no name with the role metallic or roughness; the highlight metallic-roughness "
         "needs one of these roles");
     bad("{\"contract\": 1, \"name\": \"x\", \"highlight\": \"fong\"}",
-        "my.json:1: highlight: found \"fong\", expected phong, blinn-phong or metallic-roughness; did you mean "
+        "my.json:1: highlight: found \"fong\", expected phong, blinn-phong, metallic-roughness, toon or gooch; did you "
+        "mean "
         "'phong'?");
     bad("{\"contract\": 1, \"name\": \"x\", \"terms\": []}", "my.json:1: terms: found a list of 0, expected a list of");
     bad("{\"contract\": 1, \"name\": \"x\", \"terms\": [\"shiny\"]}", "my.json:1: terms[0]: found \"shiny\", expected");

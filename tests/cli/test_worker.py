@@ -168,13 +168,13 @@ class Answers(Jobs):
     def test_environments_are_shared_while_their_files_are_the_same(self):
         def sky(shade):
             (self.folder / "in/sky.png").write_bytes(write_png(8, 4, bytes([shade, 255 - shade, 40, 255]) * 32))
-        job = {"model": "in/cube.stl", "options": {"size": 16, "reflectivity": 0.8, "environment": "in/sky.png"}}
+        job = {"model": "in/cube.stl", "options": {"size": 16, "reflectivity": 0.8, "reflection-map": "in/sky.png"}}
         worker, pictures = self.start("-j", "2"), []
         for shade in (10, 200, 10):
             sky(shade)
             worker.say(*({"id": f"{len(pictures)}-{i}", **job} for i in range(3)))
             same = {base64.b64decode(worker.answer(f"{len(pictures)}-{i}")["data"]) for i in range(3)}
-            self.good("in/cube.stl", "-s", 16, "--reflectivity", 0.8, "--environment", "in/sky.png", "-o", "alone.png")
+            self.good("in/cube.stl", "-s", 16, "--reflectivity", 0.8, "--reflection-map", "in/sky.png", "-o", "alone.png")
             self.assertEqual(same, {(self.folder / "alone.png").read_bytes()})
             pictures.append(same.pop())
         self.assertEqual((worker.end(), len(set(pictures))), (0, 2))
@@ -182,10 +182,10 @@ class Answers(Jobs):
         names = [*(f"in/{i}.png" for i in range(6)), "sky", "studio", "in/cube.stl"]
         for i in range(6):
             (self.folder / f"in/{i}.png").write_bytes(write_png(8, 4, bytes([40 * i, 90, 40, 255]) * 32))
-        jobs = [{"id": i, "model": "in/cube.stl", "options": {"size": 16, "reflectivity": 0.8, "environment": names[i % len(names)]}} for i in range(45)]
+        jobs = [{"id": i, "model": "in/cube.stl", "options": {"size": 16, "reflectivity": 0.8, "reflection-map": names[i % len(names)]}} for i in range(45)]
         by_name = {}
         for answer, job in zip(self.answers(*jobs, words=["-j", "4"]), jobs):
-            by_name.setdefault(job["options"]["environment"], set()).add(answer.get("data"))
+            by_name.setdefault(job["options"]["reflection-map"], set()).add(answer.get("data"))
         self.assertEqual({name: len(found) for name, found in by_name.items()}, {name: 1 for name in names})
         self.assertEqual((by_name["in/cube.stl"], len(set.union(*by_name.values()))), ({None}, len(names)))
 

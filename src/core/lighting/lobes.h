@@ -218,7 +218,7 @@ FN lobe_sample ggx_lobe(surface s, vec3 l, num roughness)
 FN lobe_sample toon_lobe(surface s, vec3 l, num steps, num shininess)
 {
     lobe_sample b = blinn_phong_lobe(s, l);
-    steps = max_of(steps, num_of(1.0f));
+    steps = min_of(max_of(steps, num_of(1.0f)), num_of(1.0e6f));
     num level = positive(steps * b.diffuse - 1.0e-5f);
     num below = whole(level);
     b.diffuse = pick(level > below, below + 1.0f, below) / steps;

@@ -1,4 +1,5 @@
-// option_values.c: parses the values of options.
+// option_values.c: parses the values of options. It is longer than 600 lines because it contains one short parser for each
+// syntax of values.
 #include "options.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-// compare.c: the command `compare`: draws several pictures of a model on one labelled sheet.
+// compare.c: the command `compare`: draws several pictures of a model on one labelled sheet. It is longer than 600 lines
+// because all kinds of sheets share one page: pictures, captions, the enlarged highlight, and figures.
 #include "command.h"
 
 #include <stdio.h>

@@ -99,7 +99,7 @@ static const struct {
     {"samples-8", .floats = 3.5e-3},
     {"samples-16", .floats = 3.5e-3},
     {"environment-light", .floats = 1.5e-2},
-    {"environment-classic", .floats = 1.5e-2},
+    {"environment-classic", .floats = 1.5e-2, .hidden = true},
     {"shadows-soft", .floats = 5e-4, .soft = true},
     {"ground-shadow", .floats = 1e-3, .soft = true},
     {"masked", .floats = 5e-4, .snapped = true},

@@ -181,7 +181,7 @@ static const struct lobe {
     [LAM_REFLECTION_KAJIYA_KAY_LECTURE] = {reflect_kajiya_kay_lecture, 0x7914335629de57cd},
     [LAM_REFLECTION_OREN_NAYAR] = {reflect_oren_nayar, 0xc42745003ceb023c},
     [LAM_REFLECTION_GGX] = {reflect_ggx, 0xa71be5c4cae324a9},
-    [LAM_REFLECTION_TOON] = {reflect_toon, 0x8a3b03b63f757421},
+    [LAM_REFLECTION_TOON] = {reflect_toon, 0x06a7cedff0f5011b},
     [LAM_REFLECTION_GOOCH] = {reflect_gooch, 0x62cf9b7e6c0bab9b},
 };
 

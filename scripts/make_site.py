@@ -216,7 +216,7 @@ def make(program, folder, lab):
     examples = {}
     for where, _, names in os.walk(os.path.join(ROOT, "examples")):
         for name in names:
-            if name.endswith((".obj", ".mtl", ".json")):
+            if name.endswith((".obj", ".mtl", ".json", ".glb")):
                 path = os.path.join(where, name)
                 examples["/" + os.path.relpath(path, ROOT)] = open(path, "rb").read()
     write(folder, "lab.html", build.with_files(open(lab, encoding="utf-8").read(), examples))

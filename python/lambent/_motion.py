@@ -41,7 +41,7 @@ class Frames(list):
 
 
 def turntable(model: "Model", frames: int = 36, size: "int | tuple[int, int] | None" = None, *, name: "str | None" = None, **options) -> Frames:
-    """Turns a model once around its up axis. Returns its Frames, which are those of `lambent MODEL --turntable`. The model is read once; the keyword
+    """Turns a model once around its up axis. Returns its Frames, the frames of `lambent MODEL --turntable`. The model is read once; the keyword
     arguments are those of `lambent.render`, except `rotate`."""
     if not isinstance(frames, int) or not 2 <= frames <= 100000:
         raise BadValue("turntable: found %s frames, expected a whole number from 2 to 100000" % shown(frames))

@@ -177,8 +177,8 @@ static bool draw_page(const struct contact *c, int page, json_t *const *records,
     }
     ok = ok && drawing_write(&d, path, error);
     if (ok && !c->options->report.quiet)
-        say_plain("%s  %dx%d  %d models\n", strcmp(path, "-") == 0 ? "standard output" : path, d.width, d.height,
-                  last - first);
+        say_plain("%s  %dx%d  %d model%s\n", strcmp(path, "-") == 0 ? "standard output" : path, d.width, d.height,
+                  last - first, last - first == 1 ? "" : "s");
     drawing_free(&d);
     return ok;
 }

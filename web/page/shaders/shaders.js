@@ -100,7 +100,7 @@ function missingLines({ texts, correct }) {
 
 let begun = null; // the texts that the page wrote
 
-// Returns whether the fragment shader is another program: most of its lines are not those of the chosen program.
+// Returns whether the fragment shader is another program: most of its lines differ from the chosen program.
 function isOther() {
   const lines = (code) => code.split('\n').map((line) => line.trim()).filter((line) => line.length > 3);
   const known = new Set(lines(begun.fragment)), now = lines(editors.fragment.text);

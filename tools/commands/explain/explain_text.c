@@ -1,5 +1,5 @@
 // explain_text.c: prints an explained pixel as aligned text, with units and the formula of each term (docs/lighting.md
-// lists all formulas).
+// lists all formulas). It is longer than 600 lines because it has one short function for each term.
 #include "explain.h"
 
 #include <math.h>

@@ -211,12 +211,14 @@ static void imply_command(struct replacing *r)
 static const char *command_for_models(const char *name, int count, char **words)
 {
     int models = 0;
-    bool sheet = false;
+    bool sheet = false, across = false;
     for (int i = 0; i < count; i++) {
         models += words[i][0] != '-' && is_model_name(words[i]) && access(words[i], F_OK) == 0;
-        sheet |= strcmp(words[i], "--sheet") == 0;
+        sheet |= strncmp(words[i], "--sheet", 7) == 0;
+        across |= strncmp(words[i], "--across", 8) == 0;
     }
-    bool draws_sheet = (strcmp(name, "compare") == 0 && models > 1) || (strcmp(name, "batch") == 0 && sheet);
+    bool draws_sheet =
+        (strcmp(name, "compare") == 0 && models > 1 && !sheet && !across) || (strcmp(name, "batch") == 0 && sheet);
     return draws_sheet ? "sheet" : models && strcmp(name, "check") == 0 ? "info" : name;
 }
 

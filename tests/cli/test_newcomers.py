@@ -57,7 +57,7 @@ class Sentences(Case):
             "cube.obj -s 80,60 -o t.png": (1, "one size is 800x600"),
             "cube.obj --color 255,128,0": (1, "'#ff8000'"), "cube.obj --color rgb(255,128,0)": (1, "'#ff8000'"),
             "cube.obj --color 0xff8800": (1, "'#ff8800'"),
-            "compare cube.obj other": (1, "lambent diff"), "explain cube.obj 5 4": (1, "such as 512,400"),
+            "compare cube.obj other": (1, "lambent diff"), "compare cube.obj cube.stl --sheet terms": (1, "lambent sheet draws many"), "explain cube.obj 5 4": (1, "such as 512,400"),
             "shapes teapot": (1, "lambent teapot"), "materials gold": (1, "--material gold"),
             "cube.obj --fov 60 --projection orthographic": (1, "--fov"), "cube.obj --fov 0": (1, "--fov"),
             "cube.obj -s 200 200": (1, "'--size': found '200 200', expected one word: 200x200"),

@@ -18,6 +18,7 @@
 #include "child.h"
 #include "console.h"
 #include "drawing.h"
+#include "footprint.h"
 #include "run.h"
 #include "sandbox_start.h"
 #include "vectors.h"
@@ -39,7 +40,7 @@ struct figure {
     int x, y, width, height;   // the explained pixel, and the size of the picture
     lam_camera camera;         // the camera that rendered the picture; only its projection is set
     lam_image picture;
-    bool beam; // --figure beam
+    int figure; // enum figure_name
 };
 
 // The subject of the figure: the pixel's nearest surface, its shaded point, and the light that contributes most.
@@ -700,8 +701,11 @@ static bool draw(const struct figure *f, const char *own_title, struct drawing *
     at.y += 8 * unit;
     struct sheet_layout below = {
         .unit = unit, .left = corner.x, .right = corner.x + left_width(f), .y = corner.y + f->height};
+    const json_t *map = f->figure == FIGURE_FOOTPRINT ? element(member(s.fragment, "maps"), 0) : NULL;
     bool ok = draw_vectors(f, &s, corner, unit, d, error) &&
-              (f->beam && s.light ? draw_law(&s, &below, d, error) : draw_from_the_side(&s, &below, d, error));
+              (map                                   ? draw_footprint(map, (struct point){(below.left + below.right) / 2, below.y}, unit, d, error)
+               : f->figure == FIGURE_BEAM && s.light ? draw_law(&s, &below, d, error)
+                                                     : draw_from_the_side(&s, &below, d, error));
     return ok && put_places(s.fragment, d, &at, error) && put_vectors(&s, d, &at, error) &&
            put_light(s.light, d, &at, error) && put_terms(&s, d, &at, error) && put_steps(e, &s, d, &at, error);
 }
@@ -728,7 +732,7 @@ static bool read_request(const lam_bytes *request, struct figure *f, bool *svg, 
     f->camera.fy = number(read[0], "fy");
     f->camera.cx = number(read[0], "cx");
     f->camera.cy = number(read[0], "cy");
-    f->beam = json_is_true(member(read[0], "beam"));
+    f->figure = whole(read[0], "figure");
     *svg = json_is_true(member(read[0], "svg"));
     // The picture is not changed.
     f->picture =

@@ -245,6 +245,15 @@ typedef enum lam_specular_aa {
     LAM_SPECULAR_AA_COUNT
 } lam_specular_aa;
 
+// The filters of texture maps.
+typedef enum lam_map_filter {
+    LAM_MAP_FILTER_FILE = 0,  // as each map says (lam_texture_map)
+    LAM_MAP_FILTER_NEAREST,   // the nearest texel of the picture
+    LAM_MAP_FILTER_BILINEAR,  // four texels of the picture
+    LAM_MAP_FILTER_TRILINEAR, // four texels of two mipmap levels
+    LAM_MAP_FILTER_COUNT
+} lam_map_filter;
+
 // Lights dark models with up to 2.5 stops more light, so that more than their outline is visible, and white physical
 // models with 5/6 stop less. The base colours determine the amount for all views of a model (docs/lighting/tone.md).
 typedef enum lam_brighten {
@@ -321,8 +330,11 @@ typedef struct lam_draw_params {
     // than 1. Below 0: every light is evaluated everywhere, as the OpenGL device always does.
     float light_cutoff;
     // The largest number of texture probes along the longer axis of a pixel's footprint, 1..16, for textures seen at a
-    // slant. 0: 1.
+    // slant. 0: 8 for colours, normals and bumps, unless the map chooses LAM_FILTER_NEAREST or LAM_MIP_NONE; 1 for other
+    // maps. A pixel takes as many probes as its footprint needs (docs/textures.md).
     int anisotropy;
+    // Replaces the filters of all maps. lam_shader_uniform.map keeps those of the map.
+    lam_map_filter map_filter;
     lam_output output; // the content of the frame
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the index of the light in lam_draw_lights.
     int output_light;

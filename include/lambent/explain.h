@@ -174,7 +174,11 @@ typedef struct lam_explained_map {
     // The position in the texture, after the map's transform and wrapping: texels of level 0 from its upper left
     // corner.
     float column, row;
-    float level; // of detail; 0 and less: level 0, magnified
+    float level; // of detail, of each probe; 0 and less: level 0, magnified
+    // The footprint: by how many texels of level 0 (columns, rows) the position changes from this pixel to its right
+    // neighbour and to the one below.
+    float across[2], down[2];
+    int probes; // number of lookups along the longer axis of the footprint (lam_draw_params.anisotropy)
     // The filtered texel, before scale and offset. For a bump map: the heights one texel of level 0 before and behind
     // the point, along rows and along columns.
     lam_rgba texel;

@@ -25,7 +25,7 @@ enum turntable_light { TURNTABLE_LIGHT_CAMERA, TURNTABLE_LIGHT_MODEL };
 enum term_kind { TERM_AUTO, TERM_KITTY, TERM_ITERM2, TERM_SIXEL, TERM_BLOCKS, TERM_OFF };
 
 // --figure: selects the small figure of explain -o.
-enum figure_name { FIGURE_VECTORS, FIGURE_BEAM };
+enum figure_name { FIGURE_VECTORS, FIGURE_BEAM, FIGURE_FOOTPRINT };
 enum captions_style { CAPTIONS_FULL, CAPTIONS_PLAIN };
 
 enum sandbox_mode { SANDBOX_AUTO, SANDBOX_REQUIRE, SANDBOX_OFF };
@@ -41,6 +41,7 @@ enum sheet_name {
     SHEET_AMBIENT,
     SHEET_FRAMES,
     SHEET_SURFACES,
+    SHEET_FILTERS,
 };
 
 // The picture and its output file.

@@ -159,6 +159,8 @@ static const struct choice tone_words[] = {
 
 static const struct choice figure_words[] = {{"vectors", FIGURE_VECTORS, "the vectors from the side"},
                                              {"beam", FIGURE_BEAM, "the area that a beam of the light covers"},
+                                             {"footprint", FIGURE_FOOTPRINT,
+                                              "the texels that the pixel covers, and the probes of the filter"},
                                              {NULL, 0, NULL}};
 
 static const struct choice arrange_words[] = {{"row", 0, "side by side, all on one plane"},
@@ -237,6 +239,7 @@ static const struct choice sheet_words[] = {
     {"frames", SHEET_FRAMES,
      "one light in the world frame, the camera frame and the model frame, each before and after a rotation"},
     {"surfaces", SHEET_SURFACES, "a specular, a diffuse and a translucent surface"},
+    {"filters", SHEET_FILTERS, "the model's textures with nearest, bilinear, trilinear and anisotropic filters"},
     {NULL, 0, NULL}};
 
 static const struct choice isa_words[] = {
@@ -290,8 +293,12 @@ struct option option_table[OPTIONS_MAX] = {
      FIELD(draw.samples), .also_in = IN_SHEET},
     {"anisotropy", 0, GROUP_PICTURE, "N", NULL, NULL,
      "A pixel on a slanted surface covers a long, narrow area of the texture. A single texture sample blurs the whole "
-     "area. With N samples along this area, textures can appear up to N times as sharp.",
+     "area. With up to N samples along this area, textures can appear up to N times as sharp. Each pixel takes as many "
+     "samples as its area needs.",
      .others = "anisotropic anisotropic-filtering"},
+    {"map-filter", 0, GROUP_PICTURE, "NAME", NULL, NULL,
+     "The sheet `filters` of `lambent compare` shows all filters side by side (`docs/textures.md`).",
+     .others = "mipmap mipmaps bilinear trilinear nearest sampling"},
     {"line-width", 0, GROUP_PICTURE, "PIXELS", NULL, NULL,
      "Lambent draws the lines of OBJ (`l`), PLY (`edge`) and glTF files with the same width at every distance. Lambent "
      "moves lines towards the eye by their width, so that lines on a surface are visible. Lines have no end caps.",

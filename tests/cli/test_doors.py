@@ -49,6 +49,7 @@ INVISIBLE = {
     "environment: faces": "pictures: test_environment.py",
     "environment: equirectangular": "pictures: test_environment.py",
     "setting: anisotropy": "needs a texture: test_textures.py",
+    "setting: map_filter": "needs a texture: test_textures.py",
     "setting: brighten": "needs a model file: test_newcomers.py",
     "setting: light_cutoff": "skips weak lights among many: test_many_lights.c",
     "setting: line_width": "needs lines: test_strokes.c",

@@ -208,7 +208,7 @@ CONTEXT = {
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
     "reference": (["--environment", "studio", "--material", "#ffc356,metallic=1,roughness=0.3"], "64"),
-    "anisotropy": (["floor.obj"], "8"), "line-width": (["lines.obj"], "3"), "viewer": ([], "infinite"), "normals": ([], "facet"),
+    "anisotropy": (["floor.obj"], "1"), "map-filter": (["floor.obj"], "nearest"), "line-width": (["lines.obj"], "3"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "texture-filter": (["floor.obj"], None), "section": ([], "x=40%"), "arrange": ([], None), "explode": (["parts.obj"], "0.5"),
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),

@@ -286,6 +286,48 @@ class Textures(Case):
         self.assertIn("%2", escaped[1]["uri"])
         self.assertEqual(self.drawn(self.gltf(images=escaped, texture=both)), want)
 
+    def test_filters(self):
+        """The filters of `--map-filter`, the probes of `--anisotropy`, and the footprint that `explain` prints, which a
+        pixel beside it confirms."""
+        tiles = str(ROOT / "examples/tiles/tiles.obj")
+        look = ["-s", "320x200", "--samples", "1", "--camera", "eye=0/0.9/2.2,target=0/0/-3"]
+
+        def texel_at(x, y):
+            if x % 32 == 0 or y % 32 == 0:
+                return 96, 92, 86
+            return (40, 62, 88) if (x // 32 + y // 32) % 2 else (124, 114, 94) if (x // 4 + y // 4) % 2 else (150, 140, 120)
+
+        def explained(x, y, *options):
+            map_ = json.loads(self.good("explain", tiles, f"{x},{y}", *look, "--json", *options).stdout)["triangles"][0]["maps"][0]
+            self.assertEqual((map_["map"], map_["width"], map_["height"]), ("diffuse", 128, 128))
+            return map_
+        for x, y in ((160, 150), (90, 120), (230, 100), (160, 90)):
+            for words, most in (([], 8), (["--anisotropy", "1"], 1), (["--anisotropy", "3"], 3), (["--map-filter", "trilinear"], 8), (["--map-filter", "bilinear"], 1)):
+                m = explained(x, y, *words)
+                a, b = math.hypot(*m["across"]), math.hypot(*m["down"])
+                ratio = max(1, min(0.8 * max(a, b) / min(a, b), most)) if max(a, b) > 1 else 1
+                self.assertEqual(m["probes"], math.ceil(ratio - 1e-5), (x, y, words))
+                self.assertAlmostEqual(m["level"], math.log2(max(a, b) / ratio), delta=1e-4)
+            right, below = explained(x + 1, y), explained(x, y + 1)
+            for other, step in ((right, m["across"]), (below, m["down"])):
+                for k in range(2):  # the derivatives change a little from pixel to pixel, and the picture repeats every 128 texels
+                    apart = (other["place"][k] - m["place"][k] - step[k] + 64) % 128 - 64
+                    self.assertLess(abs(apart), 0.02 + 0.1 * max(a, b))
+            nearest = explained(x, y, "--map-filter", "nearest")
+            texel = texel_at(*(int(at) for at in nearest["place"]))
+            for k in range(3):
+                byte = texel[k] / 255
+                self.assertAlmostEqual(nearest["texel"][k], byte / 12.92 if byte <= 0.04045 else ((byte + 0.055) / 1.055) ** 2.4, delta=1e-6)
+        drawn = {}
+        for words in ("", "--anisotropy 8", "--anisotropy 1", "--map-filter nearest", "--map-filter bilinear", "--map-filter trilinear", "--map-filter file"):
+            self.good(tiles, *look, "-o", f"{len(drawn)}.png", *words.split())
+            drawn[words] = (self.folder / f"{len(drawn)}.png").read_bytes()
+        self.assertEqual(drawn[""], drawn["--anisotropy 8"])
+        self.assertEqual(drawn[""], drawn["--map-filter trilinear"])
+        self.assertEqual(drawn[""], drawn["--map-filter file"])
+        self.assertEqual(len(set(drawn.values())), 4)
+        self.bad(1, tiles, "--map-filter", "cubic", "-o", "b.png", says="file, nearest, bilinear or trilinear")
+
     def test_gltf_wrong(self):
         for said, changes in (("textures[0].source: found 4", {"texture": {"source": 4}}), ("Texture.index: found 7", {"info": {"index": 7}}),
                               ("samplers[0].wrapS: found 5, expected 33071, 33648 or 10497", {"sampler": {"wrapS": 5}}),

@@ -86,7 +86,6 @@ static void maps(struct visitor *v, const struct glsl_choices *base)
         c.back_material = i & 8;
         c.tangents = true;
         c.colors = i & 4;
-        c.anisotropy = i & 4 ? 8 : 1;
         c.converted[0] = i & 4 && c.reflection != LAM_REFLECTION_GGX;
         c.layers = c.reflection == LAM_REFLECTION_GGX ? (uint8_t)(i == 3 ? 0 : 37 * i + 2) : 0;
         c.field_layers = (uint8_t)(c.layers | (i & 8 ? 127 : 0));

@@ -157,6 +157,8 @@ static void write_maps(struct json *json, const lam_explained_fragment *f)
                  OBJECT(NULL, TEXT("map", lam_map_name(m->map)), TEXT("texture", m->texture), COUNT("width", m->width),
                         COUNT("height", m->height), NUMBERS("coordinates", 2, (double)m->s, (double)m->t),
                         NUMBERS("place", 2, (double)m->column, (double)m->row), NUMBER("level", m->level),
+                        NUMBERS("across", 2, (double)m->across[0], (double)m->across[1]),
+                        NUMBERS("down", 2, (double)m->down[0], (double)m->down[1]), NUMBER("probes", m->probes),
                         COLOR4("texel", m->texel)));
     }
     json_close(json, ']');

@@ -102,6 +102,15 @@ static const struct sheet sheets[] = {
                         .cells = {{"Specular", {"--material", "ambient=0.2,diffuse=0.2,specular=0.8,shininess=80"}},
                                   {"Diffuse", {"--material", "specular=0"}},
                                   {"Translucent", {"--material", "specular=0.5,shininess=80,opacity=0.45"}}}},
+    [SHEET_FILTERS] = {.name = "filters",
+                       .title = "Filters of textures",
+                       .columns = 2,
+                       .count = 4,
+                       .cells = {{"Nearest texel", {"--map-filter", "nearest", "--anisotropy", "1"}},
+                                 {"Bilinear", {"--map-filter", "bilinear", "--anisotropy", "1"}},
+                                 {"Trilinear (mipmaps)", {"--map-filter", "trilinear", "--anisotropy", "1"}},
+                                 {"Anisotropic, up to 16 probes",
+                                  {"--map-filter", "trilinear", "--anisotropy", "16"}}}},
 };
 
 // --- a row of variants

@@ -88,5 +88,7 @@ ROWS = [
     (74, "Fresnel: a surface reflects more at grazing angles.", "plot fresnel 0.04 ior=1.5", PICTURE, "lighting/physical.md"),
     (75, "Tone curves map light to the screen.", "plot tone none reinhard contrast", PICTURE, "lighting/tone.md"),
     (76, "The depth buffer has coarse steps far from the eye.", "plot depth 0.1/100 1/100", PICTURE, "lighting/pixels.md"),
+    (77, "Filters of textures: nearest, bilinear, trilinear, anisotropic.", "compare examples/tiles/tiles.obj --sheet filters --brighten off --camera eye=0/0.9/2.2,target=0/0/-3", PICTURE, "textures.md#filtering"),
+    (78, "The texels that a pixel covers, and the probes of the filter.", "explain examples/tiles/tiles.obj 200,130 -s 320 --samples 1 --camera eye=0/0.9/2.2,target=0/0/-3 --figure footprint", PICTURE, "textures.md#filtering"),
 ]
-LECTURES = [("Pittsburgh: lighting and shading", 1, 45), ("Oregon State: shaders for lighting", 46, 57), ("New York University: fragment shaders and basic lighting", 58, 67), ("What today's courses add", 68, 76)]
+LECTURES = [("Pittsburgh: lighting and shading", 1, 45), ("Oregon State: shaders for lighting", 46, 57), ("New York University: fragment shaders and basic lighting", 58, 67), ("What today's courses add", 68, 78)]

@@ -103,6 +103,11 @@ static void complete_map(lam_explained_map *map, const lam_texture_map *given)
     map->height = lam_texture_height(given->texture, 0);
     map->column = (float)(wrapped(at_s, given->wrap_s) * map->width);
     map->row = (float)(wrapped(at_t, given->wrap_t) * map->height);
+    for (int axis = 0; axis < 2; axis++) {
+        float *v = axis ? map->down : map->across, ds = v[0], dt = v[1];
+        v[0] = (turned ? m[0][0] * ds + m[0][1] * dt : ds) * (float)map->width;
+        v[1] = (turned ? m[1][0] * ds + m[1][1] * dt : dt) * (float)map->height;
+    }
 }
 
 // The following functions compute values from the recorded values.

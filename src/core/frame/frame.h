@@ -276,6 +276,10 @@ int frame_back_material(struct frame *frame, int front, int back);
 // a visible grey.
 int frame_stroke_material(struct frame *frame, int front, bool colored);
 
+// How the frame filters a map of a material.
+struct texture_sampler frame_map_sampler(const struct frame *frame, const lam_material *material,
+                                         const lam_texture_map *map);
+
 // Returns the maps that shading uses: a bit 1 << LAM_MAP_… for each. If colours of vertices or triangles are
 // interpolated, these are the maps that multiply such a colour.
 unsigned frame_maps(const struct frame *frame, const lam_material *material);

@@ -5,6 +5,7 @@
 
 #include "fields.h"
 #include "frame.h"
+#include "texture_map.h"
 
 const lam_map frame_lod_maps[LOD_MAPS] = {LAM_MAP_DIFFUSE,   LAM_MAP_ROUGHNESS, LAM_MAP_METALLIC,
                                           LAM_MAP_OCCLUSION, LAM_MAP_EMISSION,  LAM_MAP_AMBIENT,
@@ -146,6 +147,25 @@ unsigned frame_maps(const struct frame *frame, const lam_material *material)
         if (material->maps[i] && (!map_layer((lam_map)i) || map_layer((lam_map)i) & frame_layers(frame, material)))
             maps |= 1u << i;
     return maps & drawn;
+}
+
+struct texture_sampler frame_map_sampler(const struct frame *frame, const lam_material *material,
+                                         const lam_texture_map *map)
+{
+    static const lam_map sharp[] = {LAM_MAP_DIFFUSE, LAM_MAP_SPECULAR, LAM_MAP_EMISSION, LAM_MAP_NORMAL, LAM_MAP_BUMP};
+    const lam_draw_params *settings = &frame->settings;
+    const lam_filter filter = settings->map_filter == LAM_MAP_FILTER_NEAREST ? LAM_FILTER_NEAREST : LAM_FILTER_LINEAR;
+    struct texture_sampler sampler = {
+        filter, filter, settings->map_filter == LAM_MAP_FILTER_TRILINEAR ? LAM_MIP_LINEAR : LAM_MIP_NONE, 1};
+    if (settings->map_filter == LAM_MAP_FILTER_FILE)
+        sampler = texture_map_sampler(map);
+    if (settings->anisotropy)
+        sampler.probes = settings->anisotropy;
+    else if (sampler.minify == LAM_FILTER_LINEAR && sampler.mip != LAM_MIP_NONE)
+        for (size_t i = 0; i < sizeof sharp / sizeof *sharp; i++)
+            if (material->maps[sharp[i]] && texture_map_same(material->maps[sharp[i]], map))
+                sampler.probes = 8;
+    return sampler;
 }
 
 bool frame_converts_at_points(const struct frame *frame, const lam_material *material)

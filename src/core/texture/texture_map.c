@@ -30,6 +30,11 @@ bool texture_map_check(const lam_texture_map *map, const char *name, lam_error *
     return sum == 0 || fail(error, LAM_BAD_ARGUMENT, "%s: a number of the map is not finite", name);
 }
 
+struct texture_sampler texture_map_sampler(const lam_texture_map *map)
+{
+    return (struct texture_sampler){map->magnify, map->minify, map->mip, 1};
+}
+
 bool texture_map_same_taps(const lam_texture_map *a, const lam_texture_map *b)
 {
     const struct texture_level *at = &a->texture->levels[0], *bt = &b->texture->levels[0];

@@ -26,10 +26,22 @@ struct texture_points {
     const float *s, *t, *ds_dx, *dt_dx, *ds_dy, *dt_dy;
 };
 
+// How a map's texels are filtered: the filters of the map, or those that the frame's settings select instead.
+struct texture_sampler {
+    lam_filter magnify, minify;
+    lam_mip mip;
+    int probes; // the maximum number of probes along the longer axis of a footprint, 1..16
+};
+
+// The filters of the map itself, with one probe.
+struct texture_sampler texture_map_sampler(const lam_texture_map *map);
+
 // The texels that points use (texture_taps.h): four of a level, and four of the next level if its weight is not 0.
 enum { TAPS_ROW = 528 }; // the maximum number of points at a time
 
 struct texture_taps {
+    // How many probes cover each point's footprint: r (docs/textures.md). Above 1, the other rows do not apply.
+    float probes[TAPS_ROW];
     int32_t level[TAPS_ROW];
     float next[TAPS_ROW]; // the weight of the next level
     struct tap_rows {
@@ -42,13 +54,8 @@ struct texture_taps {
 // Returns whether two maps use the same positions in textures of the same size.
 bool texture_map_same_taps(const lam_texture_map *a, const lam_texture_map *b);
 
-// Fetches the filtered texels of points into four rows: the map's values before scale and offset.
+// Fetches the filtered texels of points with one probe into four rows: the map's values before scale and offset.
 void texture_fetch(const struct lam_texture *texture, const struct texture_taps *taps, int count, float *const out[4]);
-
-// Like texture_fetch, but filters the footprint of each point with up to `anisotropy` > 1 probes along its longer axis.
-// `level` receives the level of detail of each point.
-void texture_map_anisotropic(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
-                             float *const out[4], float *level);
 
 // Returns the texel of a map at a point, using only level 0.
 texel texture_map_base(const lam_texture_map *map, float s, float t);

@@ -7,7 +7,7 @@
 
 #include "float_state.h"
 
-enum { PROBES_MAX = 16, AHEAD = 24 };
+enum { AHEAD = 24 };
 
 // --- fetching
 
@@ -54,6 +54,27 @@ static inline __attribute__((always_inline)) void prefetch_tap(const struct lam_
     __builtin_prefetch(at + down * step + last);
 }
 
+// --- one point
+
+static texel fetch_one(const struct lam_texture *texture, int level, const struct tap_lanes *tap)
+{
+    return fetch_tap(texture, texture->channels, level, tap->first, tap->across, tap->down, tap->right, tap->lower);
+}
+
+// Returns the filtered texel at a level of detail.
+static texel at_level(const lam_texture_map *map, const struct texture_sampler *sampler, float s, float t, float detail)
+{
+    struct taps_lanes taps = taps_of(map, sampler, s, t, detail);
+    texel value = fetch_one(map->texture, taps.level, &taps.at[0]);
+    if (taps.next != 0)
+        value = mix(value, fetch_one(map->texture, taps.level + 1, &taps.at[1]), taps.next);
+    if (map->texture->channels == 3)
+        value[3] = 1;
+    return value;
+}
+
+// --- many points
+
 static inline __attribute__((always_inline)) void fetch_rows(const struct lam_texture *texture, int channels,
                                                              const struct texture_taps *taps, int count,
                                                              float *const out[4])
@@ -66,6 +87,8 @@ static inline __attribute__((always_inline)) void fetch_rows(const struct lam_te
             if (taps->next[later] != 0)
                 prefetch_tap(texture, channels, taps->level[later] + 1, two->first[later], two->down[later]);
         }
+        if (taps->probes[i] > 1.0f)
+            continue;
         texel value = fetch_tap(texture, channels, level, one->first[i], one->across[i], one->down[i], one->right[i],
                                 one->lower[i]);
         if (taps->next[i] != 0)
@@ -88,69 +111,12 @@ void texture_fetch(const struct lam_texture *texture, const struct texture_taps 
         fetch_rows(texture, 4, taps, count, out);
 }
 
-// --- one point
-
-static texel fetch_one(const struct lam_texture *texture, int level, const struct tap_lanes *tap)
-{
-    return fetch_tap(texture, texture->channels, level, tap->first, tap->across, tap->down, tap->right, tap->lower);
-}
-
-// Returns the filtered texel at a level of detail.
-static texel at_level(const lam_texture_map *map, float s, float t, float detail)
-{
-    struct taps_lanes taps = taps_of(map, s, t, detail);
-    texel value = fetch_one(map->texture, taps.level, &taps.at[0]);
-    if (taps.next != 0)
-        value = mix(value, fetch_one(map->texture, taps.level + 1, &taps.at[1]), taps.next);
-    if (map->texture->channels == 3)
-        value[3] = 1;
-    return value;
-}
-
-// Returns the mean of several probes along the longer axis of a minified footprint (docs/textures.md).
-static texel along_axis(const lam_texture_map *map, const struct texture_matrix *matrix,
-                        const struct texture_points *points, int i, const struct footprints *f, int most, float *level)
-{
-    const struct texture_level *l = &map->texture->levels[0];
-    const float(*m)[3] = matrix->m;
-    float x[2] = {row_of(m[0], points->ds_dx[i], points->dt_dx[i]), row_of(m[1], points->ds_dx[i], points->dt_dx[i])};
-    float y[2] = {row_of(m[0], points->ds_dy[i], points->dt_dy[i]), row_of(m[1], points->ds_dy[i], points->dt_dy[i])};
-    float longer = square_root(f->longer), shorter = square_root(f->shorter);
-    float ratio = shorter > 0 ? longer / shorter : (float)most;
-    int probes = ratio >= (float)most ? most : -floor_of(-ratio);
-    probes = probes < 1 ? 1 : probes;
-    float xs = x[0] * (float)l->width, xt = x[1] * (float)l->height, ys = y[0] * (float)l->width,
-          yt = y[1] * (float)l->height;
-    const float *axis = xs * xs + xt * xt >= ys * ys + yt * yt ? x : y;
-    *level = log2_of(max_of(longer / (float)probes, 1.0e-30f));
-    texel sum = {0, 0, 0, 0};
-    for (int k = 0; k < probes; k++) {
-        float along = ((float)k + 0.5f) / (float)probes - 0.5f;
-        sum += at_level(map, f->s + axis[0] * along, f->t + axis[1] * along, *level);
-    }
-    return sum * (1.0f / (float)probes);
-}
-
-void texture_map_anisotropic(const lam_texture_map *map, const struct texture_points *points, int count, int anisotropy,
-                             float *const out[4], float *level)
-{
-    const struct texture_matrix matrix = texture_matrix_of(map);
-    int most = anisotropy < PROBES_MAX ? anisotropy : PROBES_MAX;
-    for (int i = 0; i < count; i++) {
-        struct footprints f = footprints_of(map, &matrix, points, i);
-        level[i] = f.detail;
-        texel value =
-            f.detail > 0 ? along_axis(map, &matrix, points, i, &f, most, &level[i]) : at_level(map, f.s, f.t, f.detail);
-        for (int channel = 0; channel < 4; channel++)
-            out[channel][i] = value[channel];
-    }
-}
-
 static texel at_coordinates(const lam_texture_map *map, float s, float t, float level)
 {
     const struct texture_matrix matrix = texture_matrix_of(map);
     const float(*m)[3] = matrix.m;
-    return at_level(map, row_of(m[0], s, t) + m[0][2], row_of(m[1], s, t) + m[1][2], level);
+    const struct texture_sampler sampler = texture_map_sampler(map);
+    return at_level(map, &sampler, row_of(m[0], s, t) + m[0][2], row_of(m[1], s, t) + m[1][2], level);
 }
 
 texel texture_map_base(const lam_texture_map *map, float s, float t) { return at_coordinates(map, s, t, 0); }

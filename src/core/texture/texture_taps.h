@@ -88,17 +88,18 @@ LANE_FN inum side_at(int side, inum level)
 
 // Returns the texels and weights for texture coordinates (after the map's transform) and levels of detail (OpenGL 4.6,
 // section 8.14).
-LANE_FN struct taps_lanes taps_of(const lam_texture_map *map, num s, num t, num detail)
+LANE_FN struct taps_lanes taps_of(const lam_texture_map *map, const struct texture_sampler *by, num s, num t,
+                                  num detail)
 {
     const struct texture_level *base = &map->texture->levels[0];
     float top = (float)(map->texture->level_count - 1);
     mask minified = detail > 0.0f;
     num within = min_of(positive(detail), num_of(top)), lower = num_of(0.0f);
-    if (map->mip == LAM_MIP_LINEAR)
+    if (by->mip == LAM_MIP_LINEAR)
         lower = num_of_int(floor_of(within));
-    else if (map->mip == LAM_MIP_NEAREST) // ⌈detail + ½⌉ − 1
+    else if (by->mip == LAM_MIP_NEAREST) // ⌈detail + ½⌉ − 1
         lower = min_of(pick(minified, num_of_int(-floor_of(-(within + 0.5f))) - 1.0f, num_of(0.0f)), num_of(top));
-    num near_small = num_of(map->minify == LAM_FILTER_NEAREST), near_large = num_of(map->magnify == LAM_FILTER_NEAREST);
+    num near_small = num_of(by->minify == LAM_FILTER_NEAREST), near_large = num_of(by->magnify == LAM_FILTER_NEAREST);
     mask nearest = pick(minified, near_small, near_large) != 0.0f;
     struct taps_lanes taps = {.level = int_of(lower)};
     s = wrapped_of(s, map->wrap_s);
@@ -106,7 +107,7 @@ LANE_FN struct taps_lanes taps_of(const lam_texture_map *map, num s, num t, num 
     inum width = side_at(base->width, taps.level), height = side_at(base->height, taps.level);
     taps.at[0] = taps.at[1] = tap_of(map, s, t, width, height, nearest);
     taps.next = num_of(0.0f);
-    if (map->mip == LAM_MIP_LINEAR) {
+    if (by->mip == LAM_MIP_LINEAR) {
         taps.next = within - lower;
         inum next_width = imax_of(shift_right(width, 1), inum_of(1));
         taps.at[1] = tap_of(map, s, t, next_width, imax_of(shift_right(height, 1), inum_of(1)), nearest);
@@ -158,6 +159,20 @@ LANE_FN struct footprints footprints_of(const lam_texture_map *map, const struct
                                min_of(x_square, y_square), detail};
 }
 
+// Footprints of which the longer axis is at most 1 / SQUARE times the shorter one are filtered like squares.
+#define SQUARE 0.8f
+
+// Replaces the level of detail of long, minified footprints by that of their shorter axis, or of a part of the longer
+// axis if `most` probes of that size do not cover it. Returns how many probes cover the longer axis.
+LANE_FN num probes_of(struct footprints *f, int most)
+{
+    mask minified = f->longer > 1.0f;
+    num ratio = SQUARE * square_root(f->longer / max_of(f->shorter, num_of(1.0e-30f)));
+    ratio = pick(minified, max_of(min_of(ratio, num_of((float)most)), num_of(1.0f)), num_of(1.0f));
+    f->detail = pick(minified, f->detail - log2_of(ratio), f->detail);
+    return ratio;
+}
+
 LANE_FN void store_tap(struct tap_rows *rows, int i, struct tap_lanes tap)
 {
     inum_store(rows->first + i, tap.first);
@@ -167,18 +182,24 @@ LANE_FN void store_tap(struct tap_rows *rows, int i, struct tap_lanes tap)
     num_store(rows->lower + i, tap.lower);
 }
 
-// Fills the rows for `count` points, a multiple of LANES. `level` receives the level of detail of each point.
-LANE_FN void find_taps(const lam_texture_map *map, const struct texture_points *points, int count,
-                       struct texture_taps *taps, float *level)
+LANE_FN void store_taps(struct texture_taps *taps, int i, struct taps_lanes found)
+{
+    inum_store(taps->level + i, found.level);
+    num_store(taps->next + i, found.next);
+    store_tap(&taps->at[0], i, found.at[0]);
+    store_tap(&taps->at[1], i, found.at[1]);
+}
+
+// Fills the rows for `count` points, a multiple of LANES. `level` receives the level of detail of each point, or of each
+// of its probes.
+LANE_FN void find_taps(const lam_texture_map *map, const struct texture_sampler *sampler,
+                       const struct texture_points *points, int count, struct texture_taps *taps, float *level)
 {
     const struct texture_matrix matrix = texture_matrix_of(map);
     for (int i = 0; i < count; i += LANES) {
         struct footprints f = footprints_of(map, &matrix, points, i);
-        struct taps_lanes found = taps_of(map, f.s, f.t, f.detail);
-        inum_store(taps->level + i, found.level);
-        num_store(taps->next + i, found.next);
-        store_tap(&taps->at[0], i, found.at[0]);
-        store_tap(&taps->at[1], i, found.at[1]);
+        num_store(taps->probes + i, sampler->probes > 1 ? probes_of(&f, sampler->probes) : num_of(1.0f));
+        store_taps(taps, i, taps_of(map, sampler, f.s, f.t, f.detail));
         num_store(level + i, f.detail);
     }
 }

@@ -29,7 +29,6 @@ static void forget_lighting(struct glsl_choices *c, bool maps)
     bool masks = wanted.alpha[0] == LAM_ALPHA_MASK || wanted.alpha[1] == LAM_ALPHA_MASK;
     memcpy(c->alpha, wanted.alpha, sizeof c->alpha);
     memcpy(c->maps, wanted.maps, sizeof c->maps);
-    c->anisotropy = wanted.anisotropy;
     c->back_material = wanted.back_material;
     c->colors = masks && output_is_value(c->output) && wanted.colors;
 }

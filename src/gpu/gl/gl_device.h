@@ -96,7 +96,7 @@ struct gl_sampler {
     GLuint name; // 0 if not made
     int anisotropy;
 };
-enum { SAMPLER_COUNT = LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_FILTER_COUNT * LAM_MIP_COUNT };
+enum { SAMPLER_COUNT = 2 * LAM_WRAP_COUNT * LAM_WRAP_COUNT * LAM_FILTER_COUNT * LAM_FILTER_COUNT * LAM_MIP_COUNT };
 
 // The vertex colours of one draw after lighting, for LAM_STAGE_APPLICATION.
 struct gl_vertex_lighting {
@@ -223,7 +223,8 @@ struct gl_device {
     int mesh_count, mesh_capacity;
     struct gl_texture *textures;
     int texture_count, texture_capacity;
-    // With hardware_filter, one for each combination of wrapping and filtering, made on first use.
+    // With hardware_filter, one for each combination of wrapping and filtering, with one and with several
+    // probes, made on first use.
     struct gl_sampler samplers[SAMPLER_COUNT];
     GLfloat anisotropy_max;                     // maximum for samplers
     struct gl_vertex_lighting *vertex_lighting; // one for each draw

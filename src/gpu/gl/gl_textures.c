@@ -163,7 +163,7 @@ static bool upload(struct gl_frame *f, const struct lam_texture *texture, lam_er
 }
 
 // Returns the sampler of a map, with the anisotropy of the frame.
-static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
+static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map, struct texture_sampler by)
 {
     static const GLint wraps[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
     static const GLint magnifying[] = {GL_LINEAR, GL_NEAREST};
@@ -172,19 +172,20 @@ static GLuint sampler_of(struct gl_frame *f, const lam_texture_map *map)
                                          {GL_LINEAR, GL_NEAREST}};
     const struct gl *gl = f->gl;
     int number = (int)map->wrap_s * LAM_WRAP_COUNT + (int)map->wrap_t;
-    number = (number * LAM_FILTER_COUNT + (int)map->magnify) * LAM_FILTER_COUNT + (int)map->minify;
-    struct gl_sampler *sampler = &f->device->samplers[number * LAM_MIP_COUNT + (int)map->mip];
+    number = (number * LAM_FILTER_COUNT + (int)by.magnify) * LAM_FILTER_COUNT + (int)by.minify;
+    number = (number * LAM_MIP_COUNT + (int)by.mip) * 2 + (by.probes > 1);
+    struct gl_sampler *sampler = &f->device->samplers[number];
     if (!sampler->name) {
         gl->GenSamplers(1, &sampler->name);
         gl->SamplerParameteri(sampler->name, GL_TEXTURE_WRAP_S, wraps[map->wrap_s]);
         gl->SamplerParameteri(sampler->name, GL_TEXTURE_WRAP_T, wraps[map->wrap_t]);
-        gl->SamplerParameteri(sampler->name, GL_TEXTURE_MAG_FILTER, magnifying[map->magnify]);
-        gl->SamplerParameteri(sampler->name, GL_TEXTURE_MIN_FILTER, minifying[map->mip][map->minify]);
+        gl->SamplerParameteri(sampler->name, GL_TEXTURE_MAG_FILTER, magnifying[by.magnify]);
+        gl->SamplerParameteri(sampler->name, GL_TEXTURE_MIN_FILTER, minifying[by.mip][by.minify]);
         sampler->anisotropy = 1;
     }
     // Without linear filters, the positions of anisotropic samples differ between drivers.
-    bool linear = !map->magnify && !map->minify && !map->mip;
-    int anisotropy = linear && f->device->anisotropy_max > 1 ? f->frame->settings.anisotropy : 1;
+    bool linear = !by.magnify && !by.minify && !by.mip;
+    int anisotropy = linear && f->device->anisotropy_max > 1 ? by.probes : 1;
     if (sampler->anisotropy != anisotropy) {
         GLfloat most = f->device->anisotropy_max;
         gl->SamplerParameterf(sampler->name, GL_TEXTURE_MAX_ANISOTROPY,
@@ -212,10 +213,11 @@ void textures_use(struct gl_frame *f, const struct gl_program *program, const st
             enum texture_unit unit = (enum texture_unit)program->map_units[side][i];
             if (!unit)
                 continue;
-            const lam_texture_map *map = f->frame->materials[side ? range->back : range->front]->maps[i];
+            const lam_material *material = f->frame->materials[side ? range->back : range->front];
+            const lam_texture_map *map = material->maps[i];
             gl_use_texture(f->device, unit, GL_TEXTURE_2D, find(f, map->texture)->name);
             if (f->device->hardware_filter)
-                gl_use_sampler(f->device, unit, sampler_of(f, map));
+                gl_use_sampler(f->device, unit, sampler_of(f, map, frame_map_sampler(f->frame, material, map)));
         }
 }
 

@@ -102,8 +102,10 @@ static void put_maps(struct constant_table *t, const struct glsl_stage *f)
     constant_flag(t, "level_in_maps", glsl_maps_have(f, "level"));
     constant_flag(t, "opacity_map_last", f->maps_interpolated_light && !f->value_masks && glsl_maps_have(f, "opacity"));
     constant_flag(t, "exact_filter", !f->choices->hardware_filter);
-    constant_flag(t, "anisotropic", f->choices->anisotropy > 1);
-    constant_number(t, "PROBES_MAX", f->choices->anisotropy);
+    bool anisotropic = false;
+    for (int i = 0; i < 2 * LAM_MAP_COUNT; i++)
+        anisotropic |= f->choices->maps[i / LAM_MAP_COUNT][i % LAM_MAP_COUNT].probes > 1;
+    constant_flag(t, "anisotropic", anisotropic);
 }
 
 // Names of values at the point that is lit, which is the fragment's own point unless all samples share a point.

@@ -58,7 +58,8 @@ enum { GLSL_KINDS = 5, GLSL_FALLOFFS = 3, GLSL_GROUPS_MAX = GLSL_KINDS * GLSL_FA
 struct glsl_map {
     uint8_t used;
     uint8_t texels; // equal numbers mean that two maps of a range have the same texels everywhere
-    uint8_t texcoords, wrap_s, wrap_t, magnify, minify, mip, channel; // same as in lam_texture_map
+    uint8_t texcoords, wrap_s, wrap_t, channel; // same as in lam_texture_map
+    uint8_t magnify, minify, mip, probes;       // same as in texture_sampler
 };
 
 // The choices that determine a shader's source. Before memcmp can compare two structs, both must be zeroed before their
@@ -99,7 +100,6 @@ struct glsl_choices {
     bool tangents;                  // attribute tangent; otherwise the shader computes a tangent if necessary
     bool converted[2];              // front, back: a metallic-roughness material with maps, lit by a classic model
     uint8_t alpha[2];               // front, back: lam_alpha_mode
-    uint8_t anisotropy;             // the maximum number of probes per texture lookup
     // If above 1, a fragment is one of several samples of a pixel, and is lit at the point that the CPU device lights for
     // all samples of the triangle in the pixel (texture.glsl). The vertices are the corners of the triangles, in order.
     // Not in 120, and only for the fragment stage.

@@ -63,15 +63,17 @@ static void choose_side(struct glsl_choices *c, const struct frame *frame, const
             texels++;
         if (texels == *seen_count)
             seen[(*seen_count)++] = map;
+        const struct texture_sampler sampler = frame_map_sampler(frame, material, map);
         c->maps[side][i] = (struct glsl_map){.used = 1,
                                              .texels = (uint8_t)texels,
                                              .texcoords = (uint8_t)map->texcoords,
                                              .wrap_s = (uint8_t)map->wrap_s,
                                              .wrap_t = (uint8_t)map->wrap_t,
-                                             .magnify = (uint8_t)map->magnify,
-                                             .minify = (uint8_t)map->minify,
-                                             .mip = (uint8_t)map->mip,
-                                             .channel = (uint8_t)map->channel};
+                                             .channel = (uint8_t)map->channel,
+                                             .magnify = (uint8_t)sampler.magnify,
+                                             .minify = (uint8_t)sampler.minify,
+                                             .mip = (uint8_t)sampler.mip,
+                                             .probes = (uint8_t)sampler.probes};
     }
 }
 
@@ -79,7 +81,6 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
 {
     const lam_texture_map *seen[2 * LAM_MAP_COUNT];
     int count = 0;
-    c->anisotropy = (uint8_t)frame->settings.anisotropy;
     for (int side = 0; side < 2; side++) {
         const lam_material *material = frame->materials[side ? range->back : range->front];
         bool masks = material->alpha_mode == LAM_ALPHA_MASK && frame->masked && range->translucent;
@@ -95,11 +96,10 @@ void glsl_choose_maps(struct glsl_choices *c, const struct frame *frame, const s
 void glsl_use_hardware_filter(struct glsl_choices *c)
 {
     c->hardware_filter = true;
-    c->anisotropy = 1;
     for (int side = 0; side < 2; side++)
         for (int i = 0; i < LAM_MAP_COUNT; i++) {
             struct glsl_map *map = &c->maps[side][i];
-            map->wrap_s = map->wrap_t = map->magnify = map->minify = map->mip = 0;
+            map->wrap_s = map->wrap_t = map->magnify = map->minify = map->mip = map->probes = 0;
         }
 }
 
@@ -336,8 +336,8 @@ static void write_sampling(char out[WORD_MAX], const struct glsl_map *map)
     static const char *const wraps[] = {"WRAP_REPEAT", "WRAP_CLAMP", "WRAP_MIRROR"};
     static const char *const filters[] = {"FILTER_LINEAR", "FILTER_NEAREST"};
     static const char *const mips[] = {"MIP_LINEAR", "MIP_NEAREST", "MIP_NONE"};
-    snprintf(out, WORD_MAX, "%s,\n        sampling(%s, %s, %s, %s, %s)", footprint_word(map), wraps[map->wrap_s],
-             wraps[map->wrap_t], filters[map->magnify], filters[map->minify], mips[map->mip]);
+    snprintf(out, WORD_MAX, "%s,\n        sampling(%s, %s, %s, %s, %s, %d)", footprint_word(map), wraps[map->wrap_s],
+             wraps[map->wrap_t], filters[map->magnify], filters[map->minify], mips[map->mip], map->probes);
 }
 
 static void add_map(struct words *w, lam_map map)
@@ -354,8 +354,8 @@ static void add_map(struct words *w, lam_map map)
     add_word(w, name, "_rgb", "%s_texel.rgb %s", owner, factor);
     add_word(w, name, "_alpha", "%s_texel.a %s", owner, factor);
     add_word(w, name, "_number", "%s_texel.%c %s", owner, "rgba"[of->channel], factor);
-    add_word(w, name, "_level", "map_level(%s%s_map, %s%s_map_s, %s%s_map_t, %s)", p, owner, p, name, p, name,
-             footprint_word(of));
+    add_word(w, name, "_level", "map_level(%s%s_map, %s%s_map_s, %s%s_map_t, %s, %d)", p, owner, p, name, p, name,
+             footprint_word(of), of->probes);
 }
 
 static void add_bump(struct words *w)

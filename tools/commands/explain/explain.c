@@ -99,7 +99,7 @@ static bool make_request(const struct job *job, const lam_explanation *e, bool s
     struct json json = {.file = file};
     if (!file)
         return complain(error, LAM_MACHINE, "out of memory");
-    json_put(&json, OBJECT(NULL, FLAG("svg", svg), FLAG("beam", job->options->captions.figure == FIGURE_BEAM),
+    json_put(&json, OBJECT(NULL, FLAG("svg", svg), NUMBER("figure", job->options->captions.figure),
                            NUMBER("fovy_rad", job->camera.fovy_rad),
                            NUMBER("ortho_half_height", job->camera.ortho_half_height), NUMBER("fx", job->camera.fx),
                            NUMBER("fy", job->camera.fy), NUMBER("cx", job->camera.cx), NUMBER("cy", job->camera.cy)));

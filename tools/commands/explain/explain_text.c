@@ -423,7 +423,13 @@ static void print_map(const lam_explained_map *m)
     printf("%13.7g %13.7g   of the mesh\n", (double)m->s, (double)m->t);
     row_label(4, "place");
     printf("%13.7g %13.7g   texels from the upper left corner\n", (double)m->column, (double)m->row);
-    snprintf(text, sizeof text, "%s", m->level > 0 ? "texels of level 0 that a pixel spans: 2^level" : "magnified");
+    row_label(4, "footprint");
+    printf("%13.7g %13.7g   texels from this pixel to the next one on the right\n", (double)m->across[0],
+           (double)m->across[1]);
+    row_label(4, "");
+    printf("%13.7g %13.7g   and to the one below\n", (double)m->down[0], (double)m->down[1]);
+    row_number(4, "probes", m->probes, "lookups along the longer axis of the footprint");
+    snprintf(text, sizeof text, "%s", m->level > 0 ? "texels of level 0 that a probe spans: 2^level" : "magnified");
     row_number(4, "level of detail", (double)m->level, text);
     row_label(4, m->map == LAM_MAP_BUMP ? "heights" : "texel");
     printf("%13.7g %13.7g %13.7g %13.7g   %s\n", (double)m->texel.r, (double)m->texel.g, (double)m->texel.b,

@@ -54,6 +54,10 @@ WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto`
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the model is lit by the studio or by an environment"},
       {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
       {"on", LAM_SPECULAR_AA_ON, "the variance of the normals within each pixel increases the roughness"})
+WORDS(map_filter_words, {"file", LAM_MAP_FILTER_FILE, "the filters that the model file selects for each map"},
+      {"nearest", LAM_MAP_FILTER_NEAREST, "the nearest texel: blocks near the eye, noise in the distance"},
+      {"bilinear", LAM_MAP_FILTER_BILINEAR, "four texels, interpolated: smooth near the eye, noise in the distance"},
+      {"trilinear", LAM_MAP_FILTER_TRILINEAR, "four texels in each of two smaller copies of the picture (mipmaps)"})
 WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "on for model files lit by the built-in studio environment"},
       {"off", LAM_BRIGHTEN_OFF, "all models receive the same light"})
 WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
@@ -114,9 +118,11 @@ static const lam_setting rows[] = {
     {"ground_color", MEMBER(RGB, ground_color),
      .summary = "The colour of the ground, or of the bright squares of a checkerboard. Default: black, or 0.6 for a "
                 "checkerboard."},
-    {"anisotropy", MEMBER(WHOLE, anisotropy), .min = 1, .max = 16, .standard = 1, .expected = "0 to 16",
-     .summary = "The number of texture samples per pixel on slanted surfaces, 1 to 16; more samples make textures "
-                "sharper."},
+    {"anisotropy", MEMBER(WHOLE, anisotropy), .min = 1, .max = 16, .zero = true, .expected = "0 to 16",
+     .summary = "The largest number of texture samples per pixel on slanted surfaces, 1 to 16; more samples make "
+                "textures sharper. With 0, Lambent uses up to 8 for colours, normals and bumps."},
+    {"map_filter", MEMBER(WORD, map_filter), WORDS_OF(map_filter_words), .expected = "lam_map_filter",
+     .summary = "The filter of textures: file, nearest, bilinear or trilinear."},
     {"reference", MEMBER(WHOLE, reference), .min = 16, .max = 1 << 20, .zero = true,
      .expected = "0 or 16 to 1048576 directions",
      .summary = "The number of directions (16 to 1048576) for integrating the environment's light on physical "

@@ -53,7 +53,7 @@ footprint footprint_of(vec2 at)
 // How a value is computed from texels.
 STRUCT(sampling)
 {
-    int wrap_s, wrap_t, magnify, minify, mip;
+    int wrap_s, wrap_t, magnify, minify, mip, probes;
 };
 
 // The shader computes the filters itself, because graphics cards round the weights, mostly to 1/256.
@@ -120,21 +120,30 @@ void picture_axes(vec3 p, vec4 s, vec4 t, footprint f, out vec3 across, out vec3
     down = (py * dx.x - px * dy.x) * side;
 }
 
+if (anisotropic) {
+    // By how much a footprint is longer than a probe. Footprints of which the longer axis is at most 1.25 times the
+    // shorter one are filtered like squares.
+    float probes_of(float x, float y, int most)
+    {
+        float ratio = 0.8 * sqrt(max(x, y) / max(min(x, y), 1.0e-30));
+        return max(x, y) > 1.0 ? max(min(ratio, float(most)), 1.0) : 1.0;
+    }
+}
+
 // The level of detail of a map or, if there are several probes, of each probe.
-float map_level(sampler2D map, vec4 s, vec4 t, footprint f)
+float map_level(sampler2D map, vec4 s, vec4 t, footprint f, int most)
 {
     vec2 dx = vec2(s.x * f.dx.x + s.y * f.dx.y, t.x * f.dx.x + t.y * f.dx.y);
     vec2 dy = vec2(s.x * f.dy.x + s.y * f.dy.y, t.x * f.dy.x + t.y * f.dy.y);
     vec2 size = vec2(textureSize(map, 0));
-    float longer = max(dot(dx * size, dx * size), dot(dy * size, dy * size));
+    float x = dot(dx * size, dx * size);
+    float y = dot(dy * size, dy * size);
+    float longer = max(x, y);
+    float level = longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
     if (anisotropic) {
-        float shorter = min(dot(dx * size, dx * size), dot(dy * size, dy * size));
-        float ratio = shorter > 0.0 ? sqrt(longer) / sqrt(shorter) : float(PROBES_MAX);
-        if (longer > 1.0) {
-            return log2(sqrt(longer) / (ratio >= float(PROBES_MAX) ? float(PROBES_MAX) : max(ceil(ratio), 1.0)));
-        }
+        return most > 1 ? level - log2(probes_of(x, y, most)) : level;
     }
-    return longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
+    return level;
 }
 
 if (glsl_120) {
@@ -157,17 +166,18 @@ vec4 map_texel(sampler2D map, vec4 s, vec4 t, footprint f, sampling how)
             float longer = max(x, y);
             // Footprints of size zero or of unknown size are magnified.
             float detail = longer > 1.0e-30 ? 0.5 * log2(min(longer, 1.0e30)) : -50.0;
-            if (anisotropic && detail > 0.0) {
-                float shorter = min(x, y);
-                float ratio = shorter > 0.0 ? sqrt(longer) / sqrt(shorter) : float(PROBES_MAX);
-                int probes = ratio >= float(PROBES_MAX) ? PROBES_MAX : max(int(ceil(ratio)), 1);
-                vec2 axis = x >= y ? dx : dy;
-                detail = log2(sqrt(longer) / float(probes));
-                vec4 sum = vec4(0.0);
-                for (int i = 0; i < probes; i++) {
-                    sum += texel_at(map, at + axis * ((float(i) + 0.5) / float(probes) - 0.5), detail, how);
+            if (anisotropic) {
+                float ratio = how.probes > 1 ? probes_of(x, y, how.probes) : 1.0;
+                if (ratio > 1.0) {
+                    vec2 axis = x >= y ? dx : dy;
+                    vec4 sum = vec4(0.0);
+                    for (float i = 0.0; i < ratio; i += 1.0) {
+                        float cell = min(ratio - i, 1.0); // the last cell of the axis may be shorter
+                        vec2 place = at + axis * ((i + 0.5 * cell) / ratio - 0.5);
+                        sum += cell * texel_at(map, place, detail - log2(ratio), how);
+                    }
+                    return sum / ratio;
                 }
-                return sum * (1.0 / float(probes));
             }
             return texel_at(map, at, detail, how);
         } else {

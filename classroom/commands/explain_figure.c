@@ -703,7 +703,7 @@ static bool draw(const struct figure *f, const char *own_title, struct drawing *
         .unit = unit, .left = corner.x, .right = corner.x + left_width(f), .y = corner.y + f->height};
     const json_t *map = f->figure == FIGURE_FOOTPRINT ? element(member(s.fragment, "maps"), 0) : NULL;
     bool ok = draw_vectors(f, &s, corner, unit, d, error) &&
-              (map                                   ? draw_footprint(map, (struct point){(below.left + below.right) / 2, below.y}, unit, d, error)
+              (map ? draw_footprint(map, (struct point){(below.left + below.right) / 2, below.y}, unit, d, error)
                : f->figure == FIGURE_BEAM && s.light ? draw_law(&s, &below, d, error)
                                                      : draw_from_the_side(&s, &below, d, error));
     return ok && put_places(s.fragment, d, &at, error) && put_vectors(&s, d, &at, error) &&

@@ -333,7 +333,7 @@ typedef struct lam_draw_params {
     // slant. 0: 8 for colours, normals and bumps, unless the map chooses LAM_FILTER_NEAREST or LAM_MIP_NONE; 1 for other
     // maps. A pixel takes as many probes as its footprint needs (docs/textures.md).
     int anisotropy;
-    // Replaces the filters of all maps. lam_shader_uniform.map keeps those of the map.
+    // Replaces the filters of all maps. lam_shader_uniform.map keeps the filters of the map.
     lam_map_filter map_filter;
     lam_output output; // the content of the frame
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the index of the light in lam_draw_lights.

@@ -157,11 +157,11 @@ static const struct choice tone_words[] = {
     {"soft", LAM_TONE_SOFT, "light above 0.85 is compressed, for each channel"},
     {NULL, 0, NULL}};
 
-static const struct choice figure_words[] = {{"vectors", FIGURE_VECTORS, "the vectors from the side"},
-                                             {"beam", FIGURE_BEAM, "the area that a beam of the light covers"},
-                                             {"footprint", FIGURE_FOOTPRINT,
-                                              "the texels that the pixel covers, and the probes of the filter"},
-                                             {NULL, 0, NULL}};
+static const struct choice figure_words[] = {
+    {"vectors", FIGURE_VECTORS, "the vectors from the side"},
+    {"beam", FIGURE_BEAM, "the area that a beam of the light covers"},
+    {"footprint", FIGURE_FOOTPRINT, "the texels that the pixel covers, and the probes of the filter"},
+    {NULL, 0, NULL}};
 
 static const struct choice arrange_words[] = {{"row", 0, "side by side, all on one plane"},
                                               {"grid", 1, "in rows and columns"},

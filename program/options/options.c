@@ -586,5 +586,12 @@ int options_parse(int count, char **words, uint64_t groups, struct options *opti
             return -1;
         }
     }
+    if (options->picture.output && strstr(options->picture.output, "://")) {
+        complain(error, LAM_BAD_ARGUMENT,
+                 "option '--output': found the address '%.200s', expected a file; lambent-catalogue (package "
+                 "python3-lambent) writes into object stores",
+                 options->picture.output);
+        return -1;
+    }
     return groups & 1ull << GROUP_ANIMATION && !move(options, error) ? -1 : operands;
 }

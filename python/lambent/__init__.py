@@ -10,12 +10,13 @@ from ._core import (BadModel, BadValue, CannotRead, CannotWrite, Cancelled, Erro
 from ._fields import Camera, Light, Material, views
 from ._mesh import Mesh
 from ._native import lib as _lib
+from ._object import Object, Picked
 from ._motion import Frames, turntable
 from ._picture import Picture
 from ._scene import Scene, load, render
 
 __version__ = text_of(_lib.lam_version())
-__all__ = ["render", "load", "turntable", "views", "Scene", "Mesh", "Material", "Light", "Camera", "Picture", "Frames", "Error", "BadValue", "CannotRead", "FileNotFound", "BadModel",
+__all__ = ["render", "load", "turntable", "views", "Scene", "Object", "Picked", "Mesh", "Material", "Light", "Camera", "Picture", "Frames", "Error", "BadValue", "CannotRead", "FileNotFound", "BadModel",
            "Unsupported", "LimitReached", "OutOfMemory", "TimeLimit", "CannotWrite", "Cancelled"]
 for _name in __all__:  # so that error messages and help show the public names of the classes
     getattr(__import__(__name__), _name).__module__ = __name__

@@ -2,6 +2,7 @@
 import contextlib
 import os
 import queue
+import re
 import threading
 import time
 
@@ -111,9 +112,15 @@ def every(function, *args):
         index += 1
 
 
+def in_words_of_python(sentence):
+    """A sentence of the library with the keywords of Python: memory_limit in place of memory_limit_bytes."""
+    sentence = re.sub(r"^(cpu|lam_\w+): ", "", sentence)
+    return re.sub(r"\b(?:lam_control\.)?(memory_limit|time_limit)_(?:bytes|s)\b", r"\1", sentence)
+
+
 def exception(error, path=None):
     """The exception for a lam_error."""
-    sentence, kind = text_of(error.text), CLASSES.get(error.code, Error)
+    sentence, kind = in_words_of_python(text_of(error.text)), CLASSES.get(error.code, Error)
     if kind is BadModel and path and path != "-" and not os.path.exists(path):
         kind = FileNotFound
     if kind is LimitReached:

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from ._core import BadValue, call, every, shown, text_bytes, text_of
+from ._core import BadValue, Unsupported, call, every, shown, text_bytes, text_of
 from ._members import MEMBERS
 from ._native import ffi, lib
 
@@ -90,6 +90,27 @@ class Field:
         return all(number == standard for number, standard in zip(numbers, ffi.new("float[4]", list(row.standard))))
 
 
+def restored(cls, data, values, texts, pictures, size):
+    """The Material, Light or Camera of a pickle."""
+    made = cls()
+    ffi.buffer(made.struct)[:] = data
+    for key in ("name", "object"):
+        if hasattr(made.struct, key):
+            setattr(made.struct, key, ffi.NULL)
+    for key, text in texts.items():
+        made.kept.append(ffi.new("char[]", text.encode()))
+        setattr(made.struct, key, made.kept[-1])
+    if cls is Material:
+        made.struct.maps = [ffi.NULL] * len(made.struct.maps)
+        for number, (name, image) in pictures.items():
+            made.set_map(name, image)
+    if cls is not Material:
+        made.values = values
+    if size is not None:
+        made.size = size
+    return made
+
+
 def fields_of(table):
     """The attributes for a table of fields."""
     rows = {}
@@ -102,7 +123,7 @@ class Described:
     """A struct of the library. `help` of the class lists its attributes with meaning, range, unit and default."""
 
     def __setattr__(self, name, value):
-        if not hasattr(type(self), name) and name not in ("struct", "values", "kept", "size"):
+        if not hasattr(type(self), name) and name not in ("struct", "values", "kept", "size", "pictures"):
             raise AttributeError("%s has no attribute %r; it has %s" % (type(self).__name__, name, ", ".join(self._keys())))
         super().__setattr__(name, value)
 
@@ -110,6 +131,23 @@ class Described:
     def _keys(cls):
         """The names of the attributes."""
         return [key for key in dir(cls) if isinstance(getattr(cls, key), (Field, Part))]
+
+    def __copy__(self):
+        made = type(self)()
+        made.__dict__.update({name: list(item) if name == "kept" else dict(item) if name == "pictures" else item for name, item in self.__dict__.items()})
+        made.struct = ffi.new(ffi.typeof(self.struct), self.struct[0])
+        return made
+
+    def __deepcopy__(self, memo):
+        return self.__copy__()  # pictures never change, so copies share them
+
+    def __reduce__(self):
+        """Pickles contain the bytes of the struct, its names and its pictures."""
+        texts = {key: text_of(getattr(self.struct, key)) for key in ("name", "object") if hasattr(self.struct, key) and getattr(self.struct, key) != ffi.NULL}
+        pictures = getattr(self, "pictures", {})
+        if isinstance(self, Material) and any(map_ != ffi.NULL and number not in pictures for number, map_ in enumerate(self.struct.maps)):
+            raise Unsupported("the pictures of this material belong to its scene, so only the scene can be pickled")
+        return restored, (type(self), bytes(ffi.buffer(self.struct)), self.values if hasattr(self, "values") else None, texts, pictures, getattr(self, "size", None))
 
     def __repr__(self):
         values = {}
@@ -130,7 +168,7 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
     specular_color, ka, kd, ks and kr."""
 
     def __init__(self, words="", **fields):
-        self.kept = []
+        self.kept, self.pictures = [], {}
         self.struct = ffi.new("lam_material *", words if isinstance(words, ffi.CData) else lib.lam_material_default())
         for key in set(fields).difference(every(lib.lam_material_key)):
             setattr(self, key, fields[key]) # raises AttributeError
@@ -156,8 +194,10 @@ class Material(type("Fields", (Described,), fields_of(lib.lam_material_field))):
         picture = ffi.new("lam_image *", {"width": pixels.shape[1], "height": pixels.shape[0], "pixels": ffi.from_buffer(pixels),
                                           "format": lib.LAM_RGBA8 if pixels.shape[2] == 4 else lib.LAM_RGB8})
         texture = ffi.gc(call(lib.lam_texture_make, picture, 0 if colors else 1, ffi.NULL), lib.lam_texture_free)
-        self.struct.maps[number] = ffi.new("lam_texture_map *", {"texture": texture, "transform": [[1, 0, 0], [0, -1, 1]]})
-        self.kept += [texture, self.struct.maps[number]]
+        made = ffi.new("lam_texture_map *", {"texture": texture, "transform": [[1, 0, 0], [0, -1, 1]]})
+        self.struct.maps[number] = made  # the pointer does not keep the map alive
+        self.kept += [texture, made]
+        self.pictures[number] = name, pixels
 
     def _store(self, row, key, value):
         call(lib.lam_material_parse, text_bytes(key, "%s=%s" % (key, written(value))), lib.LAM_COLOR_SRGB, self.struct)

@@ -50,6 +50,8 @@ class Member:
         low, high = RANGES.get(self.name, (-math.inf, math.inf))
         if isinstance(value, (int, float)) and self.type == "float" and not low < value < high:
             raise BadValue("%s: found %s, expected a number %s" % (self.name, shown(value), range_in_words(low, high)))
+        if self.name == "crease_angle" and isinstance(value, (int, float)) and not 0 <= value <= 180:
+            raise BadValue("crease_angle: found %s, expected a number from 0 to 180" % shown(value))
         try:
             if self.type in ("str", "Sequence[str]"):
                 texts = [ffi.new("char[]", path_bytes(str(text))) for text in ([value] if self.type == "str" else value)]
@@ -59,7 +61,7 @@ class Member:
             number = float(value) if self.type == "float" else value
             return math.radians(number) if self.member.endswith("_rad") else ffi.new(self.kind.cname + " *", number)[0]
         except (TypeError, ValueError, OverflowError):
-            raise BadValue("%s: found %s, expected %s" % (self.name, shown(value), {"bool": "True or False", "int": "a whole number"}.get(self.type, "a " + self.type))) from None
+            raise BadValue("%s: found %s, expected %s" % (self.name, shown(value), {"bool": "True or False", "int": "a whole number", "float": "a number"}.get(self.type, "a " + self.type))) from None
 
 
 class Setting:

@@ -1,5 +1,7 @@
 """_scene.py: scenes, and the call that turns a model into a picture."""
 import base64
+import copy
+import functools
 import html
 import json
 import math
@@ -13,6 +15,7 @@ from ._core import Access, BadModel, BadValue, OutOfMemory, Unsupported, call, e
 from ._fields import Camera, Light, Material, as_material, choose, color, words_of, written
 from ._mesh import meshes_of
 from ._native import ffi, lib
+from ._object import Object, Picked
 from ._options import CHANGES, KEYWORDS, OTHERS, STRUCTS, Options, describe_keywords
 from ._picture import Picture
 
@@ -53,6 +56,34 @@ def angle_of(what, degrees):
     return found
 
 
+def step(method):
+    """Records the calls of a method that changes a scene, so that a copy of the scene can repeat them."""
+    @functools.wraps(method)
+    def recorded(self, *args, **options):
+        outer, kept = self._steps, None
+        if outer is not None:
+            kept = copy.deepcopy((args, {name: value for name, value in options.items() if not name.startswith("_")}))
+        self._steps = None  # the methods that this one calls are part of it
+        try:
+            result = method(self, *args, **options)
+        finally:
+            self._steps = outer
+        if outer is not None:
+            outer.append((method.__name__, *kept))
+        return result
+    return recorded
+
+
+def repeated(steps):
+    """A scene that was made by these calls."""
+    scene = Scene()
+    for name, args, options in steps:
+        scene = load(*args, **options) if name == "load" else scene
+        if name != "load":
+            getattr(scene, name)(*args, **options)
+    return scene
+
+
 class Scene:
     """Meshes, materials, objects and lights together; `Scene()` is empty, and `lambent.load(path)` reads a file.
 
@@ -61,7 +92,16 @@ class Scene:
     def __init__(self, _handle=None):
         self._handle = ffi.gc(_handle or call(lib.lam_scene_make), lib.lam_scene_free)
         self._access, self._path = Access(), None
+        self._steps, self._order = [], 0  # the calls that made the scene; how often its objects were renumbered
 
+    def __reduce__(self):
+        return repeated, (self._steps,)
+
+    def __repr__(self):
+        file = ", %r" % os.path.basename(self._path) if self._path else ""
+        return "Scene(%d objects, %d triangles%s)" % (lib.lam_scene_object_count(self._handle), self.triangles, file)
+
+    @step
     def add(self, model: "Model", material: "Material | str | None" = None, transform: "Array | None" = None, name: "str | None" = None) -> "Scene":
         """Adds an object: a Mesh or an object of meshio, trimesh …, arrays (vertices, faces), the name of a built-in shape, or the path of a model file,
         whose objects keep their materials and names; the first file also sets the up axis. `transform` is a 4×4 matrix for column vectors. Returns the scene."""
@@ -103,6 +143,7 @@ class Scene:
         made.kept.append(self._handle)
         return made
 
+    @step
     def set_material(self, material: "Material | str", index: "int | None" = None, _mode=lib.LAM_COLOR_SRGB) -> None:
         """Replaces the material with this number. None means all materials, and the default material of surfaces without one; a string such as
         "shininess=9" changes them."""
@@ -123,6 +164,10 @@ class Scene:
 
     @lights.setter
     def lights(self, lights: "Light | str | Sequence[Light | str]"):
+        self._set_lights(lights)
+
+    @step
+    def _set_lights(self, lights):
         self._light(lights)
 
     def _light(self, lights, camera=ffi.NULL, mode=lib.LAM_COLOR_SRGB):
@@ -140,6 +185,10 @@ class Scene:
 
     @ambient.setter
     def ambient(self, value: "Color"):
+        self._set_ambient(value)
+
+    @step
+    def _set_ambient(self, value):
         lib.lam_scene_set_ambient(self._handle, color("ambient", value)[:3])
 
     @property
@@ -149,12 +198,18 @@ class Scene:
 
     @up.setter
     def up(self, value: str):
+        self._set_up(value)
+
+    @step
+    def _set_up(self, value):
         lib.lam_scene_set_up(self._handle, choose("up", words_of("lam_up"), value))
 
+    @step
     def set_environment(self, name: str, rotation: float = 0.0, _control=ffi.NULL, _mode=lib.LAM_COLOR_SRGB) -> None:
         """Lights the scene with a built-in environment ("studio", "soft", "outdoor", "night", "cyclorama", "sky") or with a picture (2:1 or a cross), turned by degrees about the up axis."""
         self._surround(lib.lam_scene_set_environment, name, rotation, _control, _mode)
 
+    @step
     def set_reflection_map(self, name: str, rotation: float = 0.0, _control=ffi.NULL, _mode=lib.LAM_COLOR_SRGB) -> None:
         """Sets an environment that classic materials only reflect, by their reflectivity; it replaces the one of set_environment."""
         self._surround(lib.lam_scene_set_reflection_map, name, rotation, _control, _mode)
@@ -170,6 +225,7 @@ class Scene:
         finally:
             lib.lam_environment_free(made)
 
+    @step
     def set_sections(self, *sections: str, _mode=lib.LAM_COLOR_SRGB) -> "list[float]":
         """Cuts the scene by planes such as "x=0" and "z=40%,color=orange", in place of earlier ones; without planes, the scene is whole again. Returns the
         area of each cut surface."""
@@ -179,16 +235,19 @@ class Scene:
         call(lib.lam_scene_set_sections, self._handle, made, len(sections), ffi.NULL)
         return [lib.lam_scene_section_area(self._handle, index) for index in range(len(sections))]
 
+    @step
     def hide(self, *names: str) -> "Scene":
         """Hides the objects, parts and materials with these names. Returns the scene."""
         return self._show(names, True)
 
+    @step
     def only(self, *names: str) -> "Scene":
         """Hides all but the objects, parts and materials with these names. Returns the scene."""
         return self._show(names, False)
 
     def _show(self, names, hides):
         call(lib.lam_scene_split_parts, self._handle)
+        self._order += 1
         known, found = {}, set()
         for index in range(lib.lam_scene_object_count(self._handle)):
             item = lib.lam_scene_object(self._handle, index)
@@ -207,6 +266,7 @@ class Scene:
                 call(lib.lam_scene_hide_object, self._handle, index, True)
         return self
 
+    @step
     def rotate(self, axis: str, degrees: float) -> "Scene":
         """Turns all objects about an axis ("x", "y" or "z") through the centre of the scene's sphere. Returns the scene."""
         return self._rotate(self._sphere(), axis, degrees)
@@ -219,6 +279,39 @@ class Scene:
         centre, radius = ffi.new("lam_vec3 *"), ffi.new("double *")
         lib.lam_scene_sphere(self._handle, -1, centre, radius)
         return centre[0]
+
+    @property
+    def objects(self) -> "list[Object]":
+        """The objects: their names, meshes, places and materials, which you can change."""
+        return [Object(self, index) for index in range(lib.lam_scene_object_count(self._handle))]
+
+    @step
+    def _change_object(self, index, key, value):
+        item = ffi.new("lam_object *", lib.lam_scene_object(self._handle, index)[0])
+        label = ffi.new("char[]", value.encode()) if key == "name" else None
+        if key == "transform":
+            item.transform.m = value
+        else:
+            setattr(item, key, label if key == "name" else value)
+        with self._access.alone():
+            call(lib.lam_scene_set_object, self._handle, index, item)
+
+    @step
+    def _remove_object(self, index):
+        with self._access.alone():
+            call(lib.lam_scene_remove_object, self._handle, index)
+        self._order += 1
+
+    def pick(self, x: int, y: int, size: "int | tuple[int, int]" = 1024, **options) -> "Picked | None":
+        """The surface under pixel x, y of the picture that `render(size, …)` draws, with the keywords of `render` that place the camera. None: the
+        background."""
+        chosen, (width, height) = Options(options, STRUCTS, OTHERS), pair_of(size)
+        settings, params = settings_of(self, chosen)
+        found = ffi.new("lam_picked *")
+        camera = camera_of(self, chosen, settings, params, (width, height))
+        with self._access.shared():
+            call(lib.lam_pick, self._handle, camera, params, ffi.new("lam_pick_pixel *", {"width": width, "height": height, "x": x, "y": y}), chosen.control, found)
+        return None if found.object < 0 else Picked(self, found)
 
     def save(self, path: "str | os.PathLike[str]") -> "tuple[str, ...]":
         """Writes the scene as a model file, in the format of the extension: glb, obj, stl, ply or 3mf. An OBJ file comes with its materials and textures.
@@ -295,6 +388,13 @@ def changed(old, material, mode):
     return made
 
 
+def unrecorded():
+    """A scene that does not record the calls that change it."""
+    scene = Scene()
+    scene._steps = None
+    return scene
+
+
 def load_scene(model, options, name, task, once=False):
     """Returns a Scene for any kind of model."""
     path = os.fspath(model) if isinstance(model, (str, os.PathLike)) else None
@@ -305,7 +405,7 @@ def load_scene(model, options, name, task, once=False):
     params.polygon_edges |= bool(options.get("wireframe") or options.get("edges"))
     params.normals_when_drawn = once and not tangents_of(options.filled("lam_draw_params"))
     if path is not None and lib.lam_shape_find(path_bytes(path)) >= 0:
-        scene = Scene().add(path)
+        scene = unrecorded().add(path)
     elif path is not None:
         scene = Scene(call(lib.lam_scene_load, path_bytes(path), params, task.control, path=path))
         scene._path = path
@@ -313,7 +413,7 @@ def load_scene(model, options, name, task, once=False):
         data = ffi.from_buffer(model)
         scene = Scene(call(lib.lam_scene_load_memory, data, len(data), path_bytes(name) if name is not None else ffi.NULL, params, task.control))
     else:
-        scene = Scene().add(model)
+        scene = unrecorded().add(model)
     if scene._path is None and not isinstance(model, (bytes, bytearray, memoryview)): # the loader has already done this for files
         lib.lam_scene_set_up(scene._handle, options.load.up)
         if "normals" in options or "crease_angle" in options:
@@ -493,7 +593,10 @@ def load(model, *, name=None, progress=None, **options):
     Keyword arguments:
 """
     chosen = Options(options, {"lam_load_params", "lam_control"})
-    return run(lambda task: load_scene(model, chosen, name, task), chosen.control, progress)
+    scene = run(lambda task: load_scene(model, chosen, name, task), chosen.control, progress)
+    kept = os.path.abspath(model) if scene._path else copy.deepcopy(bytes(model) if isinstance(model, (bytearray, memoryview)) else model)
+    scene._steps = [("load", (kept,), {"name": name, **options})]
+    return scene
 
 
 def render(model, size=None, *, name=None, progress=None, **options):

@@ -55,12 +55,16 @@ def of_class(cls):
         elif name == "render":
             yield "    def render(self, size: int | tuple[int, int] | None = None, *, progress: Progress = None%s) -> Picture: ..." % keywords(
                 (_options.OTHERS,), _options.STRUCTS)
+        elif name == "pick":
+            yield "    def pick(self, x: int, y: int, size: int | tuple[int, int] = 1024, *%s) -> Picked | None: ..." % keywords((_options.OTHERS,), _options.STRUCTS)
         elif inspect.isfunction(item) and (item.__annotations__ if name == "__init__" else not name.startswith("_")):
             shown = [part for part in inspect.signature(item).parameters.values() if not part.name.startswith("_")]
             text = ", ".join(part.name if part.annotation is part.empty and part.kind != part.KEYWORD_ONLY else "%s%s: %s%s" % (
                 "*, " if part.kind == part.KEYWORD_ONLY and shown[at - 1].kind != part.KEYWORD_ONLY else "", part.name, type_text(part.annotation),
                 "" if part.default is part.empty else " = " + repr(part.default)) for at, part in enumerate(shown))
             yield "    def %s(%s) -> %s: ..." % (name, text, type_text(item.__annotations__.get("return", "None")))
+    if cls is lambent.Picked:
+        yield "    object: Object\n    triangle: int\n    position: tuple[float, float, float]\n    distance: float\n    back: bool"
     if cls is lambent.Picture:
         yield "    raw: bool\n    camera: Camera | None\n    warnings: tuple[str, ...]"
     yield "    ..."

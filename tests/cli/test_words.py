@@ -291,6 +291,13 @@ class Meanings(Case):
         shutil.copy(self.folder / "cube.stl", self.folder / "in")
         self.good("in", "-s", 8, "-o", "out/")
         self.assertTrue((self.folder / "out" / "cube.png").exists())
+        self.good("batch", "cube.stl", "sphere", "-s", 8, "-o", "new")
+        self.assertEqual({path.name for path in (self.folder / "new").iterdir()}, {"cube.png", "sphere.png", "lambent.jsonl"})
+        (self.folder / "taken").write_text("kept")
+        self.bad(1, "batch", "cube.stl", "sphere", "-s", 8, "-o", "taken", says="'taken' is a file, expected a folder")
+        self.assertEqual((self.folder / "taken").read_text(), "kept")
+        for command in ((), ("batch",), ("compare",)):
+            self.bad(1, *command, "sphere", "-o", "s3://shop/{stem}.png", says="the address 's3://shop/{stem}.png', expected a file")
 
     @unittest.skipUnless(KNIGHT.exists(), "no models")
     def test_completion_of_names(self):

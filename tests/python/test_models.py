@@ -1,7 +1,11 @@
 """Scenes, meshes from arrays and from other packages' objects, materials, lights, and generated attributes."""
+import copy
+import functools
 import json
+import multiprocessing
 import os
 import pathlib
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -25,6 +29,10 @@ TRIANGLES = QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
 
 def thing(**members):
     return types.SimpleNamespace(**members)
+
+
+def hash_of(scene, camera):
+    return scene.render(48, camera=camera).hash
 
 
 class Meshes(unittest.TestCase):
@@ -117,6 +125,90 @@ class Scenes(unittest.TestCase):
         self.assertEqual(scene.materials[0].name, material.name)
         self.assertEqual(scene.lights[0].type, light.type)
         scene.render(32)
+
+    def test_pickles_and_copies(self):
+        """Cameras, lights, materials and scenes go through pickle and copy, and a pool of processes draws with them."""
+        checks = np.indices((8, 8)).sum(0)[..., None] % 2 * np.full(3, 255, np.uint8)
+        textured = lambent.Material("physical=yes,metallic=0", roughness=0.25)
+        textured.set_map("diffuse", checks.astype(np.uint8))
+        square = lambent.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]], texcoords=[[0, 0], [1, 0], [1, 1], [0, 1]], material=textured)
+        file = lambent.load("examples/models/spot.glb", crease_angle=30)
+        file.rotate("y", 30)
+        file.set_material("roughness=0.9")
+        built = lambent.Scene().add("teapot", "jade", name="pot").add(square, transform=np.diag([2, 2, 2, 1.0]))
+        built.lights = [lambent.Light("point", position=(2, 3, 4), name="lamp"), "hemisphere:sky=0.3,ground=0.1"]
+        built.up, built.ambient = "z", 0.1
+        built.hide("pot")
+        data = lambent.load(pathlib.Path("tests/models/cube.obj").read_bytes(), name="a.obj")
+        found = built.render(48)
+        cameras = [lambent.Camera(eye=(3, 2, 5), fovy=40), lambent.Camera(K=[[90, 0, 24], [0, 90, 24], [0, 0, 1]], pose=np.linalg.inv(np.array([[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 4], [0, 0, 0, 1]]))),
+                   found.camera]
+        for again in (lambda item: pickle.loads(pickle.dumps(item)), copy.copy, copy.deepcopy):
+            for scene in (file, built, data, again(file)):
+                self.assertEqual(again(scene).render(48).hash, scene.render(48).hash)
+            for camera in cameras:
+                self.assertEqual(file.render(48, camera=again(camera)).hash, file.render(48, camera=camera).hash)
+                self.assertEqual(repr(again(camera)), repr(camera))
+            for light in [*built.lights, lambent.Light("spot:position=2r/3r/1r,cutoff=20", color="orange")]:
+                other = again(light)
+                self.assertEqual(repr(other), repr(light))
+                setattr(other, "sky" if light.type == "hemisphere" else "diffuse", "red")
+                self.assertNotEqual(repr(other), repr(light))
+            other = again(textured)
+            other.roughness = 0.5
+            self.assertEqual((textured.roughness, other.roughness), (0.25, 0.5))
+            self.assertEqual(lambent.Scene().add(square, again(textured)).render(32).hash, lambent.Scene().add(square).render(32).hash)
+        square.vertices[:] = 0  # a scene does not change with the arrays that it was made from
+        self.assertEqual(pickle.loads(pickle.dumps(built)).render(48).hash, found.hash)
+        with self.assertRaises(lambent.Unsupported):
+            pickle.dumps(file.materials[0])
+        with multiprocessing.get_context("spawn").Pool(2) as pool:
+            pictures = pool.map(functools.partial(hash_of, file), cameras)
+        self.assertEqual(pictures, [hash_of(file, camera) for camera in cameras])
+
+    def test_objects_and_picking(self):
+        scene = lambent.load("examples/models/parts.obj")
+        self.assertRegex(repr(scene), r"^Scene\(\d objects, 48 triangles, 'parts.obj'\)$")
+        scene.only("knob")  # each part is an object now
+        scene = pickle.loads(pickle.dumps(scene))
+        by_name = {item.name: item for item in scene.objects}
+        self.assertEqual(len(by_name), 4)
+        self.assertEqual([name for name, item in by_name.items() if not item.hidden], ["knob"])
+        for item in by_name.values():
+            item.hidden = False
+        lid = by_name["knob"]
+        corners = lid.vertices[lid.faces].reshape(-1, 3)
+        self.assertEqual(lid.faces.shape, (12, 3))
+        before, size = scene.bounds, corners.max(0) - corners.min(0)
+        place = np.eye(4)
+        place[0, 3] = 10 * np.max(size)
+        lid.transform = place
+        self.assertEqual(lid.transform.tolist(), place.tolist())
+        self.assertAlmostEqual(scene.bounds[1][0], corners[:, 0].max() + place[0, 3], 4)
+        picked = scene.pick(32, 32, 64, camera=lambent.Camera(eye=tuple(corners.mean(0) + place[:3, 3] + [0, 0, 50 * np.max(size)]),
+                                                             target=tuple(corners.mean(0) + place[:3, 3]), fovy=2))
+        self.assertEqual(picked.object.name, "knob")
+        self.assertAlmostEqual(picked.position[2], corners[:, 2].max(), 3)
+        self.assertIn("'knob'", repr(picked))
+        self.assertIsNone(scene.pick(0, 0, 64))
+        lid.name = "cover"
+        scene.objects[1].material = None
+        by_name["knob"].remove()
+        self.assertEqual(len(scene.objects), 3)
+        self.assertEqual(scene.bounds[0][1:], before[0][1:])
+        with self.assertRaisesRegex(lambent.BadValue, "read scene.objects again"):
+            lid.hidden = True
+        for key, value, words in (("transform", [[1]], "1x1, expected 4x4"), ("material", 99, "found 99"), ("name", 7, "expected a string")):
+            with self.assertRaisesRegex(lambent.BadValue, words):
+                setattr(scene.objects[0], key, value)
+        self.assertRaises(lambent.BadValue, scene.pick, 64, 0, 64)
+
+    def test_errors_have_pythons_words(self):
+        for keyword, value, words in (("memory_limit", 200000, "memory limit"), ("threads", -4, "threads is -4"), ("crease_angle", 500, "^crease_angle: found 500"),
+                                      ("azimuth", "x", "expected a number"), ("memory_limit", -5, "^memory_limit: found -5")):
+            with self.assertRaisesRegex(lambent.Error, words) as caught:
+                lambent.render("examples/models/spot.obj", 64, **{keyword: value})
+            self.assertNotRegex(str(caught.exception), r"_bytes|_rad|lam_|cpu:")
 
     def test_page(self):
         scene = lambent.load("tests/models/cube.obj")

@@ -109,11 +109,30 @@ static bool fill(struct batch_plan *plan, int count, char **operands, lam_error 
     return batch_plan_check(plan, error);
 }
 
+// A name of -o without an extension and without placeholders names a folder, even without a slash at its end. Returns
+// whether it does, and fails if a file has this name.
+static bool name_folder(const char *output, bool *folder, lam_error *error)
+{
+    struct stat found;
+    const char *slash = output ? strrchr(output, '/') : NULL, *last = slash ? slash + 1 : output;
+    bool exists = output && lam_path_stat(output, &found) == 0;
+    *folder =
+        output && *last && !strpbrk(last, ".{") && strcmp(output, "-") != 0 && (!exists || S_ISDIR(found.st_mode));
+    return *folder || !exists || !*last || strpbrk(last, ".{") || !S_ISREG(found.st_mode) ||
+           complain(error, LAM_BAD_ARGUMENT, "option '--output': '%.200s' is a file, expected a folder or a pattern",
+                    output);
+}
+
 int run_batch(int operand_count, char **operands, const struct options *given)
 {
     lam_error error = {0};
     struct options own = *given, *options = &own;
     char *folder = NULL; // with a page but no -o, the pictures and the journal go to the page's own folder
+    bool is_folder = false;
+    if (!given->batch.jobs && !name_folder(given->picture.output, &is_folder, &error))
+        return report_failure(&error, given);
+    if (is_folder)
+        own.picture.output = asprintf(&folder, "%s/", given->picture.output) < 0 ? (folder = NULL) : folder;
     const char *page = given->batch.report_page;
     if (page && !given->picture.output && !given->batch.jobs) {
         const char *slash = strrchr(page, '/'), *dot = strrchr(slash ? slash : page, '.');

@@ -162,8 +162,8 @@ LANE_FN struct footprints footprints_of(const lam_texture_map *map, const struct
 // Footprints of which the longer axis is at most 1 / SQUARE times the shorter one are filtered like squares.
 #define SQUARE 0.8f
 
-// Replaces the level of detail of long, minified footprints by that of their shorter axis, or of a part of the longer
-// axis if `most` probes of that size do not cover it. Returns how many probes cover the longer axis.
+// Selects the level of detail of a probe for long, minified footprints: the probe is as wide as the shorter axis, or
+// wider if `most` such probes do not cover the longer axis. Returns how many probes cover the longer axis.
 LANE_FN num probes_of(struct footprints *f, int most)
 {
     mask minified = f->longer > 1.0f;

@@ -28,7 +28,7 @@ SUMS = {
     "meshoptimizer_0.18+dfsg.orig.tar.xz": "881ea2cc687f1fef5ce70484e0ca6504e13856dd856677749f3763bc685956d3",
 }
 # The packages of the archives, and the packages that contain the licence notices.
-PACKAGES = ["libbrotli-dev", "libdeflate-dev", "libfreetype-dev", "libjansson-dev", "libjpeg62-turbo-dev", "libpng-dev", "libwebp-dev", "zlib1g-dev"]
+PACKAGES = ["libbrotli-dev", "libdeflate-dev", "libexpat1-dev", "libfreetype-dev", "libjansson-dev", "libjpeg62-turbo-dev", "libpng-dev", "libwebp-dev", "zlib1g-dev"]
 INSIDE = [*PACKAGES, "fonts-dejavu-core", "libc6-dev", "libgcc-*-dev"]
 DEBIAN_NAMES = {"x86_64": "amd64", "aarch64": "arm64"}
 

@@ -39,9 +39,11 @@ def make_inputs(program, folder):
 
     for shape in ("cube", "sphere"):
         subprocess.run([program, "-q", "shape", shape, "-o", "ball.stl" if shape == "sphere" else "cube.stl"], cwd=folder, check=True)
-    refused = {"3mf": CORPUS / "3mf" / "deflated.3mf", "draco.gltf": CORPUS / "gltf" / "draco.gltf", "meshopt.gltf": CORPUS / "gltf" / "meshopt.gltf"}
+    refused = {"draco.gltf": CORPUS / "gltf" / "draco.gltf", "meshopt.gltf": CORPUS / "gltf" / "meshopt.gltf"}
     expected = {"cube": drawn(*WORDS), "plainCube": drawn("cube.stl", "--size", "96"), "ball": drawn("ball.stl", "--size", "96"),
+                "package": drawn(str(CORPUS / "3mf" / "bambu.3mf"), "--size", "96"),
                 "refused": {name: base64.b64encode(path.read_bytes()).decode() for name, path in refused.items()}}
+    shutil.copy(CORPUS / "3mf" / "bambu.3mf", folder / "package.3mf")
     (folder / "expected.json").write_text(json.dumps(expected))
 
 

@@ -49,6 +49,8 @@ PICTURES = [
     (["sphere", "--size", "96", "--environment", "studio", "--material", "metallic=1,roughness=0.3,color=white"], "png"),
     (["sphere", "--size", "96"], "png"),  # after an environment
     (["sphere", "--size", "96", "--look", "technical"], "png"),
+    (["deflated.3mf", "--size", "96"], "png"),
+    (["bambu.3mf", "--size", "96"], "png"),
 ]
 # Error messages: the same as the program's, except for the program's name.
 REFUSED = [["missing.obj"], ["teapot", "--sice", "4"], ["teapot", "--view", "frint"], ["broken.obj"], ["teapot", "--size", "0"],
@@ -132,6 +134,8 @@ def make_models(folder):
         open(os.path.join(textured, name + ".obj"), "w").write(
             "mtllib %s.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
             "usemtl photo\nf 1/1 2/2 3/3 4/4\nusemtl side\nf 2/1 5/2 6/3 3/4\n" % name)
+    for name in ("deflated.3mf", "bambu.3mf"):
+        shutil.copy(os.path.join(ROOT, "tests/fuzz/corpus/3mf", name), folder)
     open(os.path.join(folder, "broken.obj"), "w").write("v 0 0 0\nf 1 2 x\n")
 
 

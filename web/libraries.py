@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """libraries.py FOLDER: compiles the libraries that Lambent uses to read files for WebAssembly, from Debian's source packages, in FOLDER/root: Jansson
-(JSON), libspng with zlib (PNG), libjpeg-turbo (JPEG). It does nothing if they exist.
+(JSON), libspng with zlib (PNG), libjpeg-turbo (JPEG), expat (3MF). It does nothing if they exist.
 
 apt-get finds the sources with a separate list of the host's archives in FOLDER; the system's own lists do not change.
 """
 import concurrent.futures
+import functools
 import glob
 import os
 import re
@@ -36,6 +37,8 @@ LIBRARIES = [
     {"source": "libspng", "library": "spng", "files": ["spng/spng.c"], "headers": ["spng/spng.h"], "pc": "spng", "needs": "zlib", "flags": ["-Os"]},
     {"source": "libjpeg-turbo", "library": "jpeg", "files": [n + ".c" for n in JPEG],
      "headers": ["jpeglib.h", "jmorecfg.h", "jerror.h", "jconfig.h"], "pc": "libjpeg", "flags": ["-Os", "-DUSE_CLZ_INTRINSIC"]},
+    {"source": "expat", "library": "expat", "files": ["expat/lib/xml%s.c" % n for n in ("parse", "role", "tok")],
+     "headers": ["expat/lib/expat.h", "expat/lib/expat_external.h"], "pc": "expat", "flags": ["-Oz", "-DXML_STATIC"]},
 ]
 
 
@@ -64,7 +67,19 @@ def fetch(folder, names):
     options = ["-o", "Dir::Etc::sourcelist=/dev/null", "-o", "Dir::Etc::sourceparts=" + source, "-o", "Dir::State::lists=" + lists,
                "-o", "Dir::Cache=" + os.path.join(source, "cache"), "-o", "APT::Sandbox::User=", "-q"]
     run("apt-get", *options, "update", cwd=source)
-    run("apt-get", *options, "source", "--download-only", *names, cwd=source)
+    for name in names:
+        # The newest version first. An archive may list a version, such as a security update, before it has its files.
+        rows = run("apt-cache", *options, "madison", name).splitlines()
+        versions = list(dict.fromkeys(row.split("|")[1].strip() for row in reversed(rows) if row.endswith("Sources")))
+        versions.sort(key=functools.cmp_to_key(lambda a, b: -1 if subprocess.run(["dpkg", "--compare-versions", a, "gt", b]).returncode == 0 else 1))
+        for version in versions[:-1]:
+            done = subprocess.run(["apt-get", *options, "source", "--download-only", "%s=%s" % (name, version)], cwd=source, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)
+            if done.returncode == 0:
+                break
+            print("libraries: %s %s cannot be fetched, so an older version is used" % (name, version), flush=True)
+        else:
+            run("apt-get", *options, "source", "--download-only", "%s=%s" % (name, versions[-1]) if versions else name, cwd=source)
     for dsc in glob.glob(os.path.join(source, "*.dsc")):
         if not unpacked(folder, os.path.basename(dsc).split("_")[0]):
             run("dpkg-source", "--no-check", "-x", dsc, cwd=source)
@@ -88,6 +103,9 @@ def configure(name, path):
         fill("src/jansson_config.h.in", {"json_inline": "inline", "json_have_long_long": "1", "json_have_localeconv": "0",
                                          "json_have_atomic_builtins": "0", "json_have_sync_builtins": "0"})
         open(os.path.join(path, "src/jansson_private_config.h"), "w").write("#define HAVE_STDINT_H 1\n#define HAVE_SYS_TYPES_H 1\n")
+    if name == "expat":
+        open(os.path.join(path, "expat_config.h"), "w").write(
+            "#define BYTEORDER 1234\n#define XML_CONTEXT_BYTES 1024\n#define XML_DTD 1\n#define XML_NS 1\n#define XML_POOR_ENTROPY 1\n#define HAVE_MEMMOVE 1\n")
     if name == "libjpeg-turbo":
         version = os.path.basename(path).rsplit("-", 1)[1]
         number = "%d%03d%03d" % tuple(int(n) for n in version.split("."))

@@ -63,7 +63,7 @@ def table(folder):
     rows = [(title, size, None, None) for title, size in parts_of(os.path.join(folder, "wasm", "web", "lambent.map")).items()]
     rows += [("the module as a whole", os.path.getsize(module), None, None), of("its first part, which draws the first picture", [first]), of("scripts, page and style", start),
              of(FIRST, [first, *start]), of("its second part, loaded after the first picture", [rest]), of(MODULE, [first, rest]),
-             of("its third part, loaded on first use: explanations, formulas, scene files", [more]),
+             of("its third part, loaded on first use: explanations, formulas, 3MF, scene files", [more]),
              of("the decoders of Draco and meshoptimizer, loaded when a file needs them", ["lambent-decoders.wasm"]),
              of(THREADS, [module_parts.THREADS_PARTS[0]]), of("its second part, loaded on first use", [module_parts.THREADS_PARTS[1]]),
              of("scripts that are loaded on first use", scripts["later"]),

@@ -285,9 +285,9 @@ class Read(ThreeMF):
 
     @unittest.skipUnless(shutil.which("bwrap"), "no bubblewrap")
     def test_library_missing(self):
-        """Without libzip or expat, an error message names the package; other formats still work."""
+        """Without expat, an error message names the package; other formats still work."""
         name = self.save("a.3mf", model(f'<object id="1">{box()}</object>'))
-        for library, files, debian in (("libzip.so.4", "libzip.so.[45]", "libzip4, in Debian 13 libzip5"), ("libexpat.so.1", "libexpat.so.1", "libexpat1")):
+        for library, files, debian in (("libexpat.so.1", "libexpat.so.1", "libexpat1"),):
             found = [path for folder in ("/usr/lib", "/lib") for path in pathlib.Path(folder).glob(f"*/{files}")]
             hide = [word for path in found for word in ("--ro-bind", "/dev/null", str(path.resolve()))]
             box_words = ["bwrap", "--dev-bind", "/", "/", *hide, "--chdir", str(self.folder), PROGRAM]
@@ -565,7 +565,7 @@ class Hostile(ThreeMF):
             self.refused(self.save_bytes("a.3mf", bytes(data)), 2, "a.3mf: ")
         large = struct.pack("<IQHHIIQQQQ", 0x06064b50, 44, 45, 45, 0, 0, 1 << 40, 1 << 40, 1 << 46, 0)
         data = good[:end] + large + struct.pack("<IIQI", 0x07064b50, 0, end, 1) + good[end:]
-        self.refused(self.save_bytes("b.3mf", data), 2, "claims 1099511627776 entries")
+        self.refused(self.save_bytes("b.3mf", data), 2, "its list of entries")
 
     def test_limits(self):
         name = self.save("a.3mf", model(f'<object id="1">{box()}</object>', '<item objectid="1"/>' * 5))

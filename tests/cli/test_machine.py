@@ -131,7 +131,7 @@ class Machine(Case):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_memory(self):
-        """One failed allocation, also inside libzip, expat, zlib, libjpeg, libspng, OpenEXR and FreeType: the same bytes, or the machine's failure."""
+        """One failed allocation, also inside expat, zlib, libjpeg, libspng, OpenEXR and FreeType: the same bytes, or the machine's failure."""
         for name in ("png/palette8.png", "jpeg/color420.jpg"):
             shutil.copy(ROOT / "tests/pictures" / name, self.folder)
         shutil.copy(ROOT / "tests/fuzz/corpus/exr/triangle.exr", self.folder)

@@ -69,6 +69,8 @@ async function tryErrors(lambent) {
   await refused(() => lambent.files.set(7, read('cube.stl')), 'TypeError', 'BAD_ARGUMENT', 'found number as path');
   await refused(() => lambent.files.set('/a', [1, 2]), 'TypeError', 'BAD_ARGUMENT', 'found an array as content');
   await refused(() => lambent.explain('/cube.stl', 0.5, 1), 'TypeError', 'BAD_ARGUMENT', 'found number as x');
+  lambent.files.set('/package.3mf', read('package.3mf'));
+  ok(hash(lambent.draw('/package.3mf', { size: 96 }, png)) === expected.package, 'a 3MF file has the same bytes as the program draws');
   for (const name of Object.keys(expected.refused)) {
     lambent.files.set(`/a.${name}`, Buffer.from(expected.refused[name], 'base64'));
     try {

@@ -38,8 +38,8 @@ const struct topic topics[] = {
     {"formats", "Model formats", 0, TOPIC_NO_TABLE,
      "`lambent formats` lists the formats that Lambent reads and writes. `docs/formats.md` describes how Lambent draws "
      "each element of each format.\n3MF (`.3mf`): a ZIP archive for 3D printing, with units, components, colours, "
-     "textures, layered textures and metals. Lambent loads libzip and expat (Debian's `libzip4` or `libzip5`, and "
-     "`libexpat1`) only for these files. Lambent ignores beams, slices and displacements, with a warning. With "
+     "textures, layered textures and metals. Lambent loads expat (Debian's `libexpat1`) "
+     "only for these files. Lambent ignores beams, slices and displacements, with a warning. With "
      "`--lenient`, Lambent also reads files that require unknown extensions or use an undeclared XML prefix.\nSTL "
      "(`.stl`): triangles, as text or binary data. Z is up. The format defines no unit. Binary files may contain "
      "colours.\nOBJ (`.obj`): polygons, with `.mtl` materials and textures. Y is up.\nPLY (`.ply`): triangles, points "

@@ -1,12 +1,9 @@
-// threemf_write.c: writes triangles as 3MF: one object, with a base material for each used material. libzip, loaded on
-// demand, packs the archive.
+// threemf_write.c: writes triangles as 3MF: one object, with a base material for each used material. zlib packs
+// them.
 #include "export.h"
 
 #include "fail.h"
 
-#ifdef HAVE_LIBZIP
-
-#include "dynamic_library.h"
 #include "texture_levels.h"
 
 #include <lambent/material.h>
@@ -14,28 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zip.h>
-
-#define LIBRARY "libzip.so.4"
-
-#define FUNCTIONS(each)                                                                                                \
-    each(zip_source_buffer_create) each(zip_source_buffer) each(zip_source_free) each(zip_source_keep)                 \
-        each(zip_source_open) each(zip_source_read) each(zip_source_close) each(zip_open_from_source)                  \
-            each(zip_file_add) each(zip_file_set_dostime) each(zip_close) each(zip_discard) each(zip_error_init)       \
-                each(zip_error_fini) each(zip_register_cancel_callback_with_state)
-
-struct library {
-    void *handle;
-    FUNCTIONS(LIBRARY_MEMBER)
-};
-
-static bool open_library(struct exporting *e, struct library *zip)
-{
-    const char *fault =
-        library_open_functions(&zip->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), "lacks functions of libzip 1.6");
-    return !fault || fail(e->error, LAM_UNSUPPORTED,
-                          "%s: writing 3MF needs " LIBRARY ", which %s (Debian's package libzip4)", e->name, fault);
-}
+#include <zlib.h>
 
 // --- the model
 
@@ -200,58 +176,107 @@ static const char relations[] =
     "<Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
     "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n";
 
-static bool add_entry(const struct library *zip, zip_t *archive, const char *name, const void *bytes, size_t size)
+// --- the ZIP archive
+
+// A part of the archive. It is stored in the order of `at`; the list at the end repeats its header.
+struct entry {
+    const char *name;
+    size_t at, packed, size;
+    uint32_t crc;
+};
+
+static void put(struct text *text, uint64_t value, size_t bytes)
 {
+    char little[8];
+    for (size_t i = 0; i < bytes; i++)
+        little[i] = (char)(value >> 8 * i);
+    text_add_part(text, little, bytes);
+}
+
+// The fields that a part's header and its row in the list at the end share.
+static void put_header(struct text *text, const struct entry *e)
+{
+    enum { VERSION = 20, DEFLATED = 8, UTF_8 = 1 << 11 };
     enum { FIRST_DAY = 0x21 }; // 1 January 1980; with a fixed date, the same model always yields the same file
-    zip_source_t *source = zip->zip_source_buffer(archive, bytes, size, 0);
-    zip_int64_t index = source ? zip->zip_file_add(archive, name, source, ZIP_FL_ENC_UTF_8) : -1;
-    if (source && index < 0)
-        zip->zip_source_free(source);
-    return index >= 0 && zip->zip_file_set_dostime(archive, (zip_uint64_t)index, 0, FIRST_DAY, 0) == 0;
+    put(text, VERSION, 2);
+    put(text, UTF_8, 2);
+    put(text, DEFLATED, 2);
+    put(text, 0, 2); // the time of day
+    put(text, FIRST_DAY, 2);
+    put(text, e->crc, 4);
+    put(text, e->packed, 4);
+    put(text, e->size, 4);
+    put(text, strlen(e->name), 2);
+    put(text, 0, 2); // no extra data
 }
 
-static bool read_back(const struct library *zip, zip_source_t *source, struct text *text)
+// Appends the compressed bytes.
+static bool deflate_to(struct exporting *e, struct text *text, const void *bytes, size_t size)
 {
-    char chunk[16384];
-    if (zip->zip_source_open(source) != 0)
+    enum { STEP = 1 << 16 };
+    uint8_t out[STEP / 4];
+    z_stream z = {0};
+    if (deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
+        return fail(e->error, LAM_MACHINE, "%s: zlib cannot pack the model: out of memory", e->name);
+    int state = Z_OK;
+    bool goes_on = true;
+    for (size_t at = 0; state != Z_STREAM_END && goes_on; goes_on = export_asks(e)) {
+        size_t some = size - at < STEP ? size - at : STEP;
+        z.next_in = (Bytef *)(uintptr_t)((const char *)bytes + at);
+        z.avail_in = (uInt)some;
+        at += some;
+        do {
+            z.next_out = out;
+            z.avail_out = sizeof out;
+            state = deflate(&z, at == size ? Z_FINISH : Z_NO_FLUSH);
+            text_add_part(text, (char *)out, sizeof out - z.avail_out);
+        } while (!z.avail_out);
+    }
+    deflateEnd(&z);
+    return goes_on || export_is_whole(e);
+}
+
+static bool add_entry(struct exporting *e, struct entry *entry, const char *name, const void *bytes, size_t size)
+{
+    struct text packed = {.call = e->call};
+    bool ok = deflate_to(e, &packed, bytes, size) && export_text_is_whole(e, &packed);
+    *entry = (struct entry){name, e->text.length, packed.length, size, (uint32_t)crc32_z(0, bytes, size)};
+    text_add_part(&e->text, "PK\3\4", 4);
+    put_header(&e->text, entry);
+    text_add(&e->text, name);
+    text_add_part(&e->text, packed.bytes, packed.length);
+    free(packed.bytes);
+    return ok;
+}
+
+static bool pack(struct exporting *e, const struct text *model)
+{
+    enum { PARTS = 3 };
+    struct entry entries[PARTS];
+    if (model->length > UINT32_MAX)
+        return fail(e->error, LAM_LIMIT, "%s: the model has %zu bytes of XML, and lambent writes at most 4 GB to 3MF",
+                    e->name, model->length);
+    if (!add_entry(e, &entries[0], "[Content_Types].xml", types, sizeof types - 1) ||
+        !add_entry(e, &entries[1], "_rels/.rels", relations, sizeof relations - 1) ||
+        !add_entry(e, &entries[2], "3D/3dmodel.model", model->bytes, model->length))
         return false;
-    zip_int64_t got;
-    while ((got = zip->zip_source_read(source, chunk, sizeof chunk)) > 0)
-        text_add_part(text, chunk, (size_t)got);
-    zip->zip_source_close(source);
-    return got == 0 && !text->failed;
-}
-
-static int must_end(zip_t *archive, void *user)
-{
-    (void)archive;
-    return !export_asks(user);
-}
-
-static bool pack(struct exporting *e, const struct library *zip, const struct text *model)
-{
-    zip_error_t reason;
-    zip->zip_error_init(&reason);
-    zip_source_t *source = zip->zip_source_buffer_create(NULL, 0, 0, &reason);
-    zip_t *archive = source ? zip->zip_open_from_source(source, ZIP_CREATE | ZIP_TRUNCATE, &reason) : NULL;
-    if (source && !archive)
-        zip->zip_source_free(source);
-    bool ok = archive != NULL;
-    if (ok)
-        zip->zip_source_keep(source);
-    ok = ok && zip->zip_register_cancel_callback_with_state(archive, must_end, NULL, e) == 0;
-    ok = ok && add_entry(zip, archive, "[Content_Types].xml", types, sizeof types - 1) &&
-         add_entry(zip, archive, "_rels/.rels", relations, sizeof relations - 1) &&
-         add_entry(zip, archive, "3D/3dmodel.model", model->bytes, model->length);
-    bool closed = ok && zip->zip_close(archive) == 0;
-    if (archive && !closed)
-        zip->zip_discard(archive);
-    ok = closed && read_back(zip, source, &e->text);
-    if (archive)
-        zip->zip_source_free(source);
-    zip->zip_error_fini(&reason);
-    return ok || (export_is_whole(e) && export_text_is_whole(e, &e->text) &&
-                  fail(e->error, LAM_MACHINE, "%s: libzip cannot pack the model: out of memory", e->name));
+    const size_t list = e->text.length;
+    for (int i = 0; i < PARTS; i++) {
+        text_add_part(&e->text, "PK\1\2\24\0", 6);
+        put_header(&e->text, &entries[i]);
+        put(&e->text, 0, 8); // no comment, the first disk, binary
+        put(&e->text, 0, 2);
+        put(&e->text, entries[i].at, 4);
+        text_add(&e->text, entries[i].name);
+    }
+    const size_t end = e->text.length;
+    text_add_part(&e->text, "PK\5\6\0\0\0\0", 8);
+    put(&e->text, PARTS, 2);
+    put(&e->text, PARTS, 2);
+    put(&e->text, end - list, 4);
+    put(&e->text, list, 4);
+    put(&e->text, 0, 2);
+    return export_text_is_whole(e, &e->text);
 }
 
 static void lose(struct exporting *e)
@@ -268,30 +293,16 @@ static void lose(struct exporting *e)
     export_lose_surroundings(e, false);
 }
 
-static bool write(struct exporting *e)
+static bool write_3mf(struct exporting *e)
 {
-    struct library zip;
     struct text model = {.call = e->call};
     if (!e->flat[EXPORT_TRIANGLES].triangle_count)
         return fail(e->error, LAM_BAD_ARGUMENT, "%s: found no triangles, and 3MF supports nothing else", e->name);
-    if (!open_library(e, &zip))
-        return false;
-    bool ok = make_model(e, &model) && pack(e, &zip, &model);
-    library_close(zip.handle);
+    bool ok = make_model(e, &model) && pack(e, &model);
     free(model.bytes);
     if (ok)
         lose(e);
     return ok;
 }
 
-#else
-
-static bool write(struct exporting *e)
-{
-    return fail(e->error, LAM_UNSUPPORTED, "%s: this build does not include libzip, which is needed to write 3MF",
-                e->name);
-}
-
-#endif
-
-const struct exporter exporter_3mf = {"3mf", LAM_UP_Z, true, write};
+const struct exporter exporter_3mf = {"3mf", LAM_UP_Z, true, write_3mf};

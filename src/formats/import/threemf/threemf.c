@@ -2,7 +2,6 @@
 #include "threemf.h"
 
 #include "fail.h"
-#include "remedy.h"
 #include "shown_name.h"
 #include "threemf_xml.h"
 
@@ -166,10 +165,11 @@ static bool threemf_load(struct import_source *source, struct lam_scene *scene, 
                            .scene = scene,
                            .scratch = &scratch,
                            .error = error ? error : &unwanted,
-                           .part_names = {.memory = &scratch}};
+                           .part_names = {.memory = &scratch},
+                           .entry_names = {.memory = &scratch}};
     errno = 0;
     bool ok = read_all(&file);
-    // If memory runs out, libzip may report a damaged archive, and opening a library fails.
+    // If memory runs out, opening a library fails.
     if (!ok && errno == ENOMEM && file.error->code != LAM_LIMIT)
         threemf_no_memory(&file, 0);
     scene->shared_arrays = true;
@@ -190,15 +190,13 @@ static bool threemf_load(struct import_source *source, struct lam_scene *scene, 
     return ok;
 }
 
-#else // the build lacks the headers of libzip and expat
+#else // the build lacks the headers of expat
 
 static bool threemf_load(struct import_source *source, struct lam_scene *scene, lam_error *error)
 {
     (void)scene;
     return fail(error, LAM_UNSUPPORTED,
-                REMEDY("%s: this build does not support 3MF, because the Debian packages libzip-dev and libexpat1-dev "
-                       "were missing",
-                       "%s: is a 3MF file, which this page cannot read; use the program lambent"),
+                "%s: this build does not support 3MF, because the Debian package libexpat1-dev was missing",
                 source->name);
 }
 

@@ -1,6 +1,6 @@
 // threemf.h: internals of the 3MF importer.
 //
-// A 3MF file is a ZIP archive with model parts in XML. threemf_package.c opens the archive (libzip), and threemf_xml.c
+// A 3MF file is a ZIP archive with model parts in XML. threemf_package.c opens the archive (zlib), and threemf_xml.c
 // parses a part (expat). threemf_slicer.c reads the configurations of slicers. threemf_model.c reads the elements of the
 // model parts, with threemf_properties.c, threemf_layers.c, threemf_display.c and threemf_paint.c. threemf_mesh.c
 // converts the part's objects to meshes, and threemf_build.c places the objects of the build items, and the components
@@ -127,7 +127,6 @@ struct threemf_part {
     const float *scene_colors, *scene_texcoords;
 };
 
-struct zip_library;
 struct expat_library;
 
 struct threemf {
@@ -135,7 +134,8 @@ struct threemf {
     struct lam_scene *scene;
     struct arena *scratch;
     lam_error *error;
-    struct zip_library *zip;
+    struct threemf_rows entries; // of the archive (threemf_package.c)
+    struct name_table entry_names;
     struct expat_library *expat;
     struct name_table part_names;
     struct threemf_rows parts;              // struct threemf_part *
@@ -161,7 +161,7 @@ bool threemf_no_memory(struct threemf *file, size_t bytes);
 
 // --- threemf_package.c
 
-// Opens libzip and the archive, after checking the limits. Fails with LAM_UNSUPPORTED if libzip is not installed.
+// Reads the archive's list of entries.
 bool threemf_package_open(struct threemf *file);
 void threemf_package_close(struct threemf *file);
 

@@ -1,37 +1,32 @@
-// threemf_package.c: reads the ZIP archive of a 3MF file with libzip, which is loaded on demand.
+// threemf_package.c: reads the ZIP archive of a 3MF file. zlib unpacks its parts.
 #include "fail.h"
 #include "shown_name.h"
 #include "threemf.h"
 
 #ifdef HAVE_3MF
 
-#include "dynamic_library.h"
-
+#include <stdlib.h>
 #include <string.h>
-#include <zip.h>
+#include <strings.h>
+#include <zlib.h>
 
-// The library's names in Debian 12 and in Debian 13. The functions used here are the same in both.
-#define LIBRARY       "libzip.so.4"
-#define NEWER_LIBRARY "libzip.so.5"
+enum { END_BYTES = 22, COMMENT_MAX = 65535, LOCATOR_BYTES = 20, END64_BYTES = 56, ENTRY_BYTES = 46, LOCAL_BYTES = 30 };
+enum { STORED = 0, DEFLATED = 8 }; // methods
+enum { ENCRYPTED = 1 };            // flag
 
-#define FUNCTIONS(each)                                                                                                \
-    each(zip_source_buffer_create) each(zip_source_free) each(zip_open_from_source) each(zip_discard)                  \
-        each(zip_error_init) each(zip_error_fini) each(zip_error_strerror) each(zip_error_code_zip)                    \
-            each(zip_name_locate) each(zip_fopen_index) each(zip_fread) each(zip_fclose) each(zip_get_error)           \
-                each(zip_file_get_error) each(zip_get_num_entries) each(zip_get_name)
-
-struct zip_library {
-    void *handle;
-    FUNCTIONS(LIBRARY_MEMBER)
-    zip_t *archive;
-    size_t charged; // the bytes of libzip's list of entries, which count towards the memory limit
+// A part: `at` is the position of its local header in the file.
+struct entry {
+    const char *name;
+    uint64_t at, packed, size;
+    uint32_t crc;
+    uint16_t method, flags;
 };
 
-// --- checking the declared size before libzip allocates memory
-
-enum { END_BYTES = 22, COMMENT_MAX = 65535, LOCATOR_BYTES = 20, END64_BYTES = 56, ENTRY_BYTES = 46 };
-// The bytes that libzip uses for an entry of its list, without the entry's name.
-enum { ENTRY_MEMORY = 512 };
+// The list of entries at the end of the archive. `shift` is the number of bytes before the archive, which its positions
+// do not count.
+struct directory {
+    uint64_t count, at, size, shift;
+};
 
 static uint64_t little(const uint8_t *at, int bytes)
 {
@@ -41,113 +36,131 @@ static uint64_t little(const uint8_t *at, int bytes)
     return value;
 }
 
-// Returns the number of entries declared by the end record at `end` in an archive.
-static uint64_t entries_of(const uint8_t *bytes, size_t size, size_t end)
+// --- the list of entries
+
+// Reads the end record at `end`, and the ZIP64 record before it. Returns false if the list does not lie before them.
+static bool directory_at(const uint8_t *bytes, size_t size, size_t end, struct directory *out)
 {
-    uint64_t count = little(bytes + end + 10, 2);
+    uint64_t count = little(bytes + end + 10, 2), length = little(bytes + end + 12, 4),
+             at = little(bytes + end + 16, 4);
+    uint64_t stop = end;
     const uint8_t *locator = end >= LOCATOR_BYTES ? bytes + end - LOCATOR_BYTES : NULL;
-    if (!locator || memcmp(locator, "PK\6\7", 4) != 0)
-        return count;
-    uint64_t at = little(locator + 8, 8);
-    if (at > size || size - at < END64_BYTES || memcmp(bytes + at, "PK\6\6", 4) != 0)
-        return count;
-    uint64_t large = little(bytes + at + 32, 8);
-    return count == 0xffff || large > count ? large : count; // 0xffff means that the ZIP64 record has the number
-}
-
-// Finds the largest number of entries that any end record declares, because libzip may use any of these records.
-// Returns false if there is no end record.
-static bool claimed_entries(const uint8_t *bytes, size_t size, uint64_t *out)
-{
-    bool found = false;
-    *out = 0;
-    if (size < END_BYTES)
-        return false;
-    size_t last = size - END_BYTES, first = last > COMMENT_MAX ? last - COMMENT_MAX : 0;
-    for (size_t at = last + 1; at-- > first;) {
-        if (memcmp(bytes + at, "PK\5\6", 4) != 0)
-            continue;
-        uint64_t count = entries_of(bytes, size, at);
-        *out = count > *out ? count : *out;
-        found = true;
+    if (locator && memcmp(locator, "PK\6\7", 4) == 0) {
+        uint64_t record = little(locator + 8, 8);
+        if (record > end || end - record < LOCATOR_BYTES + END64_BYTES || memcmp(bytes + record, "PK\6\6", 4) != 0)
+            return false;
+        count = little(bytes + record + 32, 8);
+        length = little(bytes + record + 40, 8);
+        at = little(bytes + record + 48, 8);
+        stop = record;
     }
-    return found;
+    *out = (struct directory){count, at, length, 0};
+    if (length > stop || at > stop)
+        return false;
+    if (count && stop - length >= at && size - (stop - length) >= 4 &&
+        memcmp(bytes + (stop - length), "PK\1\2", 4) == 0) {
+        out->at = stop - length;
+        out->shift = out->at - at;
+    }
+    return length <= stop - out->at;
 }
 
-static bool check_claims(struct threemf *file, uint64_t *entries)
+// Finds the last end record that fits. `claimed` receives the largest number of entries that an end record declares.
+static bool find_directory(struct threemf *file, struct directory *out)
 {
     const struct import_source *source = file->source;
-    if (!claimed_entries(source->bytes, source->size, entries))
-        return fail(
-            file->error, LAM_CANNOT_READ,
-            source->size >= 2 && memcmp(source->bytes, "PK", 2) == 0
-                ? "%s: the file is truncated: found %zu bytes of a ZIP archive, expected its list of entries at the end"
-                : "%s: the file is not a ZIP archive, as a 3MF file is: found %zu bytes without a list of entries",
-            source->name, source->size);
-    return *entries <= source->size / ENTRY_BYTES ||
-           fail(file->error, LAM_CANNOT_READ,
-                "%s: its ZIP archive claims %llu entries, expected at most %zu in %zu bytes", source->name,
-                (unsigned long long)*entries, source->size / ENTRY_BYTES, source->size);
-}
-
-// --- libzip
-
-static bool open_library(struct threemf *file)
-{
-    struct zip_library *zip = arena_alloc_zeroed(file->scratch, sizeof *zip);
-    if (!zip)
-        return threemf_no_memory(file, sizeof *zip);
-    static const char *const lacking = "lacks functions of libzip 1.7";
-    const char *fault = library_open_functions(&zip->handle, NEWER_LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), lacking);
-    if (fault)
-        fault = library_open_functions(&zip->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), lacking);
-    file->zip = fault ? NULL : zip;
-    return !fault ||
-           fail(file->error, LAM_UNSUPPORTED,
-                "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libzip4, in Debian 13 libzip5)",
-                file->source->name, fault);
-}
-
-static bool open_archive(struct threemf *file)
-{
-    struct zip_library *zip = file->zip;
-    zip_error_t reason;
-    zip->zip_error_init(&reason);
-    zip_source_t *bytes = zip->zip_source_buffer_create(file->source->bytes, file->source->size, 0, &reason);
-    zip->archive = bytes ? zip->zip_open_from_source(bytes, ZIP_RDONLY, &reason) : NULL;
-    if (!zip->archive) {
-        if (zip->zip_error_code_zip(&reason) == ZIP_ER_MEMORY)
-            threemf_no_memory(file, 0);
-        else
-            fail(file->error, LAM_CANNOT_READ, "%s: the ZIP archive cannot be read: %s", file->source->name,
-                 zip->zip_error_strerror(&reason));
-        zip->zip_source_free(bytes);
+    const uint8_t *bytes = source->bytes;
+    const size_t size = source->size, last = size < END_BYTES ? 0 : size - END_BYTES;
+    const size_t first = last > COMMENT_MAX ? last - COMMENT_MAX : 0;
+    bool found = false;
+    for (size_t at = last + 1; size >= END_BYTES && at-- > first;) {
+        if (memcmp(bytes + at, "PK\5\6", 4) != 0)
+            continue;
+        found = true;
+        if (directory_at(bytes, size, at, out))
+            return out->count <= size / ENTRY_BYTES ||
+                   fail(file->error, LAM_CANNOT_READ,
+                        "%s: its ZIP archive claims %llu entries, expected at most %zu in %zu bytes", source->name,
+                        (unsigned long long)out->count, size / ENTRY_BYTES, size);
     }
-    zip->zip_error_fini(&reason);
-    return zip->archive != NULL;
+    if (found)
+        return fail(file->error, LAM_CANNOT_READ,
+                    "%s: the ZIP archive cannot be read: found its end, but its list of entries is not before it",
+                    source->name);
+    return fail(
+        file->error, LAM_CANNOT_READ,
+        size >= 2 && memcmp(bytes, "PK", 2) == 0
+            ? "%s: the file is truncated: found %zu bytes of a ZIP archive, expected its list of entries at the end"
+            : "%s: the file is not a ZIP archive, as a 3MF file is: found %zu bytes without a list of entries",
+        source->name, size);
+}
+
+// Numbers that do not fit into 32 bits stand in the ZIP64 field of the extra data.
+static void read_large(struct entry *e, const uint8_t *extra, size_t size)
+{
+    uint64_t *const members[] = {&e->size, &e->packed, &e->at};
+    while (size >= 4) {
+        size_t length = (size_t)little(extra + 2, 2);
+        if (length > size - 4)
+            return;
+        if (little(extra, 2) == 1) {
+            const uint8_t *at = extra + 4;
+            for (size_t i = 0; i < 3; i++)
+                if (*members[i] == UINT32_MAX && at + 8 <= extra + 4 + length) {
+                    *members[i] = little(at, 8);
+                    at += 8;
+                }
+            return;
+        }
+        extra += 4 + length;
+        size -= 4 + length;
+    }
+}
+
+static bool add_entry(struct threemf *file, const uint8_t *record, size_t name, size_t extra, uint64_t shift)
+{
+    struct entry *e = threemf_add(file, &file->entries, sizeof *e);
+    char *copy = e ? arena_alloc(file->scratch, name + 1) : NULL;
+    if (!copy)
+        return threemf_no_memory(file, name + 1);
+    memcpy(copy, record + ENTRY_BYTES, name);
+    copy[name] = 0;
+    *e = (struct entry){.name = copy,
+                        .flags = (uint16_t)little(record + 8, 2),
+                        .method = (uint16_t)little(record + 10, 2),
+                        .crc = (uint32_t)little(record + 16, 4),
+                        .packed = little(record + 20, 4),
+                        .size = little(record + 24, 4),
+                        .at = little(record + 42, 4)};
+    read_large(e, record + ENTRY_BYTES + name, extra);
+    e->at += shift;
+    return name_table_add(&file->entry_names, copy, (int32_t)file->entries.count - 1) || threemf_no_memory(file, 0);
 }
 
 bool threemf_package_open(struct threemf *file)
 {
-    uint64_t entries;
-    if (!check_claims(file, &entries) || !open_library(file))
+    struct directory list = {0};
+    if (!find_directory(file, &list))
         return false;
-    size_t bytes = (size_t)entries * ENTRY_MEMORY;
-    if (!call_charge(file->source->call, bytes))
-        return threemf_no_memory(file, bytes);
-    file->zip->charged = bytes;
-    return open_archive(file);
+    const uint8_t *at = file->source->bytes + list.at;
+    size_t left = (size_t)list.size;
+    for (uint64_t i = 0; i < list.count; i++) {
+        size_t name = left < ENTRY_BYTES ? 0 : (size_t)little(at + 28, 2);
+        size_t extra = left < ENTRY_BYTES ? 0 : (size_t)little(at + 30, 2);
+        size_t length = ENTRY_BYTES + name + extra + (left < ENTRY_BYTES ? 0 : (size_t)little(at + 32, 2));
+        if (length > left || memcmp(at, "PK\1\2", 4) != 0)
+            return fail(file->error, LAM_CANNOT_READ,
+                        "%s: the ZIP archive cannot be read: its list of entries is damaged after %llu of %llu entries",
+                        file->source->name, (unsigned long long)i, (unsigned long long)list.count);
+        if (!add_entry(file, at, name, extra, list.shift))
+            return false;
+        at += length;
+        left -= length;
+    }
+    return true;
 }
 
-void threemf_package_close(struct threemf *file)
-{
-    if (!file->zip)
-        return;
-    if (file->zip->archive)
-        file->zip->zip_discard(file->zip->archive);
-    call_refund(file->source->call, file->zip->charged);
-    library_close(file->zip->handle);
-}
+void threemf_package_close(struct threemf *file) { threemf_rows_free(file, &file->entries); }
 
 // --- parts of the archive
 
@@ -158,54 +171,96 @@ static bool fail_part(struct threemf *file, const char *name, const char *why)
                 shown_name(name, shown), why);
 }
 
-// Returns the index of a part. Programs differ in the case of names, so a short list of entries is also searched
+// Returns a part, or NULL. Programs differ in the case of names, so a short list of entries is also searched
 // case-insensitively. A long list is searched only by the hash of the exact name.
-static zip_int64_t locate(const struct zip_library *zip, const char *name)
+static const struct entry *locate(const struct threemf *file, const char *name)
 {
     enum { FEW = 1000 };
-    zip_int64_t index = zip->zip_name_locate(zip->archive, name, ZIP_FL_ENC_GUESS);
-    return index < 0 && zip->charged < (size_t)FEW * ENTRY_MEMORY
-               ? zip->zip_name_locate(zip->archive, name, ZIP_FL_ENC_GUESS | ZIP_FL_NOCASE)
-               : index;
+    const struct entry *entries = file->entries.items;
+    int32_t index = name_table_find(&file->entry_names, name);
+    for (size_t i = 0; index < 0 && file->entries.count < FEW && i < file->entries.count; i++)
+        index = strcasecmp(entries[i].name, name) == 0 ? (int32_t)i : -1;
+    return index < 0 ? NULL : &entries[index];
 }
 
 const char *threemf_package_find(const struct threemf *file, const char *ending)
 {
-    zip_t *archive = file->zip->archive;
+    const struct entry *entries = file->entries.items;
     const char *found = NULL;
     size_t tail = strlen(ending);
-    for (zip_int64_t i = file->zip->zip_get_num_entries(archive, 0); i-- > 0;) {
-        const char *name = file->zip->zip_get_name(archive, (zip_uint64_t)i, ZIP_FL_ENC_GUESS);
-        size_t length = name ? strlen(name) : 0;
+    for (size_t i = file->entries.count; i-- > 0;) {
+        const char *name = entries[i].name;
+        size_t length = strlen(name);
         if (length >= tail && strcmp(name + length - tail, ending) == 0 && (!found || strcmp(name, found) < 0))
             found = name;
     }
     return found;
 }
 
-static bool read_chunks(struct threemf *file, const char *name, zip_file_t *part, threemf_chunk_fn *take, void *user)
+// A part that is being unpacked.
+struct unpacking {
+    const uint8_t *at;
+    uint64_t left, made; // bytes: packed and not read yet, and unpacked
+    uint32_t crc;
+    z_stream inflate;
+    const char *why; // why the part is damaged, or NULL
+};
+
+// Unpacks up to `size` bytes, and returns their number; 0 at the end.
+static size_t unpack(struct unpacking *u, const struct entry *e, uint8_t *out, size_t size)
+{
+    size_t got = 0;
+    int state = Z_OK;
+    while (got < size && !u->why && state == Z_OK) {
+        uInt some = u->left < UINT16_MAX ? (uInt)u->left : UINT16_MAX;
+        if (e->method == STORED) {
+            some = some < size - got ? some : (uInt)(size - got);
+            memcpy(out + got, u->at, some);
+            got += some;
+            state = some == u->left ? Z_STREAM_END : Z_OK;
+        } else {
+            u->inflate.next_in = (Bytef *)(uintptr_t)u->at;
+            u->inflate.avail_in = some;
+            u->inflate.next_out = out + got;
+            u->inflate.avail_out = (uInt)(size - got);
+            state = inflate(&u->inflate, Z_NO_FLUSH);
+            got = size - u->inflate.avail_out;
+            if (state == Z_BUF_ERROR && !u->left)
+                u->why = "its data ends too early";
+            else if (state != Z_OK && state != Z_STREAM_END && state != Z_BUF_ERROR)
+                u->why = u->inflate.msg ? u->inflate.msg : "its data is not in the format deflate";
+            some -= u->inflate.avail_in;
+        }
+        u->at += some;
+        u->left -= some;
+    }
+    u->made += got;
+    u->crc = (uint32_t)crc32(u->crc, out, (uInt)got);
+    if (!got && !u->why && (u->made != e->size || u->crc != e->crc))
+        u->why = u->made != e->size ? "its size differs from the list of entries" : "its checksum (CRC) is wrong";
+    return got;
+}
+
+static bool read_chunks(struct threemf *file, const struct entry *e, struct unpacking *u, threemf_chunk_fn *take,
+                        void *user)
 {
     // Parsing a byte of XML takes as long as decoding ten bytes of a picture.
     enum { CHUNK = THRESHOLD(128 << 10, 256), PARSING = 10 };
-    const struct zip_library *zip = file->zip;
     struct call_control *call = file->source->call;
     uint8_t *chunk = arena_alloc(file->scratch, CHUNK);
-    uint64_t size = 0;
     char shown[SHOWN_NAME_SIZE];
     if (!chunk)
         return threemf_no_memory(file, CHUNK);
     for (;;) {
-        zip_int64_t got = zip->zip_fread(part, chunk, CHUNK);
-        if (got < 0)
+        size_t got = unpack(u, e, chunk, CHUNK);
+        if (u->why)
             return fail(file->error, LAM_CANNOT_READ, "%s: its part %s is damaged: %s", file->source->name,
-                        shown_name(name, shown), zip->zip_error_strerror(zip->zip_file_get_error(part)));
-        size += (uint64_t)got;
-        if (file->part_limit && size > file->part_limit)
+                        shown_name(e->name, shown), u->why);
+        if (file->part_limit && u->made > file->part_limit)
             return fail(file->error, LAM_CANNOT_READ, "%s: its part %s has more than %llu bytes", file->source->name,
-                        shown_name(name, shown), (unsigned long long)file->part_limit);
+                        shown_name(e->name, shown), (unsigned long long)file->part_limit);
         if (!call_unpack(call, PARSING * (uint64_t)got, file->error) ||
-            (!call_should_continue(call) && !call_error(call, file->error)) ||
-            !take(user, chunk, (size_t)got, got == 0))
+            (!call_should_continue(call) && !call_error(call, file->error)) || !take(user, chunk, got, got == 0))
             return false;
         if (got == 0)
             return true;
@@ -214,16 +269,28 @@ static bool read_chunks(struct threemf *file, const char *name, zip_file_t *part
 
 bool threemf_package_read(struct threemf *file, const char *name, threemf_chunk_fn *take, void *user)
 {
-    const struct zip_library *zip = file->zip;
+    const struct import_source *source = file->source;
     name += *name == '/';
-    zip_int64_t index = locate(zip, name);
-    if (index < 0)
+    const struct entry *e = locate(file, name);
+    if (!e)
         return fail_part(file, name, "the archive has no part of this name");
-    zip_file_t *part = zip->zip_fopen_index(zip->archive, (zip_uint64_t)index, 0);
-    if (!part)
-        return fail_part(file, name, zip->zip_error_strerror(zip->zip_get_error(zip->archive)));
-    bool ok = read_chunks(file, name, part, take, user);
-    zip->zip_fclose(part);
+    if (e->flags & ENCRYPTED)
+        return fail_part(file, name, "it is encrypted");
+    if (e->method != STORED && e->method != DEFLATED)
+        return fail_part(file, name, "its compression is neither none nor deflate");
+    if (e->at > source->size || source->size - e->at < LOCAL_BYTES || memcmp(source->bytes + e->at, "PK\3\4", 4) != 0)
+        return fail_part(file, name, "it is not where the list of entries says");
+    const uint8_t *local = source->bytes + e->at, *stop = source->bytes + source->size;
+    struct unpacking u = {.at = local + LOCAL_BYTES, .left = e->packed};
+    uint64_t names = little(local + 26, 2) + little(local + 28, 2);
+    if (names > (uint64_t)(stop - u.at) || e->packed > (uint64_t)(stop - u.at) - names)
+        return fail_part(file, name, "the file is truncated");
+    u.at += names;
+    if (e->method == DEFLATED && inflateInit2(&u.inflate, -MAX_WBITS) != Z_OK)
+        return threemf_no_memory(file, 0);
+    bool ok = read_chunks(file, e, &u, take, user);
+    if (e->method == DEFLATED)
+        inflateEnd(&u.inflate);
     return ok;
 }
 

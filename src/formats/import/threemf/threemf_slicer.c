@@ -67,7 +67,7 @@ int threemf_filament_material(const struct threemf *file, uint32_t filament)
 }
 
 // PrusaSlicer: lines such as "; filament_colour = #FF8000;#DB5182". A valid extruder_colour replaces the filament's.
-static bool read_settings(struct threemf *file, const char *part)
+static bool read_prusa_settings(struct threemf *file, const char *part)
 {
     static const char *const keys[] = {"; filament_colour = ", "; material_colour = ", "; extruder_colour = "};
     const uint8_t *bytes;
@@ -253,7 +253,7 @@ bool threemf_slicer_read(struct threemf *file)
     static const struct {
         const char *part;
         bool (*read)(struct threemf *file, const char *part);
-    } parts[] = {{"Metadata/Slic3r_PE.config", read_settings},
+    } parts[] = {{"Metadata/Slic3r_PE.config", read_prusa_settings},
                  {"Metadata/Slic3r_PE_model.config", read_volumes},
                  {"Metadata/project_settings.config", read_project},
                  {"Metadata/model_settings.config", read_volumes}};

@@ -1,8 +1,9 @@
 // page_decoders.c: calls the Draco decoders that the surrounding web page provides. Draco and meshoptimizer are in a
 // second WebAssembly module (web/decoders.py). JavaScript (web/decoders.js) calls that module and copies the bytes
-// between the memories of the two modules.
+// between the memories of the two modules. expat is a part of the module itself.
 #include "draco_module.h"
 
+#include <expat.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -78,6 +79,19 @@ static const struct {
     const char *name;
     void (*function)(void);
 } functions[] = {
+#define EXPAT(name) {#name, (void (*)(void))name}
+    EXPAT(XML_ParserCreate_MM),
+    EXPAT(XML_ParserFree),
+    EXPAT(XML_SetUserData),
+    EXPAT(XML_SetElementHandler),
+    EXPAT(XML_SetCharacterDataHandler),
+    EXPAT(XML_SetStartDoctypeDeclHandler),
+    EXPAT(XML_Parse),
+    EXPAT(XML_StopParser),
+    EXPAT(XML_GetErrorCode),
+    EXPAT(XML_ErrorString),
+    EXPAT(XML_GetCurrentLineNumber),
+    EXPAT(XML_GetCurrentByteIndex),
     {"lambent_draco_functions", (void (*)(void))draco_functions},
     {"meshopt_decodeVertexBuffer", (void (*)(void))vertices},
     {"meshopt_decodeIndexBuffer", (void (*)(void))triangle_indices},
@@ -89,6 +103,8 @@ static const struct {
 
 void *page_library(const char *name)
 {
+    if (strncmp(name, "libexpat", 8) == 0)
+        return (void *)(uintptr_t)functions;
     bool known = strcmp(name, "lambent-draco.so") == 0 || strncmp(name, "libmeshoptimizer", 16) == 0;
     return known && web_decoders() ? (void *)(uintptr_t)functions : NULL;
 }

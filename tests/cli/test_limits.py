@@ -257,6 +257,13 @@ class Limits(Case):
             "spheres.json": (json.dumps({"lambent": 1, "objects": [{"shape": "sphere"}] * 1000}).encode(), "layer-limit"),
         }
 
+    def test_large_triangles_beside_the_picture(self):
+        """The walls of a room around the camera cover each pixel once."""
+        room = {"lambent": 1, "objects": [{"shape": "cube"}], "camera": {"eye": [0.05, 0.1, 0.9], "target": [0.3, 0.2, -0.1], "fovy": 60, "near": 0.01, "far": 300}}
+        (self.folder / "room.json").write_text(json.dumps(room))
+        for size in (64, 128, 200):
+            self.good("room.json", "-q", "-s", size, "-o", "-")
+
     @long
     def test_small_files_take_little(self):
         """No file below 100 kB takes more than 10 s of processor time or 1 GB of memory at the default size of picture."""

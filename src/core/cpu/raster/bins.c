@@ -102,6 +102,8 @@ void bin_large(const struct raster_frame *raster, struct thread_bins *bins, cons
     y0 = y0 < 0 ? 0 : y0;
     x1 = x1 >= raster->tiles_across ? raster->tiles_across - 1 : x1;
     y1 = y1 >= raster->tiles_down ? raster->tiles_down - 1 : y1;
+    if (x0 > x1) // the triangle is beside the window
+        return;
     // The edge functions are positive inside the triangle. The triangle does not touch a tile if even the tile's
     // innermost corner is outside an edge.
     int64_t sign = area > 0 ? 1 : -1, size = (int64_t)1 << shift;

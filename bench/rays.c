@@ -120,7 +120,7 @@ static void make_rays(const struct hierarchy *h, const double light[3])
 
 static __attribute__((noinline)) unsigned trace(const struct hierarchy *h, const struct ray_lanes *ray)
 {
-    return any_hit(h, ray, (1u << LANES) - 1, NULL, NULL);
+    return any_hit(h, ray, (1u << LANES) - 1, NULL, NULL, false);
 }
 
 // --- the surface area cost: the expected number of nodes that a random line tests, and of tests of `block` triangles at

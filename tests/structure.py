@@ -148,7 +148,7 @@ def circles(edges):
 
 
 # The only headers of src/effects that other wings include. They call only functions that these headers or include/lambent declare.
-ENTRIES = ["environment/environment.h", "rays/rays.h", "edges/edges.h", "occlusion/occlusion.h"]
+ENTRIES = ["environment/environment.h", "rays/rays.h", "edges/edges.h", "occlusion/occlusion.h", "paths/paths.h"]
 # What the core uses outside core, system and these headers: the reader of scene files reads JSON, and adds the shapes and model files that a scene names.
 CORE_USES = {"core/description": ("formats/json", "formats/import", "formats/prepare", "formats/shapes")}
 WING = re.compile(r"core|effects|formats|gpu|system")

@@ -343,6 +343,15 @@ typedef struct lam_draw_params {
     // a quarter more for a coat and for sheen, instead of the split sum (docs/lighting/environment.md). 0: the split sum.
     // CPU device only; other devices fail with LAM_UNSUPPORTED.
     int reference;
+    // Light between surfaces, by path tracing (docs/lighting/bounces.md). 0: local lighting. 1: the light of lamps, of
+    // the environment and of emitting surfaces, with shadows. N: also light that surfaces have reflected up to N times,
+    // mirrors that show the model, and glass that refracts; up to 1000. Only the picture and LAM_OUTPUT_CLIPPED show
+    // it. LAM_BAD_ARGUMENT: together with gl1, or without Phong shading. CPU device only; others fail with
+    // LAM_UNSUPPORTED.
+    int bounces;
+    // Paths from each surface in a pixel, 1..65536; 0: 64. The noise of a pixel is inversely proportional to the square
+    // root of this number.
+    int paths;
     // The width of lines and the diameter of points, in pixels, up to 1000. 0 for lines: 1.5. 0 for points: 16 % of the
     // picture's shorter side, divided by the square root of the number of points, but at most 2.5 % of the shorter
     // side. The result is at least 3 pixels, and at least 8 pixels for fewer than 100 points. Points below 4 pixels are

@@ -330,8 +330,9 @@ typedef struct lam_explanation {
 
 // Draws the part of the picture around pixel (x, y), counted from the upper left corner, and records every number of
 // that pixel. The call runs the same code as lam_draw with the same parameters; the size and format of the picture
-// replace the image. The device's next picture is not affected. The caller frees the result. Returns NULL on failure:
-// LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (not the CPU device), LAM_LIMIT, LAM_CANCELLED.
+// replace the image, and `bounces` is ignored, because it explains local lighting. The device's next
+// picture is not affected. The caller frees the result. Returns NULL on failure: LAM_BAD_ARGUMENT, LAM_UNSUPPORTED (not
+// the CPU device), LAM_LIMIT, LAM_CANCELLED.
 LAM_API lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const lam_camera *camera,
                                      const lam_draw_params *params, int width, int height, lam_pixel_format format,
                                      int x, int y, const lam_control *control, lam_error *error);

@@ -672,6 +672,16 @@ struct option option_table[OPTIONS_MAX] = {
      "results are within 0.5 % of the exact integral; with 4096 directions, within 0.2 %. The directions are the same "
      "at every point and on every machine. Only the CPU device supports this option.",
      .others = "ground-truth importance-samples"},
+    {"bounces", 0, GROUP_SHADING, "N", NULL, NULL,
+     "Lambent traces paths of light instead of evaluating local lighting. With 1, all light casts shadows: lamps, the "
+     "environment, ambient light and emitting surfaces. With 2 and more, surfaces light one another, mirrors show the "
+     "model, and glass refracts. A path through glass does not count as a reflection. "
+     "`docs/lighting/bounces.md` describes the method. Only the CPU device supports this option.",
+     .others = "path-tracing pathtracer global-illumination gi indirect raytrace", .also = "bounce"},
+    {"paths", 0, GROUP_SHADING, "N", NULL, NULL,
+     "The picture is the mean of these paths, so it contains noise. The same number of paths always gives the same "
+     "picture, on every machine.",
+     .others = "spp noise"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
      "hemisphere light and the environment cast no shadows. A light with a `radius` casts soft shadows. "

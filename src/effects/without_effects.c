@@ -5,6 +5,7 @@
 #include "environment.h"
 #include "fail.h"
 #include "occlusion.h"
+#include "paths.h"
 
 #include <lambent/pick.h>
 
@@ -143,4 +144,22 @@ bool screen_occlusion_start(struct screen_occlusion *occlusion, const struct fra
 
 void screen_occlusion_find(struct screen_occlusion *occlusion, int lanes, struct pool *pool, struct call_control *call)
 {
+}
+
+// --- paths
+
+bool path_frame_make(struct path_frame *paths, struct call_control *call, lam_error *error)
+{
+    return left_out("draw light between surfaces", error);
+}
+
+void path_frame_free(struct path_frame *paths) {}
+uint64_t path_frame_bytes(const struct path_frame *paths) { return 0; }
+void path_start(struct path *path, float x, float y, uint32_t number) {}
+const struct path_kernels *path_kernels_of(int lanes) { return NULL; }
+
+bool paths_trace(const struct path_frame *paths, struct path_stream *stream, struct light_rays *rays,
+                 const struct path_shader *shader, struct call_control *call)
+{
+    return true;
 }

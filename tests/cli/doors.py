@@ -37,7 +37,7 @@ CONTEXT = {
     "setting: match_highlights": {"material": PAINT}, "setting: single_scattering": PHYSICAL, "setting: reference": PHYSICAL, "setting: background_environment": PHYSICAL, "setting: specular_aa": PHYSICAL,
     "setting: gl1": {"material": {**PAINT, "shininess": 200}}, "setting: shadow_terminator": {"shadows": True},
     "setting: shadow_samples": {"shadows": True, "lights": [{**LAMP, "radius": 1}]}, "setting: flat_normal": {"shading": "flat"}, "setting: ao": {"ao_radius": 1}, "setting: ao_radius": {"ao": "rays"},
-    "setting: ao_samples": {"ao": "rays", "ao_radius": 1},
+    "setting: ao_samples": {"ao": "rays", "ao_radius": 1}, "setting: paths": {"bounces": 1},
     "setting: wireframe_width": {"wireframe": True}, "setting: wireframe_color": {"wireframe": True}, "setting: edge_angle": {"edges": ["crease"]},
     "setting: edge_width": EDGES, "setting: edge_color": EDGES, "setting: hidden_lines": EDGES,
 }

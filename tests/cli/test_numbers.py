@@ -207,6 +207,7 @@ CONTEXT = {
     "background": ([], "white"), "color-mode": ([], "raw"), "azimuth": ([], "31"), "elevation": ([], "21"), "zoom": ([], "1.1"), "fov": ([], "40"),
     "projection": ([], "orthographic"), "rig": ([], "headlight"), "ambient": ([], "0.1"), "light-cutoff": (["lights.json"], "0.1"),
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
+    "bounces": (["--paths", 2], "1"), "paths": (["--bounces", 1], "3"),
     "reference": (["--environment", "studio", "--material", "#ffc356,metallic=1,roughness=0.3"], "64"),
     "anisotropy": (["floor.obj"], "1"), "map-filter": (["floor.obj"], "nearest"), "line-width": (["lines.obj"], "3"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "texture-filter": (["floor.obj"], None), "section": ([], "x=40%"), "arrange": ([], None), "explode": (["parts.obj"], "0.5"),

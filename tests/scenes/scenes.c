@@ -692,6 +692,50 @@ static bool ground_checker(struct demo *d, lam_error *error)
     return ok;
 }
 
+// --- light between surfaces
+
+static int physical_material(struct demo *d, float metallic, float transmission, float thickness, lam_error *error)
+{
+    lam_material m = lam_material_default();
+    m.physical = true;
+    m.diffuse = (lam_rgba){0.8f, 0.9f, 0.85f, 1};
+    m.metallic = metallic;
+    m.roughness = 0.1f;
+    m.transmission = transmission;
+    m.thickness = thickness;
+    return lam_scene_add_material(d->scene, &m, error);
+}
+
+// The objects of the shadows, with a glowing bar, a mirror and a ball of glass, on a checkerboard.
+static bool bounces(struct demo *d, lam_error *error)
+{
+    lam_material glow = lam_material_default();
+    glow.emission = (lam_rgb){4, 2, 0.5f};
+    d->params.bounces = 5;
+    d->params.paths = 6;
+    d->params.ground = LAM_GROUND_CHECKER;
+    int bar = shape(d, "cube", 0, 0, error), ball = shape(d, "sphere", 40, 20, error);
+    return shadowed(d, 0.3f, error) &&
+           place(d, bar, lam_scene_add_material(d->scene, &glow, error), (lam_vec3){0.1, 0.7, 0.1},
+                 (lam_vec3){2, -0.3, -1}, error) &&
+           place(d, ball, physical_material(d, 1, 0, 0, error), (lam_vec3){0.4, 0.4, 0.4}, (lam_vec3){-0.3, -0.6, 1.2},
+                 error) &&
+           place(d, ball, physical_material(d, 0, 1, 1, error), (lam_vec3){0.4, 0.4, 0.4}, (lam_vec3){0.2, -0.6, 2.2},
+                 error);
+}
+
+// One reflection of the studio's light on a knot without normals, whose layers transmit.
+static bool bounces_studio(struct demo *d, lam_error *error)
+{
+    d->params.bounces = 2;
+    d->params.paths = 5;
+    d->params.ground = LAM_GROUND_COLOR;
+    d->params.ground_color = (lam_rgb){0.6f, 0.5f, 0.4f};
+    bool ok = put(d, shape(d, "torus-knot", 80, 10, error), physical_material(d, 0.3f, 0.5f, 0, error), error);
+    fit(d);
+    return ok;
+}
+
 const struct demo_row demos[] = {
     {"teapot", "the Utah teapot in the studio light", teapot},
     {"gyroid", "an implicit surface with normals from the gradient", gyroid},
@@ -750,6 +794,9 @@ const struct demo_row demos[] = {
     {"shadows-coplanar", "a box whose sides are overlapping triangles: no side shadows itself", shadows_coplanar},
     {"shadows-gouraud", "the same, lit at the vertices", shadows_gouraud},
     {"occlusion-rays", "the things of the shadows under light from all around, occluded by rays", occlusion_rays},
+    {"bounces", "lamps, a glowing bar, a mirror and glass on a checkerboard: light between surfaces", bounces},
+    {"bounces-studio", "a knot of metal and glass on a coloured ground in the studio, with two bounces",
+     bounces_studio},
     {"ground-shadow", "a ground that catches a soft shadow and occlusion, over nothing", ground_shadow},
     {"ground-checker", "a lit ground, orthographic, z up", ground_checker},
     {"layers", "index 2.4, blue f0, coat, sheen; brushed metal, films on metal and plastic, all layers at once",

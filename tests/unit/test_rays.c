@@ -185,6 +185,38 @@ static unsigned every_triangle(const struct soup *s, const struct ray_lanes *ray
     return hit;
 }
 
+// The nearest triangle on each ray, and the next one behind it.
+static void check_nearest(const struct soup *s, const struct ray_lanes *ray)
+{
+    struct nearest_search search;
+    nearest_start(&search, s->hierarchy, ray);
+    for (int lane = 0; lane < LANES; lane++) {
+        double after = 0;
+        uint32_t after_number = (uint32_t)NO_TRIANGLE;
+        for (int round = 0; round < 2; round++) {
+            double t[LANES], nearest = HUGE_VAL;
+            uint32_t number = (uint32_t)NO_TRIANGLE;
+            view_common(&search.view, 1u << lane);
+            for (uint32_t i = 0; i < s->count; i++) {
+                const struct ray_triangle *triangle = triangle_of(s, i);
+                if (crosses(triangle, ray, &search.view, 1u << lane, NULL, t) && passes_near(triangle, ray, lane) &&
+                    !through_points(s->hierarchy, triangle, ray, 1u << lane) && t[lane] < nearest &&
+                    (t[lane] > after || (t[lane] == after && (int64_t)i > (int32_t)after_number))) {
+                    nearest = t[lane];
+                    number = triangle->number;
+                }
+            }
+            nearest_hit(&search, lane, after, after_number);
+            assert_int_equal(search.found.number, number);
+            if (number == (uint32_t)NO_TRIANGLE)
+                break;
+            assert_true(search.t == nearest);
+            after = nearest;
+            after_number = number;
+        }
+    }
+}
+
 static int found, missed;
 
 static void check_rays(const struct soup *s, int rounds)
@@ -192,8 +224,9 @@ static void check_rays(const struct soup *s, int rounds)
     for (int i = 0; i < rounds; i++) {
         struct ray_lanes ray = random_rays(s, i & 1);
         unsigned active = i % 3 ? 0xff : (unsigned)(uniform() * 256),
-                 hit = any_hit(s->hierarchy, &ray, active, NULL, NULL);
+                 hit = any_hit(s->hierarchy, &ray, active, NULL, NULL, i % 5 == 0);
         assert_int_equal(hit, every_triangle(s, &ray, active));
+        check_nearest(s, &ray);
         found += __builtin_popcount(hit);
         missed += __builtin_popcount(active & ~hit);
     }
@@ -406,7 +439,7 @@ TEST(test_watertight)
         }
         for (int i = 0; i < LANES; i++)
             ray.end[i] = HUGE_VAL;
-        assert_int_equal(any_hit(soup.hierarchy, &ray, 0xff, NULL, NULL), 0xff);
+        assert_int_equal(any_hit(soup.hierarchy, &ray, 0xff, NULL, NULL, false), 0xff);
     }
     drop(&soup);
 }
@@ -526,7 +559,7 @@ TEST(test_coplanar)
                 crossed += other->number != PLANE ? __builtin_popcount(found_here) : 0;
                 all |= found_here & ~through;
             }
-            assert_int_equal(any_hit(soup.hierarchy, &ray, 0xff, NULL, NULL), all);
+            assert_int_equal(any_hit(soup.hierarchy, &ray, 0xff, NULL, NULL, false), all);
         }
         drop(&soup);
     }
@@ -537,5 +570,5 @@ TEST(test_nothing)
 {
     struct hierarchy none = {.scale = 1};
     struct ray_lanes ray = {.end = {1}, .direction = {{0}, {1}}};
-    assert_int_equal(any_hit(&none, &ray, 0xff, NULL, NULL), 0);
+    assert_int_equal(any_hit(&none, &ray, 0xff, NULL, NULL, false), 0);
 }

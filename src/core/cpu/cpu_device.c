@@ -222,6 +222,17 @@ static bool set_up_rays(struct cpu_device *device, struct cpu_frame *cpu, lam_er
     return true;
 }
 
+static bool set_up_paths(struct cpu_frame *cpu, struct path_frame *paths, lam_error *error)
+{
+    paths->frame = cpu->shade.frame;
+    paths->hierarchy = cpu->shade.hierarchy;
+    paths->ray_kernels = cpu->shade.ray_kernels;
+    paths->kernels = path_kernels_of(cpu->kernels->lanes);
+    paths->lookups = cpu->shade.lookups;
+    cpu->shade.paths = paths;
+    return path_frame_make(paths, cpu->call, error);
+}
+
 // Finds the visible triangles before lighting if the normals or the ambient occlusion depend on them. Then computes
 // these normals and the occlusion.
 static bool search_before_lighting(struct cpu_device *device, struct cpu_frame *cpu, uint64_t *clock, lam_error *error)
@@ -276,6 +287,8 @@ static bool cpu_draw(struct lam_device *base, const struct frame *frame, lam_ima
     if (frame->environment_lights && !set_up_environment(&cpu, &device->memory, error))
         return false;
     if (!set_up_rays(device, &cpu, error))
+        return false;
+    if (frame->settings.bounces && !set_up_paths(&cpu, &device->memory.paths, error))
         return false;
     cpu.kernels->raster->resolve_empty(&cpu.target);
     if (!lam_output_is_light(frame->settings.output))

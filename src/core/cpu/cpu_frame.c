@@ -44,6 +44,12 @@ static void lay_out_shading(struct suballocator *from, struct shading *shading, 
     shading->starts = NULL;
     if (frame_has_rays(frame))
         ARRAY(shading->starts, 1);
+    shading->stream = NULL;
+    if (frame->settings.bounces) {
+        ARRAY(shading->stream, 1);
+        ARRAY(shading->hit_batch, 1);
+        ARRAY(shading->hit_starts, 1);
+    }
     shading->shadows = NULL;
     if (frame->settings.shadows && frame->settings.shading == LAM_SHADING_PHONG)
         ARRAY(shading->shadows, 1);
@@ -266,7 +272,8 @@ bool cpu_frame_set_up(struct cpu_frame *cpu, struct frame_memory *memory, lam_er
 uint64_t frame_memory_bytes(const struct frame_memory *memory)
 {
     return memory->vertices.capacity + memory->chunks.capacity + memory->products.capacity + memory->lights.capacity +
-           memory->bins.capacity + memory->reference.capacity + memory->occlusion.capacity + memory->behind.capacity;
+           memory->bins.capacity + memory->reference.capacity + memory->occlusion.capacity + memory->behind.capacity +
+           path_frame_bytes(&memory->paths);
 }
 
 void frame_memory_free(struct frame_memory *memory)
@@ -279,4 +286,5 @@ void frame_memory_free(struct frame_memory *memory)
     buffer_free(&memory->reference);
     buffer_free(&memory->occlusion);
     buffer_free(&memory->behind);
+    path_frame_free(&memory->paths);
 }

@@ -76,6 +76,7 @@ struct frame_memory {
     struct buffer behind;    // the picture behind glass
     struct light_bounds light_bounds;
     struct environment_samples samples;
+    struct path_frame paths;
 };
 
 // Sets up the lists, products and threads of a frame. Returns false if memory runs out, or if there are too many

@@ -308,6 +308,7 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     lam_draw_params surfaces = params ? *params : (lam_draw_params){0}; // wireframe and edges are not lit
     surfaces.wireframe = surfaces.no_surfaces = false;
     surfaces.edges = 0;
+    surfaces.bounces = 0;
     device->recorder = &recorder;
     bool ok = lam_draw(device, scene, camera, &surfaces, &image, control, error);
     device->recorder = NULL;

@@ -131,6 +131,8 @@ static bool add_ground(struct frame *frame, uint64_t next, bool physical, const 
     build_draw(draw, &ground->mesh, &object, (uint32_t)next, view, pixel);
     draw->object = -1;
     draw->ground = true;
+    draw->solid = frame->settings.bounces && ground->kind != LAM_GROUND_SHADOW;
+    frame->passes_rays |= draw->solid; // it fades out
     ground->first_id = (uint32_t)next;
     bool by_environment = physical && frame->environment;
     lam_rgb color = frame->settings.ground_color;
@@ -158,7 +160,7 @@ static bool add_ground(struct frame *frame, uint64_t next, bool physical, const 
                                   frame->material_count,
                                   blended,
                                   by_environment ? LAM_REFLECTION_GGX : LAM_REFLECTION_LAMBERT,
-                                  false,
+                                  draw->solid,
                                   false};
     frame->material_count++;
     frame->triangle_count = (uint32_t)(next + ground->mesh.triangle_count);
@@ -293,12 +295,13 @@ static void set_occlusion(struct frame *frame, const lam_scene *scene, bool phys
     if (automatic)
         settings->occlusion =
             one_number || (wanted && settings->shading == LAM_SHADING_PHONG) ? LAM_OCCLUSION_SCREEN : LAM_OCCLUSION_OFF;
-    frame->widens_highlights =
-        shown && (settings->specular_aa == LAM_SPECULAR_AA_ON ||
-                  (!settings->specular_aa && wanted && !settings->reference && settings->shading == LAM_SHADING_PHONG));
+    frame->widens_highlights = shown && (settings->specular_aa == LAM_SPECULAR_AA_ON ||
+                                         (!settings->specular_aa && wanted && !settings->reference &&
+                                          !settings->bounces && settings->shading == LAM_SHADING_PHONG));
     bool cavity = settings->cavity == LAM_CAVITY_ON ||
                   (!settings->cavity && automatic && wanted && settings->occlusion == LAM_OCCLUSION_SCREEN);
-    if (!shown && !one_number) {
+    // Paths find what is hidden. Only a ground that catches shadows is lit locally.
+    if ((!shown && !one_number) || (settings->bounces && frame->ground.kind != LAM_GROUND_SHADOW)) {
         settings->occlusion = LAM_OCCLUSION_OFF;
         cavity = false;
     }
@@ -326,6 +329,8 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
     frame->height = height;
     if (!settings->samples)
         settings->samples = lam_default_samples(width, height);
+    if (settings->output != LAM_OUTPUT_PICTURE && settings->output != LAM_OUTPUT_CLIPPED)
+        settings->bounces = 0;
     bool of_material = output_kind(params->output) == OUTPUT_MATERIAL;
     if (of_material)
         settings->shading = LAM_SHADING_PHONG;
@@ -496,8 +501,9 @@ bool frame_build(struct frame *frame, const lam_scene *scene, const lam_camera *
     frame->separate_lamp = false;
     if (!frame_lights_add_lamp(frame, scene, &view, call, error))
         return false;
-    frame->settings.shadows = wants_shadows(settings) && (lam_output_is_light(frame->settings.output) ||
-                                                          frame->settings.output == LAM_OUTPUT_CLIPPED);
+    frame->settings.shadows =
+        (wants_shadows(settings) || settings->bounces) &&
+        (lam_output_is_light(frame->settings.output) || frame->settings.output == LAM_OUTPUT_CLIPPED);
     frame->pixel_size = rounded(lens.pixel[1]);
     frame->pixel_aspect = rounded(lens.pixel[0] / lens.pixel[1]);
     for (int i = 0; i < 2; i++)

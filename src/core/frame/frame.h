@@ -37,6 +37,7 @@ struct frame_draw {
     // The mesh is the ground, built for this frame in world space (frame_ground.h); `object` is −1. The ground casts
     // no shadows.
     bool ground;
+    bool solid; // a ground with a colour that paths of light meet; it does cast shadows
     bool clear; // all triangles let light through unchanged (colourless glass, for example), so rays ignore them
     lam_cull cull;
     // If this crease angle is above 0, the mesh has no normals, and the device uses the angle to compute the normals of
@@ -52,7 +53,8 @@ struct frame_draw_range {
     uint32_t first_id, count;
     int draw;
     int front, back; // indices into materials
-    // the opacity may be below 1, or the material transmits light: the triangles are blended or masked
+    // The opacity may be below 1, or the material transmits light: the triangles are blended or masked. Glass that paths
+    // refract (settings.bounces above 1) is not blended.
     bool translucent;
     lam_reflection reflection; // the model for both sides, never AUTO
     bool passes_rays;          // rays treat the triangles as translucent, regardless of the output
@@ -235,11 +237,14 @@ lam_reflection frame_reflection(const struct frame *frame, const lam_material *m
 // Returns whether rays are traced from lit points. Rays for edges are separate (draws_edges).
 static inline bool frame_has_rays(const struct frame *frame)
 {
-    return frame->settings.shadows || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
+    return frame->settings.shadows || frame->settings.bounces || frame->settings.occlusion == LAM_OCCLUSION_RAYS;
 }
 
 // Returns whether a draw's triangles cast shadows.
-static inline bool frame_draw_casts(const struct frame_draw *draw) { return !draw->strokes && !draw->ground; }
+static inline bool frame_draw_casts(const struct frame_draw *draw)
+{
+    return !draw->strokes && (!draw->ground || draw->solid);
+}
 
 // Returns whether the hierarchy contains a draw's triangles.
 static inline bool frame_draw_blocks(const struct frame_draw *draw) { return frame_draw_casts(draw) && !draw->clear; }

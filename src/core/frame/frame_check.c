@@ -78,6 +78,12 @@ static bool rules_check(const lam_draw_params *params, lam_error *error)
                     "cavity shading is computed from screen depths: it needs the ambient occlusion 'screen' or 'off', "
                     "not 'rays'");
     const char *shading = params->shading == LAM_SHADING_FLAT ? "flat" : "Gouraud";
+    if (params->bounces && params->shading != LAM_SHADING_PHONG)
+        return fail(error, LAM_BAD_ARGUMENT, "paths of light begin at each pixel: bounces needs Phong shading, not %s",
+                    shading);
+    if (params->bounces && params->gl1)
+        return fail(error, LAM_BAD_ARGUMENT,
+                    "gl1 clamps the light of each surface, so it cannot be combined with bounces");
     bool pixels = params->occlusion > LAM_OCCLUSION_OFF || params->cavity == LAM_CAVITY_ON;
     if (pixels && params->shading != LAM_SHADING_PHONG)
         return fail(error, LAM_BAD_ARGUMENT, "%s is computed for each pixel: it needs Phong shading, not %s",
@@ -103,7 +109,8 @@ static bool rules_check(const lam_draw_params *params, lam_error *error)
 // In a build without effects, checks that none is asked for.
 static bool effects_check(const lam_draw_params *params, lam_error *error)
 {
-    const char *wanted = params->shadows                      ? "shadows"
+    const char *wanted = params->bounces                      ? "light between surfaces"
+                         : params->shadows                    ? "shadows"
                          : params->ground                     ? "the shadow on a ground"
                          : params->edges || params->wireframe ? "edges"
                          : params->dimensions || params->scale_bar || params->axes || params->grid ? "annotations"

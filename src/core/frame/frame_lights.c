@@ -166,7 +166,8 @@ bool frame_lights_build(struct frame *frame, const lam_scene *scene, lam_rig rig
 bool frame_lights_add_lamp(struct frame *frame, const lam_scene *scene, const lam_mat4 *view, struct call_control *call,
                            lam_error *error)
 {
-    bool wanted = wants_shadows(&frame->settings) && frame->environment && !frame->settings.reference;
+    bool wanted =
+        wants_shadows(&frame->settings) && frame->environment && !frame->settings.reference && !frame->settings.bounces;
     wanted &= lam_output_is_light(frame->settings.output) && !lam_output_is_one_light(frame->settings.output);
     bool lit = false;
     for (int i = 0; i < frame->range_count && wanted; i++) {

@@ -50,7 +50,7 @@ static unsigned side_traits(const struct frame *frame, const lam_mesh *mesh, int
     const lam_material *m = frame->materials[material];
     unsigned traits = is_clear(frame, mesh, material, model) ? 0 : SIDE_DIMS;
     if (transmits(frame, material, model))
-        traits |= SIDE_SEEN_THROUGH | SIDE_TRANSMITS | (refracts(m) ? SIDE_REFRACTS : 0);
+        traits |= SIDE_TRANSMITS | (refracts(m) ? SIDE_REFRACTS : 0);
     if (sees_through(m, varies))
         traits |= SIDE_SEEN_THROUGH;
     return traits | (m->alpha_mode == LAM_ALPHA_MASK ? SIDE_MASKED : 0);
@@ -60,14 +60,16 @@ static unsigned side_traits(const struct frame *frame, const lam_mesh *mesh, int
 static void add_range(struct frame *frame, struct frame_draw_range range, unsigned traits)
 {
     lam_output output = frame->settings.output;
+    const bool traced = frame->settings.bounces > 1; // paths go through glass, so the picture behind it is not needed
     const bool shows = !output_is_value(output), masked = traits & SIDE_MASKED;
-    range.passes_rays = traits & SIDE_SEEN_THROUGH;
-    range.transmits = shows && traits & SIDE_TRANSMITS;
+    range.passes_rays = traits & (SIDE_SEEN_THROUGH | SIDE_TRANSMITS);
+    range.transmits = shows && !traced && traits & SIDE_TRANSMITS;
     // Pictures of surface properties contain no translucent triangles, only masked triangles. Overdraw also counts
     // masked points.
-    range.translucent = range.passes_rays && (shows || (masked && output != LAM_OUTPUT_OVERDRAW));
+    range.translucent = (traced ? traits & SIDE_SEEN_THROUGH : range.passes_rays) &&
+                        (shows || (masked && output != LAM_OUTPUT_OVERDRAW));
     frame->transmits |= range.transmits;
-    frame->refracts |= shows && traits & SIDE_REFRACTS;
+    frame->refracts |= range.transmits && traits & SIDE_REFRACTS;
     frame->translucent |= range.translucent;
     frame->passes_rays |= range.passes_rays;
     frame->tints_rays |= (traits & SIDE_TRANSMITS) != 0;
@@ -78,7 +80,7 @@ static void add_range(struct frame *frame, struct frame_draw_range range, unsign
 void frame_ranges_build(struct frame *frame, const lam_scene *scene, int draw_index)
 {
     struct frame_draw *draw = &frame->draws[draw_index];
-    draw->clear = !draw->strokes;
+    draw->clear = !draw->strokes && frame->settings.bounces < 2;
     const lam_object *object = scene_object(scene, draw->object);
     const lam_mesh *mesh = draw->mesh;
     lam_part all = {.triangle_count = mesh->triangle_count, .material = -1};

@@ -95,7 +95,8 @@ void FOR_ISA(edge_rays)(const struct edge_view *view, const struct edge_line *li
             const struct edge_point *point = &points[k < active ? i + (size_t)k : i];
             set_ray(&ray, k, view, &lines[point->line], point->share);
         }
-        unsigned hit = any_hit(view->hierarchy, &ray, (unsigned)((1u << active) - 1), hides, (void *)(uintptr_t)view);
+        unsigned hit =
+            any_hit(view->hierarchy, &ray, (unsigned)((1u << active) - 1), hides, (void *)(uintptr_t)view, false);
         for (int k = 0; k < active; k++)
             hidden[i + (size_t)k] = hit >> k & 1;
     }

@@ -24,7 +24,7 @@ struct source {
 
 static uint32_t triangles_of(const struct frame_draw *draw)
 {
-    return frame_draw_casts(draw) ? draw->mesh->triangle_count : 0;
+    return frame_draw_casts(draw) && !draw->ground ? draw->mesh->triangle_count : 0;
 }
 
 static bool same_source(const struct source *source, const struct frame_draw *draw)

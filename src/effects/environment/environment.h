@@ -143,6 +143,8 @@ struct environment_lookups {
     // Sums the light over the lobes of a physical material, at as many points as there are lanes (lighting.h).
     void (*reference)(const struct environment_view *view, const struct physical_point *point,
                       struct returned_light *out);
+    // The probability density of the directions in `samples`, per solid angle, in each direction.
+    void (*densities)(const struct environment_view *view, environment_rows direction, int count, float *out);
 };
 // Returns the version with the given number of lanes (1, 4, 8, 16). NULL if the build has no effects.
 const struct environment_lookups *environment_lookups_of(int lanes);

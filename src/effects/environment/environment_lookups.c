@@ -1,7 +1,7 @@
 // environment_lookups.c: looks up an environment in LANES directions at a time. This file is compiled once for each
 // instruction set, with LANES and ISA defined (meson.build).
 #include "environment.h"
-#include "lighting.h"
+#include "lobe_sampling.h"
 #include "prefiltered_lookup.h"
 
 _Static_assert((int)PREFILTERED_LAST == ENVIRONMENT_LEVELS - 1, "lobes.h and environment_light.h use the same levels");
@@ -85,4 +85,4 @@ static void prefiltered(const struct environment_view *view, environment_rows di
 
 #include "reference.inc"
 
-const struct environment_lookups FOR_ISA(environment_lookups) = {colors, irradiance, prefiltered, reference};
+const struct environment_lookups FOR_ISA(environment_lookups) = {colors, irradiance, prefiltered, reference, densities};

@@ -7,8 +7,13 @@
 
 #include <string.h>
 
-static void find_rounding(struct frame_draw *draw, const lam_scene *scene)
+static void find_rounding(struct frame_draw *draw, const lam_scene *scene, double end)
 {
+    if (draw->ground) { // its positions are relative to its middle
+        for (int i = 0; i < 3; i++)
+            draw->rounding[i] = 0x1p-23 * end;
+        return;
+    }
     const struct scene_extent *extent = scene_extent(scene, scene_object(scene, draw->object)->mesh);
     const double *o = draw->mesh->origin, low[3] = {extent->minimum.x, extent->minimum.y, extent->minimum.z},
                  high[3] = {extent->maximum.x, extent->maximum.y, extent->maximum.z};
@@ -19,7 +24,8 @@ static void find_rounding(struct frame_draw *draw, const lam_scene *scene)
     }
 }
 
-static void place_draw(struct frame_draw *draw, const lam_scene *scene, const lam_mat4 *eye_to_world)
+// `end` is the radius of the ground.
+static void place_draw(struct frame_draw *draw, const lam_scene *scene, const lam_mat4 *eye_to_world, double end)
 {
     const double *origin = draw->mesh->origin;
     lam_mat4 from = mat4_translate(origin[0], origin[1], origin[2]);
@@ -40,7 +46,7 @@ static void place_draw(struct frame_draw *draw, const lam_scene *scene, const la
             draw->world_normal[i][j] = cofactors[i][j] * scale;
     }
     if (frame_draw_casts(draw))
-        find_rounding(draw, scene);
+        find_rounding(draw, scene, end);
 }
 
 // Returns the matrix from a light's frame to world space (frame.c has found the object).
@@ -106,5 +112,5 @@ void frame_rays_build(struct frame *frame, const lam_scene *scene, const lam_mat
     if (frame->settings.shadows)
         place_lights(frame, scene, &eye_to_world);
     for (int i = 0; i < frame->draw_count && (frame_has_rays(frame) || frame->draws_edges); i++)
-        place_draw(&frame->draws[i], scene, &eye_to_world);
+        place_draw(&frame->draws[i], scene, &eye_to_world, frame->ground.end);
 }

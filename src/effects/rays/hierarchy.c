@@ -6,6 +6,12 @@
 
 #include <string.h>
 
+// The arrays of a ground change if its squares do.
+static double square_of(const struct frame *frame, const struct frame_draw *draw)
+{
+    return draw->solid ? frame->ground.square : 0;
+}
+
 static bool same_sources(const struct hierarchy_memory *memory, const struct frame *frame)
 {
     if (memory->token != frame->token || memory->hierarchy.source_count != frame->draw_count)
@@ -16,7 +22,7 @@ static bool same_sources(const struct hierarchy_memory *memory, const struct fra
         const struct ray_source *s = &sources[i];
         if (s->positions != draw->mesh->positions || s->indices != draw->mesh->indices ||
             s->triangle_count != draw->mesh->triangle_count || s->first_id != draw->first_id ||
-            s->blocks != frame_draw_blocks(draw))
+            s->blocks != frame_draw_blocks(draw) || s->square != square_of(frame, draw))
             return false;
         // Objects without shadows may change from frame to frame, so they are excluded.
         if (frame_draw_casts(draw) && memcmp(s->world, draw->world, sizeof s->world) != 0)
@@ -43,8 +49,13 @@ static void note_sources(struct hierarchy_memory *memory, const struct frame *fr
     struct ray_source *sources = memory->sources.data;
     for (int i = 0; i < frame->draw_count; i++) {
         const struct frame_draw *draw = &frame->draws[i];
-        sources[i] = (struct ray_source){draw->mesh->positions, draw->mesh->indices,     draw->mesh->triangle_count,
-                                         draw->first_id,        frame_draw_blocks(draw), {{0}}};
+        sources[i] = (struct ray_source){draw->mesh->positions,
+                                         draw->mesh->indices,
+                                         draw->mesh->triangle_count,
+                                         draw->first_id,
+                                         frame_draw_blocks(draw),
+                                         square_of(frame, draw),
+                                         {{0}}};
         memcpy(sources[i].world, draw->world, sizeof sources[i].world);
     }
 }

@@ -43,6 +43,7 @@ struct ray_source {
     const uint32_t *indices;
     uint32_t triangle_count, first_id;
     bool blocks;
+    double square; // of a ground
     double world[3][4];
 };
 

@@ -129,12 +129,12 @@ static __attribute__((noinline)) void trace(struct light_rays *r, const struct r
     struct ray_layers *layers = r->layers;
     r->sent += (unsigned)__builtin_popcount(active);
     if (!r->frame->passes_rays) {
-        unsigned hit = any_hit(r->hierarchy, ray, active, NULL, NULL);
+        unsigned hit = any_hit(r->hierarchy, ray, active, NULL, NULL, r->scattered);
         num_store(passed[0], pick(mask_of_bits(hit), num_of(0.0f), num_of(1.0f)));
         return;
     }
     layers->count = 0;
-    unsigned hit = any_hit(r->hierarchy, ray, active, filter_ray, r);
+    unsigned hit = any_hit(r->hierarchy, ray, active, filter_ray, r, r->scattered);
     for (int c = 0; c < channels; c++)
         num_store(passed[c], pick(mask_of_bits(hit), num_of(0.0f), num_of(1.0f)));
     if (layers->count > 1)

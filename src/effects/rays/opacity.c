@@ -99,6 +99,14 @@ bool ray_share_is_constant(const struct frame *frame, uint32_t number, bool back
            !maps[LAM_MAP_TRANSMISSION];
 }
 
+bool ray_leaves_volume(const struct frame *frame, uint32_t number, bool back)
+{
+    const struct frame_draw_range *range = &frame->ranges[frame_range_of(frame, number)];
+    const lam_material *material = frame->materials[frame->draws[range->draw].one_sided ? range->front : range->back];
+    return back && material->thickness > 0 && frame_is_physical(range->reflection) &&
+           frame_layers(frame, material) & LAYER_TRANSMISSION && material->alpha_mode != LAM_ALPHA_MASK;
+}
+
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3])
 {
     const struct frame_draw_range *range = &frame->ranges[frame_range_of(frame, number)];
@@ -109,7 +117,7 @@ void ray_transmittance(const struct frame *frame, uint32_t number, bool back, fl
     if (!frame_is_physical(range->reflection) || !(frame_layers(frame, material) & LAYER_TRANSMISSION) ||
         material->alpha_mode == LAM_ALPHA_MASK)
         return;
-    if (back && material->thickness > 0) {
+    if (ray_leaves_volume(frame, number, back)) {
         out[0] = out[1] = out[2] = 1;
         return;
     }

@@ -14,6 +14,9 @@ float ray_opacity(const struct frame *frame, uint32_t number, bool back, float b
 // volume colours light only where the light enters the volume.
 void ray_transmittance(const struct frame *frame, uint32_t number, bool back, float b1, float b2, float out[3]);
 
+// Returns whether a side of a triangle is the inside of a volume that transmits light.
+bool ray_leaves_volume(const struct frame *frame, uint32_t number, bool back);
+
 // Returns whether opacity and transmitted light are the same at all points of a triangle.
 bool ray_share_is_constant(const struct frame *frame, uint32_t number, bool back);
 

@@ -104,6 +104,8 @@ static void occlude(struct light_rays *rays, const struct ray_surface *surface, 
     }
 }
 
+#include "path_rays.inc"
+
 #if LANES == 1
 // Returns whether a triangle blocks any light.
 static bool dims(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
@@ -118,18 +120,26 @@ static int64_t blocker(struct light_rays *rays, const struct ray_starts *starts,
                        const struct frame_light *light, double *distance)
 {
     struct ray_lanes ray;
-    double t, square = 0;
+    struct nearest_search search;
+    double square = 0;
     rays_to_light(&ray, rays, starts, at, light);
-    uint32_t number = nearest_hit(rays->hierarchy, &ray, dims, rays, &t);
+    nearest_start(&search, rays->hierarchy, &ray);
+    search.counts = dims;
+    search.user = rays;
+    nearest_hit(&search, 0, 0, (uint32_t)NO_TRIANGLE);
     for (int k = 0; k < 3; k++)
-        square += ray.direction[k][0] * t * (ray.direction[k][0] * t);
+        square += ray.direction[k][0] * search.t * (ray.direction[k][0] * search.t);
     *distance = __builtin_sqrt(square) / rays->hierarchy->scale;
-    return number == (uint32_t)NO_TRIANGLE ? NO_TRIANGLE : (int64_t)number;
+    return search.found.number == (uint32_t)NO_TRIANGLE ? NO_TRIANGLE : (int64_t)search.found.number;
 }
 #define NEAREST_BLOCKER .blocker = blocker
 #else
 #define NEAREST_BLOCKER .blocker = NULL
 #endif
 
-const struct ray_kernels FOR_ISA(ray_kernels) = {
-    .pass = pass, .pass_pixels = pass_pixels, .occlude = occlude, NEAREST_BLOCKER};
+const struct ray_kernels FOR_ISA(ray_kernels) = {.pass = pass,
+                                                 .pass_pixels = pass_pixels,
+                                                 .occlude = occlude,
+                                                 .nearest = nearest,
+                                                 .pass_along = pass_along,
+                                                 NEAREST_BLOCKER};

@@ -563,9 +563,10 @@ LANE_FN unsigned walk_alone(const struct traversal *t, unsigned lanes)
     return blocked;
 }
 
-// Returns the lanes of `active` whose rays are blocked. If `filter` is NULL, every triangle blocks a ray.
+// Returns the lanes of `active` whose rays are blocked. If `filter` is NULL, every triangle blocks a ray. `scattered`
+// means that few rays are neighbours, so that each is traced alone.
 LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray, unsigned active, ray_filter *filter,
-                         void *user)
+                         void *user, bool scattered)
 {
     struct traversal t;
     struct ray_bundle bundle;
@@ -578,7 +579,9 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
     t.user = user;
     box_rays_of(&t.boxes, ray);
     view_along(&t.view, ray);
-    for (unsigned rest = active & t.boxes.proper, lanes; rest; rest &= ~lanes) {
+    if (scattered)
+        alone = active & t.boxes.proper;
+    for (unsigned rest = active & t.boxes.proper & ~alone, lanes; rest; rest &= ~lanes) {
         // If two rays have no neighbours, all others are probably scattered, too.
         lanes = alone & (alone - 1) ? rest & -rest : bundle_lanes(&t.boxes, rest);
         if (!(lanes & (lanes - 1))) {
@@ -593,49 +596,123 @@ LANE_FN unsigned any_hit(const struct hierarchy *h, const struct ray_lanes *ray,
     return alone ? hit | walk_alone(&t, alone) : hit;
 }
 
-#if LANES == 1
-// Returns the number of the nearest triangle on a ray, and sets *t to the distance of this triangle. If several
-// triangles are at this distance, the function returns the lowest number. Returns NO_TRIANGLE if there is none.
-// `counts` decides whether a triangle is considered.
-LANE_FN uint32_t nearest_hit(const struct hierarchy *h, const struct ray_lanes *ray,
-                             bool (*counts)(void *user, const struct ray_triangle *triangle,
-                                            const struct ray_lanes *ray, const struct ray_view *view),
-                             void *user, double *t)
+// Returns the children of a node that a ray meets, as bits, and the ray's distances from them.
+LANE_FN unsigned meets_near(const struct lone_ray *r, const struct ray_node *node, float distance[NODE_CHILDREN])
 {
-    uint32_t found = (uint32_t)NO_TRIANGLE, stack[NODE_CHILDREN * HIERARCHY_DEPTH][2] = {{0, 0}};
+    const float *planes = node->planes[0][0];
+    eight near = eight_of(0), far = eight_of(r->end);
+    for (int i = 0; i < 3; i++) {
+        eight inverse = eight_of(r->inverse[i]);
+        near = eight_max((eight_load(planes + r->first[i]) - eight_of(r->near[i])) * inverse, near);
+        far = eight_min((eight_load(planes + r->last[i]) - eight_of(r->far[i])) * inverse, far);
+    }
+    memcpy(distance, &near, sizeof near);
+    return eight_not_above(near, far);
+}
+
+// A node or leaf that remains to be visited, and the ray's distance from it.
+struct waiting {
+    uint32_t child, count;
+    float distance;
+};
+
+// Adds the children of a node to the stack, the nearest last.
+LANE_FN int push_children(struct waiting *stack, int waiting, const struct lone_ray *ray, const struct ray_node *node)
+{
+    float distance[NODE_CHILDREN];
+    int first = waiting;
+    for (unsigned rest = meets_near(ray, node, distance); rest; rest &= rest - 1) {
+        int i = __builtin_ctz(rest), at = waiting++;
+        for (; at > first && stack[at - 1].distance < distance[i]; at--)
+            stack[at] = stack[at - 1];
+        stack[at] = (struct waiting){node->child[i], node->count[i], distance[i]};
+    }
+    return waiting;
+}
+
+// The search for the nearest triangle on one of LANES rays. A triangle at the distance `after` must have a higher number than
+// `after_number`, so that a search can continue behind a triangle. `counts` decides whether a triangle is considered; NULL: all.
+struct nearest_search {
+    const struct hierarchy *hierarchy;
+    const struct ray_lanes *ray;
+    struct ray_view view;
     struct box_rays boxes;
+    int lane;
+    double after;
+    uint32_t after_number;
+    bool (*counts)(void *user, const struct ray_triangle *triangle, const struct ray_lanes *ray,
+                   const struct ray_view *view);
+    void *user;
+    // The result: NO_TRIANGLE if there is none. If several triangles are at this distance, it is the lowest number.
+    struct ray_triangle found;
+    double t, weights[3]; // of the corners, not yet divided by their sum
+};
+
+LANE_FN void nearest_start(struct nearest_search *s, const struct hierarchy *h, const struct ray_lanes *ray)
+{
+    s->hierarchy = h;
+    s->ray = ray;
+    s->counts = NULL;
+    box_rays_of(&s->boxes, ray);
+    view_along(&s->view, ray);
+}
+
+// Stores the triangle if the ray meets it before the one that was found last. Returns whether it is stored.
+static __attribute__((noinline, unused)) bool found_nearer(struct nearest_search *s, uint32_t number)
+{
+    struct ray_triangle triangle;
+    _Alignas(64) double weights[3][LANES], t[LANES];
+    const unsigned lane = 1u << s->lane;
+    hierarchy_triangle(s->hierarchy, number, &triangle);
+    if (!crosses(&triangle, s->ray, &s->view, lane, weights, t))
+        return false;
+    const double at = t[s->lane];
+    if (at < s->after || (at == s->after && (int64_t)number <= (int64_t)(int32_t)s->after_number) ||
+        (s->found.number != (uint32_t)NO_TRIANGLE && (at > s->t || (at == s->t && number > s->found.number))))
+        return false;
+    if (through_points(s->hierarchy, &triangle, s->ray, lane) ||
+        (s->counts && !s->counts(s->user, &triangle, s->ray, &s->view)))
+        return false;
+    s->found = triangle;
+    s->t = at;
+    for (int k = 0; k < 3; k++)
+        s->weights[k] = weights[k][s->lane];
+    return true;
+}
+
+static __attribute__((unused)) void nearest_hit(struct nearest_search *s, int lane, double after, uint32_t after_number)
+{
+    const struct hierarchy *h = s->hierarchy;
+    struct waiting stack[NODE_CHILDREN * HIERARCHY_DEPTH]; // not cleared, which would take as long as a ray
     struct lone_ray lone;
     struct leaf_ray leaf_ray;
-    struct ray_view view;
-    box_rays_of(&boxes, ray);
-    lone_ray_of(&lone, &boxes, 0);
-    view_along(&view, ray);
-    leaf_ray_of(&leaf_ray, ray, &boxes, &view, 0);
-    view_common(&view, 1);
-    *t = 0;
-    for (int waiting = h->triangle_count && boxes.proper ? 1 : 0; waiting;) {
-        uint32_t child = stack[--waiting][0], count = stack[waiting][1];
-        const struct ray_node *node = &h->nodes[child];
-        const float *leaf = h->leaves + LEAF_FLOATS * (size_t)child;
-        for (unsigned rest = count ? 0 : meets_alone(&lone, node); rest; rest &= rest - 1) {
-            stack[waiting][0] = node->child[__builtin_ctz(rest)];
-            stack[waiting++][1] = node->count[__builtin_ctz(rest)];
-        }
-        for (unsigned rest = count ? may_cross(leaf, count, &leaf_ray) : 0; rest; rest &= rest - 1) {
-            struct ray_triangle triangle;
-            double at;
-            hierarchy_triangle(h, leaf_number(leaf, count, (uint32_t)__builtin_ctz(rest)), &triangle);
-            if (!crosses(&triangle, ray, &view, 1, NULL, &at) || through_points(h, &triangle, ray, 1) ||
-                !counts(user, &triangle, ray, &view))
-                continue;
-            if (found == (uint32_t)NO_TRIANGLE || at < *t || (at == *t && triangle.number < found)) {
-                found = triangle.number;
-                *t = at;
-            }
-        }
+    double size = 0;
+    stack[0] = (struct waiting){0, 0, 0};
+    lone_ray_of(&lone, &s->boxes, lane);
+    leaf_ray_of(&leaf_ray, s->ray, &s->boxes, &s->view, lane);
+    view_common(&s->view, 1u << lane);
+    for (int i = 0; i < 3; i++) {
+        double own = __builtin_fabs(s->ray->direction[i][lane]);
+        size = own > size ? own : size;
     }
-    return found;
+    s->lane = lane;
+    s->after = after;
+    s->after_number = after_number;
+    s->found.number = (uint32_t)NO_TRIANGLE;
+    s->t = 0;
+    for (int waiting = h->triangle_count && s->boxes.proper >> lane & 1 ? 1 : 0; waiting;) {
+        struct waiting next = stack[--waiting];
+        if (next.distance > lone.end)
+            continue;
+        if (!next.count) {
+            waiting = push_children(stack, waiting, &lone, &h->nodes[next.child]);
+            continue;
+        }
+        const float *leaf = h->leaves + LEAF_FLOATS * (size_t)next.child;
+        for (unsigned rest = may_cross(leaf, next.count, &leaf_ray); rest; rest &= rest - 1)
+            if (found_nearer(s, leaf_number(leaf, next.count, (uint32_t)__builtin_ctz(rest))))
+                lone.end = (float)(s->t * size) * (1.0f + 0x1p-20f); // as in box_rays_of
+    }
 }
-#endif
 
 #endif

@@ -42,7 +42,8 @@ struct light_rays {
     const struct light_pattern *pattern;       // used for lights with a size
     const struct occlusion_pattern *occlusion; // used for ambient occlusion
     struct ray_layers *layers;
-    uint64_t sent; // number of traced rays
+    uint64_t sent;  // number of traced rays
+    bool scattered; // few of the rays that are traced together have nearly the same direction
 };
 
 // The draw that contains the points, and the side that is lit.
@@ -92,6 +93,26 @@ struct ray_scratch {
     float corners[BLOCKERS_MAX][3][3];                    // of these triangles, relative to the cell's middle
 };
 
+// A ray of a path of light, in the hierarchy's space. `straight` means that glass tints the ray without bending it;
+// otherwise the ray ends at glass.
+struct path_ray {
+    double origin[3], point[3]; // as in ray_starts
+    double direction[3], end;   // `end` in lengths of the direction
+    int32_t own;
+    uint32_t seed; // decides which translucent surfaces the ray passes
+    bool straight;
+};
+
+// The nearest surface on a ray.
+struct ray_hit {
+    uint32_t number, range; // the triangle in the frame, NO_TRIANGLE if there is none; its range
+    bool back;              // the ray meets the triangle's back
+    float b1, b2;           // weights of corners 1 and 2
+    float distance;         // in world space
+    float area_per_angle;   // area of the surface per solid angle, in the hierarchy's space
+    float passed[3];        // factor of the light on this ray, from translucent surfaces
+};
+
 // The functions that trace several rays at a time, compiled for each instruction set.
 struct ray_kernels {
     // Computes the share of a light that reaches the active ones of the points `at` … `at` + lanes − 1: a row of
@@ -106,6 +127,11 @@ struct ray_kernels {
     // contributes their transmittance.
     void (*occlude)(struct light_rays *rays, const struct ray_surface *surface, const struct ray_starts *starts,
                     const struct ray_points *points, float *unoccluded);
+    // Finds the nearest surface on each ray. A translucent surface is either met or passed; the mean over many seeds is
+    // right.
+    void (*nearest)(struct light_rays *rays, const struct path_ray *from, int count, struct ray_hit *hits);
+    // Computes the light (red, green, blue) that passes along each ray.
+    void (*pass_along)(struct light_rays *rays, const struct path_ray *from, int count, float (*passed)[3]);
     // Finds the triangle nearest to a point that blocks light on the way to a light, and its distance in world space.
     // Returns NO_TRIANGLE if there is none. Only the version with one lane has this function.
     int64_t (*blocker)(struct light_rays *rays, const struct ray_starts *starts, int at,

@@ -337,6 +337,10 @@ static bool gl_draw(struct lam_device *base, const struct frame *frame, lam_imag
             error, LAM_UNSUPPORTED,
             "OpenGL: reference is %d, but this device supports only the split sum; the CPU device sums directions",
             frame->settings.reference);
+    if (frame->settings.bounces)
+        return fail(error, LAM_UNSUPPORTED,
+                    "OpenGL: bounces is %d, but this device supports only local lighting; the CPU device traces paths",
+                    frame->settings.bounces);
     if (frame->refracts)
         return fail(
             error, LAM_UNSUPPORTED,

@@ -127,6 +127,7 @@ LANE_FN void store_terms(const struct group *g, struct shading_batch *batch, int
 }
 
 #include "layered.inc"
+#include "path_points.inc"
 
 // Shades unlit points: the vertices' colours times the material's colour.
 static void shade_unlit(const struct group *g, struct shading_batch *batch, int count)

@@ -155,6 +155,10 @@ static bool make_set(struct cpu_frame *cpu, struct visible_buffers *buffers, lam
     set->bits = buffers->sets.data;
     set->ranks = (uint32_t *)(set->bits + words);
     memset(set->bits, 0, words * sizeof *set->bits);
+    const struct frame *frame = cpu->raster.frame;
+    for (int i = 0; i < frame->draw_count && frame->settings.bounces; i++) // paths also meet invisible triangles
+        for (uint32_t t = 0; t < frame->draws[i].mesh->triangle_count && frame->draws[i].crease_rad > 0; t++)
+            rank_bitset_add(set, frame->draws[i].first_id + t);
     return true;
 }
 

@@ -40,6 +40,8 @@ struct group {
     const struct hierarchy *hierarchy;     // NULL if no rays are traced
     bool tangents;                         // the reflection model, the material or the output needs tangents
     bool occlusion;                        // if false, all surrounding light arrives
+    bool traced;                           // paths find the light
+    float shift[2];                        // from the centres of pixels to the shaded points, in pixels
     struct recorder *recorder;
 };
 
@@ -89,5 +91,8 @@ LANE_FN surface load_surface(struct shading_batch *batch, int at)
 void FOR_ISA(find_shadows)(const struct group *g, struct shading_batch *batch, int count);
 // Lights the points of a batch (lights.c): replaces the vertex colours in its rows with the shaded colours.
 void FOR_ISA(light_points)(const struct group *g, struct shading_batch *batch, int count);
+// Scatters paths at the points of a batch (lights.c).
+void FOR_ISA(scatter_points)(const struct group *g, struct shading_batch *batch, int count, int rounds,
+                             const uint32_t *slots);
 
 #endif

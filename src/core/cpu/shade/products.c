@@ -54,8 +54,8 @@ struct material_products *products_make(struct buffer *storage, const struct fra
         multiply_material(out, material, frame);
         struct light_products *list = (struct light_products *)at;
         at += lights * sizeof *list;
-        float kd[3], ks[3];
-        frame_material_colors(frame, material, kd, ks);
+        const float *kd = out->kd, *ks = out->ks;
+        frame_material_colors(frame, material, out->kd, out->ks);
         for (size_t i = 0; i < lights; i++) {
             product(list[i].diffuse, kd, frame->lights[i].diffuse);
             product(list[i].specular, ks, frame->lights[i].specular);

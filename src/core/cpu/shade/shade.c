@@ -59,6 +59,7 @@ static struct group group_of(const struct shade_frame *shade, struct fragments *
         .tangents = lam_reflection_describe(range->reflection)->tangents || material->layers & LAYER_ANISOTROPY ||
                     shade->frame->settings.output == LAM_OUTPUT_TANGENTS,
         .occlusion = shade->occlusion || shade->occlusion_pattern,
+        .traced = shade->paths && range->reflection != LAM_REFLECTION_NONE && frame_draw_casts(draw),
         .recorder = shade->recorder};
 }
 
@@ -138,30 +139,32 @@ static int batch_size(const struct group *g) { return is_recording(g) ? LANES : 
 
 // --- Phong shading: normals are interpolated and normalized, and every fragment is shaded
 
-// Finds the triangles, weights and mesh positions of `count` fragments, starting with `first`.
-static void locate_fragments(const struct group *g, int first, int count)
+// Finds the runs of a batch, with the positions of their triangles. Points that are not in the window, which rays have
+// found, have no derivatives with respect to it.
+static void find_runs(const struct group *g, int count, bool in_window)
 {
-    struct shading_batch *batch = g->shading->batch;
-    struct triangle_runs *runs = &batch->runs;
-    list_fragments(g, first, count);
-    list_samples(g, first, count);
-    list_runs(batch, count);
+    struct triangle_runs *runs = &g->shading->batch->runs;
+    list_runs(g->shading->batch, count);
     for (int i = 0; i < runs->count; i += LANES) {
         vec3 p[3];
         if (i + 3 * LANES <= runs->count)
             prefetch_positions(g->mesh, runs->triangle + i + 2 * LANES);
         fetch_positions(g, runs->triangle + i, p);
-        store_run_corners(runs, g, i, p);
+        if (in_window)
+            store_run_corners(runs, g, i, p);
+        for (int k = 0; k < 3 && !in_window; k++)
+            store_run3(runs, RUN_CORNERS + 3 * k, i, black3());
         store_run_interpolant(runs, RUN_INTERPOLANT, i, interpolant3(p));
         if (!g->normals)
             store_run3(runs, RUN_EXTRA, i, g->draw->facets ? facet_normals(g, p) : face_normal(g, p));
     }
-    for (int i = 0; i < count; i += LANES) {
-        struct run_lanes at = run_lanes_of(runs, i);
-        struct weights w = run_weights(g, first, i, at);
-        num_store(batch->b1 + i, w.b1);
-        num_store(batch->b2 + i, w.b2);
-    }
+}
+
+// Interpolates the positions in mesh space and, without vertex normals, sets the normals.
+static void interpolate_positions(const struct group *g, int count)
+{
+    struct shading_batch *batch = g->shading->batch;
+    const struct triangle_runs *runs = &batch->runs;
     for (int i = 0; i < count; i += LANES) {
         struct run_lanes at = run_lanes_of(runs, i);
         store3(batch->p, i, interpolate3(load_weights(batch, i), load_run_interpolant(runs, RUN_INTERPOLANT, at)));
@@ -172,6 +175,23 @@ static void locate_fragments(const struct group *g, int first, int count)
             n = interpolate3(load_weights(batch, i), (struct interpolant){n, no_change, no_change});
         store3(batch->n, i, n);
     }
+}
+
+// Finds the triangles, weights and mesh positions of `count` fragments, starting with `first`.
+static void locate_fragments(const struct group *g, int first, int count)
+{
+    struct shading_batch *batch = g->shading->batch;
+    struct triangle_runs *runs = &batch->runs;
+    list_fragments(g, first, count);
+    list_samples(g, first, count);
+    find_runs(g, count, true);
+    for (int i = 0; i < count; i += LANES) {
+        struct run_lanes at = run_lanes_of(runs, i);
+        struct weights w = run_weights(g, first, i, at);
+        num_store(batch->b1 + i, w.b1);
+        num_store(batch->b2 + i, w.b2);
+    }
+    interpolate_positions(g, count);
 }
 
 static void interpolate_normals(const struct group *g, struct shading_batch *batch, int count)
@@ -290,19 +310,18 @@ static void start_fragment_rays(const struct group *g, int count)
     struct ray_surface lit = ray_surface_of(g);
     struct ray_points points = {count, batch->triangle, NULL, batch->b1, batch->b2, batch->x, batch->y};
     ray_starts_find(&rays, &lit, &points, LANES, g->shading->starts);
-    if (g->shade->occlusion_pattern)
+    if (g->occlusion && g->shade->occlusion_pattern)
         g->shade->ray_kernels->occlude(&rays, &lit, g->shading->starts, &points, batch->unoccluded);
     g->shading->rays += rays.sent;
 }
 
-// Prepares fragments one attribute after the other, so that the processor can work on several packets of LANES at the
+// Prepares points one attribute after the other, so that the processor can work on several packets of LANES at the
 // same time.
-static void prepare_fragments(const struct group *g, int first, int count)
+static void prepare_located(const struct group *g, int count)
 {
     struct shading_batch *batch = g->shading->batch;
     bool has_tangent =
         (g->tangents || reads_map(g, LAM_MAP_NORMAL) || reads_map(g, LAM_MAP_CLEARCOAT_NORMAL)) && g->mesh->tangents;
-    locate_fragments(g, first, count);
     if (g->normals)
         interpolate_normals(g, batch, count);
     if (g->widens)
@@ -319,9 +338,15 @@ static void prepare_fragments(const struct group *g, int first, int count)
     RECORD(record_lit_roughness(g));
     if (g->hierarchy)
         start_fragment_rays(g, count);
-    if (g->shade->occlusion)
+    if (g->occlusion && g->shade->occlusion)
         load_occlusion(g, batch, count);
     make_surfaces(g, batch, count, has_tangent);
+}
+
+static void prepare_fragments(const struct group *g, int first, int count)
+{
+    locate_fragments(g, first, count);
+    prepare_located(g, count);
 }
 
 // Computes the level of detail of the selected map at each point.
@@ -359,6 +384,8 @@ static void output_geometry(const struct group *g, int first, int count)
 // Light beyond the range of floats is limited to this value, so that sums of samples stay finite. The value also
 // replaces NaN, which results from infinite light times 0.
 #define LIGHT_MAX 1e30f
+
+#include "path_hits.inc"
 
 // Stores the colour of point i of the batch as the colour of fragment to[i]. Neighbouring points usually belong to
 // consecutive fragments.
@@ -408,9 +435,12 @@ static void shade_prepared(const struct group *g, int first, int end, bool prepa
             lam_output output = g->frame->settings.output;
             if (shadows)
                 shadows->count = 0;
-            if (shadows && output_kind(output) != OUTPUT_VECTOR && output_kind(output) != OUTPUT_MATERIAL)
+            if (shadows && !g->traced && output_kind(output) != OUTPUT_VECTOR && output_kind(output) != OUTPUT_MATERIAL)
                 FOR_ISA(find_shadows)(g, g->shading->batch, count);
-            FOR_ISA(light_points)(g, g->shading->batch, count);
+            if (g->traced)
+                trace_fragments(g, first, count);
+            else
+                FOR_ISA(light_points)(g, g->shading->batch, count);
         }
         scatter_colors(g->shading->batch, g->fragments->color, g->fragments->order + first, count);
         if (g->translucent && g->fragments->through[0])

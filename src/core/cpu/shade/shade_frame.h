@@ -5,6 +5,7 @@
 #include "buffer.h"
 #include "environment.h"
 #include "frame.h"
+#include "paths.h"
 #include "visible_normals.h"
 
 // The products of a light and a material for the sum of terms (docs/lighting.md).
@@ -17,6 +18,7 @@ struct material_products {
     float emission[3];
     float diffuse[4];      // kd and opacity
     float reflectivity[3]; // kr
+    float kd[3], ks[3];    // multiply the lights (frame_material_colors)
     bool mirrors;          // there is an environment, kr is not 0, and the material is classic
     const lam_material *given;
     unsigned maps;                       // the maps that shading uses, as bits 1 << LAM_MAP_…
@@ -41,6 +43,7 @@ struct shade_frame {
     const struct light_bounds *light_bounds;           // NULL if every light is evaluated everywhere
     const struct hierarchy *hierarchy;                 // NULL if no rays are traced
     const struct light_pattern *light_pattern;         // used for lights with a size
+    const struct path_frame *paths;                    // NULL if lighting is local
     // The effects' functions for the lanes of the instruction set.
     const struct ray_kernels *ray_kernels;
     const struct environment_lookups *lookups;

@@ -113,6 +113,10 @@ struct shading {
     struct ray_starts *starts;   // NULL if the frame traces no rays
     struct shadow_rows *shadows; // NULL if vertices are shaded, or no shadows are cast
     struct ray_layers ray_layers;
+    // Only for paths: the paths of a batch, and the points that they meet.
+    struct path_stream *stream;
+    struct shading_batch *hit_batch;
+    struct ray_starts *hit_starts;
     struct vertex_cache vertices;
     struct light_list lights;
     uint64_t points_lit, lights_evaluated, rays;

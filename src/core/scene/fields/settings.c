@@ -127,6 +127,12 @@ static const lam_setting rows[] = {
      .expected = "0 or 16 to 1048576 directions",
      .summary = "The number of directions (16 to 1048576) for integrating the environment's light on physical "
                 "materials. With 0, Lambent uses the split-sum approximation instead."},
+    {"bounces", MEMBER(WHOLE, bounces), .min = 1, .max = 1000, .zero = true, .expected = "0 to 1000",
+     .summary =
+         "The number of times that light may be reflected on its way to the eye, by path tracing: 1 adds shadows "
+         "of all light, 2 and more add light between surfaces. With 0, Lambent computes local lighting."},
+    {"paths", MEMBER(WHOLE, paths), .min = 1, .max = 65536, .standard = 64, .expected = "0 to 65536",
+     .summary = "The number of paths per pixel, if `bounces` is above 0; four times as many halve the noise."},
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",

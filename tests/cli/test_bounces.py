@@ -1,0 +1,115 @@
+# test_bounces.py: --bounces and --paths: closed forms of light between surfaces, equality with local lighting, and hostile scenes.
+import json
+import math
+import struct
+
+from harness import ROOT, Case
+
+BLACK = [0, 0, 0]
+
+
+def matt(albedo, emission=0):
+    return {"diffuse": [albedo] * 3, "specular": BLACK, "emission": [emission] * 3}
+
+
+def physical(**more):
+    return {"physical": True, "diffuse": [1, 1, 1], **more}
+
+
+GLASS = physical(roughness=0, transmission=1, thickness=1, ior=1.5)
+METAL = physical(metallic=1, roughness=0.3)
+
+
+class Bounces(Case):
+    def draw(self, objects, materials, camera, *words, size=24, background=(0, 0, 0, 1), **more):
+        """The linear red values of a scene's picture."""
+        eye, target, fovy = camera
+        scene = {"lambent": 1, "image": {"size": [size, size], "background": background, "tone": "none"}, "ambient": BLACK, "lights": [],
+                 "objects": objects, "materials": materials,
+                 "camera": {"eye": eye, "target": target, "fovy": fovy, "near": 0.01, "far": 300}, **more}
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        self.good("scene.json", "-q", "-o", "out.pfm", *words)
+        data = (self.folder / "out.pfm").read_bytes()
+        return struct.unpack("<%df" % (size * size * 3), data[-size * size * 12:])
+
+    def check_mean(self, values, wanted, case):
+        """The mean is within four of its standard errors, and within 0.3 %."""
+        values = values[::3]
+        mean = sum(values) / len(values)
+        error = math.sqrt(sum((v - mean) ** 2 for v in values)) / len(values)
+        self.assertLessEqual(abs(mean - wanted), 4 * error + 1e-6 * wanted, (case, mean, wanted, error))
+        self.assertLessEqual(abs(mean - wanted), 0.003 * wanted, (case, mean, wanted))
+
+    def test_furnace_of_matt_walls(self):
+        """N reflections in a box that emits e everywhere: e (1 + a + … + a^N)."""
+        inside = ([0.05, 0.1, 0.12], [0.3, 0.2, -0.1], 60)
+        for albedo in (0.2, 0.5, 0.9):
+            for bounces in (1, 2, 8):
+                values = self.draw([{"shape": "cube", "material": "m"}], {"m": matt(albedo, 0.25)}, inside, "--bounces", bounces, "--paths", 256)
+                self.check_mean(values, 0.25 * sum(albedo ** k for k in range(bounces + 1)), (albedo, bounces))
+
+    def test_uniform_sky(self):
+        """A convex matt body returns its albedo of a uniform sky; glass and white metal are invisible in it."""
+        (self.folder / "white.pfm").write_bytes(b"PF\n8 4\n-1.0\n" + struct.pack("<f", 1) * (8 * 4 * 3))
+        skies = {"ambient": ({"ambient": [1, 1, 1]}, matt(0.5), 0.5),
+                 "hemisphere": ({"lights": [{"type": "hemisphere", "sky": [1, 1, 1], "ground": [1, 1, 1]}]}, matt(0.5), 0.5),
+                 "metal": ({"environment": {"equirectangular": "white.pfm"}}, METAL, 1),
+                 "glass": ({"environment": {"equirectangular": "white.pfm"}}, GLASS, 1)}
+        for case, (sky, material, wanted) in skies.items():
+            values = self.draw([{"shape": "sphere", "material": "m"}], {"m": material}, ([0, 0, 5], BLACK, 10), "--bounces", 12, **sky)
+            self.check_mean(values, wanted, case)
+
+    def test_emitters(self):
+        """A lamp over a floor, and two parallel plates: (configuration factor) · albedo · emission. A pane of glass before a lamp lets
+        (1 − R) / (1 + R) through, with R = 0.04, by all its inner reflections."""
+        floor = {"shape": "cube", "material": "floor", "transform": [["translate", 0, -1, 0], ["scale", 100, 1, 100]]}
+        lamp = {"shape": "cube", "material": "lamp", "transform": [["translate", 0, 2.05, 0], ["scale", 1, 0.05, 1]]}
+        materials = {"floor": matt(0.5), "lamp": matt(0, 1)}
+        side = 1 / 2  # of the quarter of the lamp, relative to its height
+        factor = 4 / (2 * math.pi) * 2 * side / math.sqrt(1 + side * side) * math.atan(side / math.sqrt(1 + side * side))
+        self.check_mean(self.draw([floor, lamp], materials, ([6, 3, 0], BLACK, 0.05), "--bounces", 1, "--paths", 1024), 0.5 * factor, "lamp")
+        lamp["transform"] = [["translate", 0, 2.05, 0], ["scale", 100, 0.05, 100]]
+        factor = 4 / (2 * math.pi) * 2 * 50 / math.sqrt(2501) * math.atan(50 / math.sqrt(2501))
+        self.check_mean(self.draw([floor, lamp], materials, ([1, 1, 0], BLACK, 0.05), "--bounces", 1, "--paths", 1024), 0.5 * factor, "plates")
+        pane = {"shape": "cube", "material": "glass", "transform": [["scale", 3, 3, 0.2]]}
+        wall = {"shape": "cube", "material": "lamp", "transform": [["translate", 0, 0, -2], ["scale", 9, 9, 1]]}
+        values = self.draw([pane, wall], {"glass": GLASS, "lamp": matt(0, 1)}, ([0, 0, 5], BLACK, 0.01), "--bounces", 40, "--paths", 1024)
+        self.check_mean(values, (1 - 0.04) / (1 + 0.04), "pane")
+
+    def test_equals_local_lighting(self):
+        """One lamp and one reflection is what local lighting computes with shadows, for every model that needs no blur."""
+        objects = [{"shape": "torus-knot", "material": "m"},
+                   {"shape": "cube", "material": "n", "transform": [["translate", 0, -2, 0], ["scale", 4, 1, 4]]}]
+        materials = {"m": {"diffuse": [0.7, 0.31, 0.13], "specular": [0.3, 0.2, 0.9], "shininess": 37, "ambient": BLACK}, "n": matt(0.6)}
+        lamps = [{"type": "point", "position": [2, 3, 4], "intensity": 1.3, "attenuation": [1, 0.1, 0.02]},
+                 {"type": "spot", "position": [2, 3, 4], "direction": [-2, -3, -4], "inner": 10, "outer": 25},
+                 {"type": "directional", "direction": [-1, -2, -1]}]
+        for lamp in lamps:
+            for model in ("lambert", "phong", "blinn-phong", "oren-nayar", "toon", "gooch", "kajiya-kay"):
+                local, traced = (self.draw(objects, materials, ([0, 1, 5], BLACK, 40), "--reflection", model, *words, size=64, lights=[lamp])
+                                 for words in (("--shadows",), ("--bounces", 1, "--paths", 16)))
+                self.assertEqual(local, traced, (model, lamp["type"]))
+
+    def test_one_picture(self):
+        """Threads and instruction sets do not change a byte."""
+        words = (ROOT / "examples/cornell.json", "-q", "--bounces", 4, "--paths", 3, "-s", 40, "-o", "-")
+        pictures = {self.good(*words, "--threads", threads, "--isa", isa).stdout for threads, isa in ((1, "scalar"), (3, "auto"), (16, "scalar"))}
+        self.assertEqual(len(pictures), 1)
+
+    def test_hostile_scenes(self):
+        """No picture contains a NaN, no path is endless, and limits hold."""
+        for name, material in {"bright": matt(0.5, 1e30), "mirrors": physical(metallic=1, roughness=0), "glass": GLASS,
+                               "white": matt(1, 0.1)}.items():
+            objects = [{"shape": "cube", "material": "m"}, {"shape": "sphere", "material": "m", "transform": [["scale", 0.3]]}]
+            values = self.draw(objects, {"m": material}, ([0.05, 0.1, 0.9], [0.3, 0.2, -0.1], 60), "--bounces", 200, "--paths", 4, size=16,
+                               lights=[{"type": "point", "position": [0.4, 0.4, 0.8]}])
+            self.assertTrue(all(0 <= v < 1.1e30 for v in values), name)
+        self.bad(4, "scene.json", "--bounces", 1000, "--paths", 65536, "-s", 512, "--time-limit", 0.3, "-o", "late.png", says=("time limit",))
+
+    def test_refusals(self):
+        self.bad(1, "sphere", "--bounces", 1, "--shading", "gouraud", "-o", "a.png", says=("bounces needs Phong shading",))
+        self.bad(1, "sphere", "--bounces", 1, "--gl1", "-o", "a.png", says=("cannot be combined with bounces",))
+        self.bad(1, "sphere", "--bounces", 1001, "-o", "a.png", says=("1000",))
+        # Values of surfaces need no paths, and the paths have no effect on them.
+        self.assertEqual(self.good("sphere", "--bounces", 2, "--show", "normals", "-s", 16, "-q", "-o", "-").stdout,
+                         self.good("sphere", "--show", "normals", "-s", 16, "-q", "-o", "-").stdout)

@@ -42,6 +42,7 @@ enum sheet_name {
     SHEET_FRAMES,
     SHEET_SURFACES,
     SHEET_FILTERS,
+    SHEET_TRUTH,
 };
 
 // The picture and its output file.

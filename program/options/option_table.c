@@ -240,6 +240,8 @@ static const struct choice sheet_words[] = {
      "one light in the world frame, the camera frame and the model frame, each before and after a rotation"},
     {"surfaces", SHEET_SURFACES, "a specular, a diffuse and a translucent surface"},
     {"filters", SHEET_FILTERS, "the model's textures with nearest, bilinear, trilinear and anisotropic filters"},
+    {"truth", SHEET_TRUTH,
+     "local lighting, with shadows, with ambient occlusion, and with one, two and eight bounces of light"},
     {NULL, 0, NULL}};
 
 static const struct choice isa_words[] = {

@@ -106,6 +106,11 @@ class Bounces(Case):
             self.assertTrue(all(0 <= v < 1.1e30 for v in values), name)
         self.bad(4, "scene.json", "--bounces", 1000, "--paths", 65536, "-s", 512, "--time-limit", 0.3, "-o", "late.png", says=("time limit",))
 
+    def test_sheet(self):
+        self.good("compare", "torus-knot", "--sheet", "truth", "-s", 24, "--paths", 2, "-q", "-o", "sheet.png")
+        cells = self.good("compare", "torus-knot", "--sheet", "truth", "-s", 24, "--paths", 2, "-q", "-o", "-", "--no-captions").stdout
+        self.assertTrue(cells.startswith(b"\x89PNG"))
+
     def test_refusals(self):
         self.bad(1, "sphere", "--bounces", 1, "--shading", "gouraud", "-o", "a.png", says=("bounces needs Phong shading",))
         self.bad(1, "sphere", "--bounces", 1, "--gl1", "-o", "a.png", says=("cannot be combined with bounces",))

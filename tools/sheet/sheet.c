@@ -111,6 +111,16 @@ static const struct sheet sheets[] = {
                                  {"Trilinear (mipmaps)", {"--map-filter", "trilinear", "--anisotropy", "1"}},
                                  {"Anisotropic, up to 16 probes",
                                   {"--map-filter", "trilinear", "--anisotropy", "16"}}}},
+    [SHEET_TRUTH] = {.name = "truth",
+                     .title = "Approximations of light",
+                     .columns = 3,
+                     .count = 6,
+                     .cells = {{"Local lighting", {"--ao", "off"}},
+                               {"With shadows", {"--shadows", "--ao", "off"}},
+                               {"With shadows and occlusion", {"--shadows", "--ao", "rays"}},
+                               {"One bounce: direct light", {"--bounces", "1"}},
+                               {"Two bounces", {"--bounces", "2"}},
+                               {"Eight bounces", {"--bounces", "8"}}}},
 };
 
 // --- a row of variants

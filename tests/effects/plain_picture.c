@@ -59,6 +59,7 @@ static void ask_for_effects(void)
     ask("edges", draw(true, &(lam_draw_params){.edges = LAM_EDGES_CREASE}, LAM_ISA_AUTO, NULL));
     ask("wireframe", draw(true, &(lam_draw_params){.wireframe = true}, LAM_ISA_AUTO, NULL));
     ask("occlusion", draw(true, &(lam_draw_params){.occlusion = LAM_OCCLUSION_SCREEN}, LAM_ISA_AUTO, NULL));
+    ask("bounces", draw(true, &(lam_draw_params){.bounces = 1, .paths = 1}, LAM_ISA_AUTO, NULL));
     ask("rays", draw(true, &(lam_draw_params){.occlusion = LAM_OCCLUSION_RAYS}, LAM_ISA_AUTO, NULL));
     ask("cavity", draw(true, &(lam_draw_params){.cavity = LAM_CAVITY_ON}, LAM_ISA_AUTO, NULL));
     lam_environment *environment = lam_environment_built_in("studio", &error);

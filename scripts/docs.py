@@ -133,7 +133,8 @@ def formats(program, _):
     yield "|---|---|---|"
     for name, endings, numbers in written:
         yield "| `%s` | %s | %s |" % (name, ", ".join("`.%s`" % ending.strip(".") for ending in endings.split()),
-                                      "writes pictures: " + numbers if numbers else "reads models")
+                                      "reads models" + (", %s" % numbers if numbers and "lambent-formats" in numbers else "")
+                                      if not numbers or "lambent-formats" in numbers else "writes pictures: " + numbers)
     yield ""
     yield "Pictures can be read from these formats: %s." % read.strip()
 

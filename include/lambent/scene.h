@@ -160,6 +160,17 @@ LAM_API lam_scene *lam_scene_load_memory(const void *bytes, size_t size, const c
 LAM_API const char *lam_model_format_name(int format);
 LAM_API const char *lam_model_format_extensions(int format);
 
+// Returns the package that reads the format: "lambent-formats", or NULL if the library itself reads the format. Such a
+// format is read by the program lambent-import, in a process of its own. Sets *installed (may be NULL) to whether this
+// version can read the format now.
+LAM_API const char *lam_model_format_package(int format, bool *installed);
+
+// Prepares a process that will lose the right to run programs (a sandbox): starts a small process that runs
+// lambent-import for it. Must be called before the process starts threads. Returns the socket to which loads send
+// their requests by sendmsg(2); the process must keep the socket open. Returns −1 if lambent-import is not installed,
+// and the same socket if called again. Other processes need not call this function.
+LAM_API int lam_import_start(void);
+
 // Computes the normals of every mesh again, as loading would. LAM_NORMALS_FILE changes only meshes without normals.
 // `crease_angle_rad` and `threads` are as in lam_load_params; `control` may be NULL. On failure some meshes may have
 // new normals and others the old ones. Errors: LAM_LIMIT, LAM_CANCELLED.

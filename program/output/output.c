@@ -171,7 +171,9 @@ bool is_model_name(const char *name)
 {
     const char *dot = strrchr(name, '.');
     for (int format = 0; dot && dot != name && lam_model_format_name(format); format++) {
-        if (strcmp(lam_model_format_name(format), "scene") == 0)
+        bool readable;
+        lam_model_format_package(format, &readable);
+        if (!readable || strcmp(lam_model_format_name(format), "scene") == 0)
             continue;
         for (const char *ending = lam_model_format_extensions(format); *ending; ending += strspn(ending, " ")) {
             size_t length = strcspn(ending, " ");

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <lambent/path.h>
+#include <lambent/scene.h>
 
 #include "console.h"
 
@@ -219,6 +220,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
         *state = (struct sandbox_state){.reason = "the kernel does not let a process drop privileges"};
         return true;
     }
+    state->starter = paths->imports ? lam_import_start() : -1;
     drop_capabilities();
     if (state->landlock && !enter_landlock(paths, false, state->landlock)) {
         if (is_exhausted(errno))
@@ -230,7 +232,7 @@ bool sandbox_enter(const struct sandbox_paths *paths, struct sandbox_state *stat
     for (int i = 0; i < paths->count; i++)
         kind |= paths->items[i].access & SANDBOX_WRITE ? SANDBOX_OPENS_PIPES : 0;
     kind |= state->landlock < TRUNCATE_VERSION ? SANDBOX_NO_OPENAT2 : 0;
-    if (state->filter && !sandbox_filter_install(kind)) {
+    if (state->filter && !sandbox_filter_install(kind, state->starter)) {
         state->filter = false;
         state->reason = state->landlock ? "the kernel refuses the seccomp filter"
                                         : "the kernel refuses Landlock and the seccomp filter";

@@ -27,6 +27,7 @@ struct sandbox_paths {
     int count, capacity;
     bool failed;      // memory ran out; sandbox_enter then fails
     bool scene_files; // a scene file may name files anywhere (sandbox_start.c)
+    bool imports;     // a model may need lambent-import (lam_import_start)
     bool serves;      // selects the filter SANDBOX_SERVES
     // Decides which files the writer may write; if NULL, SANDBOX_MAKE and SANDBOX_REPLACE decide. `writers` is the
     // number of threads that the writer serves (0 means 1).
@@ -45,6 +46,7 @@ struct sandbox_state {
     bool filter;           // the seccomp filter
     bool reads_everything; // all files are readable
     const char *reason;    // why a protection is missing; NULL if both are active
+    int starter;           // lam_import_start; not positive if models need no other program
 };
 
 // Returns the protections that the kernel offers. Changes nothing.
@@ -72,10 +74,12 @@ enum sandbox_filter {
     SANDBOX_OPENS_PIPES = 2, // also opens existing files for writing, if Landlock permits it
     // Forbids openat2. Needed if Landlock does not prevent truncation, because a filter cannot check openat2's flags.
     SANDBOX_NO_OPENAT2 = 4,
+    SANDBOX_NO_FILES = 8, // opens nothing
 };
 
-// sandbox_filter.c: installs a seccomp filter for all threads in addition to the active filters. Returns false and sets
-// errno if the kernel rejects the filter.
-bool sandbox_filter_install(unsigned kind);
+// sandbox_filter.c: installs a seccomp filter for all threads in addition to the active filters. `starter` is the
+// result of lam_import_start, to which messages may be sent. Returns false and sets errno if the kernel rejects the
+// filter.
+bool sandbox_filter_install(unsigned kind, int starter);
 
 #endif

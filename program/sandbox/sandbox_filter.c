@@ -152,6 +152,7 @@ struct condition {
 #define HIGH(argument) (2 * (argument) + 1)
 #define ALL            0xFFFFFFFFU
 #define SELF           0xFFFFFFFEU // in the list of values, SELF means this process's ID
+#define STARTER        0xFFFFFFFDU // the socket of lam_import_start
 
 // The C library uses PR_SET_VMA to name its memory.
 #ifndef PR_SET_VMA
@@ -191,6 +192,9 @@ static const struct condition conditions[] = {
     {SYS_prlimit64, LOW(0), ALL, EPERM, 2, {0, SELF}},
     {SYS_prlimit64, LOW(2), ALL, EPERM, 1, {0}},
     {SYS_prlimit64, HIGH(2), ALL, EPERM, 1, {0}},
+    // Asks the process that starts lambent-import for another one, and hands it two pipes (lam_import_start).
+    {SYS_sendmsg, LOW(0), ALL, ENOSYS, 1, {STARTER}},
+    {SYS_sendmsg, LOW(2), MSG_FASTOPEN, EPERM, 1, {0}},
     // New threads.
     {SYS_clone, LOW(0), CLONE_THREAD | NAMESPACES, EPERM, 1, {CLONE_THREAD}},
 };
@@ -234,7 +238,7 @@ enum { MAX = 1024 };
 struct program {
     struct sock_filter code[MAX];
     unsigned short length;
-    unsigned self;
+    unsigned self, starter;
 };
 
 static void put(struct program *p, unsigned short code, unsigned k, unsigned char jump_true, unsigned char jump_false)
@@ -268,9 +272,10 @@ static void check(struct program *p, const struct condition *c)
 {
     load(p, offsetof(struct seccomp_data, args) + 4 * (size_t)c->half); // both architectures are little-endian
     put(p, BPF_ALU | BPF_AND | BPF_K, c->mask, 0, 0);
-    for (int k = 0; k < c->count; k++)
-        put(p, BPF_JMP | BPF_JEQ | BPF_K, c->values[k] == SELF ? p->self : c->values[k], (unsigned char)(c->count - k),
-            0);
+    for (int k = 0; k < c->count; k++) {
+        unsigned value = c->values[k] == SELF ? p->self : c->values[k] == STARTER ? p->starter : c->values[k];
+        put(p, BPF_JMP | BPF_JEQ | BPF_K, value, (unsigned char)(c->count - k), 0);
+    }
     end(p, SECCOMP_RET_ERRNO | (unsigned)c->error);
 }
 
@@ -295,7 +300,9 @@ static void build(struct program *p, unsigned kind)
     end(p, SECCOMP_RET_KILL_PROCESS);
     load(p, offsetof(struct seccomp_data, nr));
     allow(p, allowed, COUNT(allowed));
-    if (kind & SANDBOX_OPENS_PIPES)
+    if (kind & SANDBOX_NO_FILES)
+        kind |= SANDBOX_NO_OPENAT2;
+    else if (kind & SANDBOX_OPENS_PIPES)
         allow_some(p, makes_nothing, COUNT(makes_nothing));
     else
         allow_some(p, reads_alone, COUNT(reads_alone));
@@ -313,11 +320,12 @@ static void build(struct program *p, unsigned kind)
     end(p, SECCOMP_RET_ERRNO | ENOSYS);
 }
 
-bool sandbox_filter_install(unsigned kind)
+bool sandbox_filter_install(unsigned kind, int starter)
 {
     struct program p;
     p.length = 0;
     p.self = (unsigned)getpid();
+    p.starter = starter > 0 ? (unsigned)starter : UINT32_MAX;
     build(&p, kind);
     if (p.length > MAX) {
         errno = E2BIG;
@@ -330,9 +338,9 @@ bool sandbox_filter_install(unsigned kind)
 
 #else
 
-bool sandbox_filter_install(unsigned kind)
+bool sandbox_filter_install(unsigned kind, int starter)
 {
-    (void)kind;
+    (void)kind, (void)starter;
     return false;
 }
 

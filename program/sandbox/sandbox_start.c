@@ -14,7 +14,7 @@
 #include "limit_options.h"
 #include "file_io.h"
 
-static struct sandbox_state active = {.reason = "not entered"};
+static struct sandbox_state active = {.reason = "not entered", .starter = -1};
 
 const struct sandbox_state *sandbox_active(void) { return &active; }
 
@@ -45,6 +45,20 @@ static bool is_scene_file(const char *model)
     return dot && strcmp(dot, ".json") == 0;
 }
 
+// Returns whether the name says that Lambent reads the file itself. The content decides, so other names may need
+// lambent-import.
+static bool is_own_format(const char *model)
+{
+    const char *dot = strrchr(model, '.');
+    size_t length = dot ? strlen(dot + 1) : 0;
+    for (int i = 0; length && lam_model_format_name(i) && !lam_model_format_package(i, NULL); i++) {
+        const char *list = lam_model_format_extensions(i), *at = strcasestr(list, dot + 1);
+        if (at && (at == list || at[-1] == ' ') && (!at[length] || at[length] == ' '))
+            return true;
+    }
+    return false;
+}
+
 void sandbox_add_input(struct sandbox_paths *paths, const char *model)
 {
     const char *next = joined_models_next(model);
@@ -56,6 +70,7 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model)
         sandbox_add_input(paths, next);
         return;
     }
+    paths->imports |= strcmp(model, "-") == 0;
     if (strcmp(model, "-") == 0 || lam_shape_find(model) >= 0)
         return;
     struct stat about;
@@ -63,6 +78,7 @@ void sandbox_add_input(struct sandbox_paths *paths, const char *model)
         sandbox_add(paths, model, SANDBOX_READ); // a link to a file in another folder
     add_folder_of(paths, model, SANDBOX_READ);
     paths->scene_files |= is_scene_file(model);
+    paths->imports |= is_scene_file(model) || !is_own_format(model);
 }
 
 void sandbox_add_file(struct sandbox_paths *paths, const char *file) { sandbox_add(paths, file, SANDBOX_READ); }

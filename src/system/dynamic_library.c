@@ -61,7 +61,6 @@ bool library_find(void *library, const char *name, void *function)
 
 #include <dlfcn.h>
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -85,30 +84,35 @@ void *library_open(const char *name, bool resident, const char **reason)
 // folder.
 static const char *const own_folders[] = {"", "../", "lambent/", "../" LAMBENT_LIBDIR "/lambent/"};
 
-static void *open_beside(const char *file, const char *name)
+// Finds a file in one of these folders. Returns false if no folder contains the file.
+static bool find_beside(const char *file, const char *name, char path[LIBRARY_PATH_SIZE])
 {
-    char folder[PATH_MAX], path[PATH_MAX + 100];
-    void *library = NULL;
+    char folder[PATH_MAX];
     if (!realpath(file, folder))
-        return NULL;
+        return false;
     char *end = strrchr(folder, '/');
     end[1] = 0;
-    for (size_t i = 0; i < sizeof own_folders / sizeof *own_folders && !library; i++) {
-        int length = snprintf(path, sizeof path, "%s%s%s", folder, own_folders[i], name);
-        if (length < (int)sizeof path && access(path, R_OK) == 0)
-            library = library_open(path, true, NULL);
+    for (size_t i = 0; i < sizeof own_folders / sizeof *own_folders; i++) {
+        int length = snprintf(path, LIBRARY_PATH_SIZE, "%s%s%s", folder, own_folders[i], name);
+        if (length < LIBRARY_PATH_SIZE && access(path, R_OK) == 0)
+            return true;
     }
-    return library;
+    return false;
+}
+
+bool library_own_path(const char *name, char path[LIBRARY_PATH_SIZE])
+{
+    Dl_info here;
+    // For the program itself, dladdr returns the name with which the program was started. This name may lack a folder.
+    return (dladdr((const void *)own_folders, &here) && here.dli_fname && strchr(here.dli_fname, '/') &&
+            find_beside(here.dli_fname, name, path)) ||
+           find_beside("/proc/self/exe", name, path);
 }
 
 void *library_open_own(const char *name)
 {
-    Dl_info here;
-    void *library = NULL;
-    // For the program itself, dladdr returns the name with which the program was started. This name may lack a folder.
-    if (dladdr((const void *)own_folders, &here) && here.dli_fname && strchr(here.dli_fname, '/'))
-        library = open_beside(here.dli_fname, name);
-    return library ? library : open_beside("/proc/self/exe", name);
+    char path[LIBRARY_PATH_SIZE];
+    return library_own_path(name, path) ? library_open(path, true, NULL) : NULL;
 }
 
 void library_close(void *library)

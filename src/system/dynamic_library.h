@@ -2,6 +2,7 @@
 #ifndef DYNAMIC_LIBRARY_H
 #define DYNAMIC_LIBRARY_H
 
+#include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -13,6 +14,10 @@ void *library_open(const char *name, bool resident, const char **reason);
 // object is in the subfolder lambent of the library folder, or in the build folder. The shared object stays loaded
 // until the process ends. Returns NULL if the shared object or a library that it needs is missing.
 void *library_open_own(const char *name);
+// Finds a file that is installed with this library or program, in the folders of library_open_own. Returns false if the
+// file is missing. Not available in static programs and WebAssembly.
+enum { LIBRARY_PATH_SIZE = PATH_MAX + 100 };
+bool library_own_path(const char *name, char path[LIBRARY_PATH_SIZE]);
 void library_close(void *library); // NULL is allowed
 
 // Stores the address of a function at `function`, a pointer to a function pointer. Returns false if the library does

@@ -37,7 +37,7 @@ def expand(command, **fields):
 class Files(Case):
     def test_formats(self):
         """Every model format has a MIME type in all of the files; scene files have none, because they are JSON."""
-        reads = re.search(r"lambent reads (.*) and scene files", self.run_program("a.fbx").stderr.decode())[1]
+        reads = re.search(r"lambent reads (.*) and scene files", self.run_program("a.blend").stderr.decode())[1]
         self.assertEqual({word.strip(" .") for word in reads.split(",")}, set(ENDINGS))
         for name in ("lambent.thumbnailer", f"{ID}.desktop"):
             types = entry(name)["MimeType"].strip(";").split(";")

@@ -196,7 +196,7 @@ class Models(Case):
     def test_formats_that_come_later(self):
         glb = struct.pack("<4sII", b"glTF", 3, 12 + 8 + 28) + struct.pack("<I4s", 28, b"JSON") + b'{"asset":{"version":"3.0"}} '
         self.bad(3, self.write("model.glb", glb), says="model.glb: byte 4: this is binary glTF 3.0, expected glTF 2.0")
-        self.bad(3, self.write("model.fbx", b"Kaydara FBX Binary  \0"), says="model.fbx: this is an FBX file")
+        self.bad(3, self.write("model.blend", b"BLENDER-v279"), says="model.blend: this is a Blender file")
 
     def test_causes(self):
         """Each error names its own cause."""

@@ -112,8 +112,8 @@ says lambent materials | lambent a.stl --material wood -s 64 -o p.png
 does | lambent a.stl --material glass -s 64 -o p.png
 says point, directional or spot | lambent a.stl --light 1,1,1 -s 64 -o p.png
 does | lambent a.stl --sun -s 64 -o p.png
-says export the model as .stl | lambent a.step -o p.png
-says export the model as .glb | lambent a.fbx -o p.png
+says export the model as .stl | lambent a.dxf -o p.png
+says export the model as .glb | lambent a.blend -o p.png
 says '--size' | lambent a.stl --dpi 300 -o p.png
 says use .png | lambent a.stl -o p.svg
 says use .png | lambent a.stl -o p.tiff

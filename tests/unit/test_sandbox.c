@@ -380,7 +380,7 @@ static int with_filter(const struct attempt *attempt, unsigned kind)
     pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0)
-        _exit(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) || !sandbox_filter_install(kind) ? 250 : attempt->run());
+        _exit(prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) || !sandbox_filter_install(kind, -1) ? 250 : attempt->run());
     assert_true(waitpid(child, &status, 0) == child);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
 }
@@ -409,7 +409,7 @@ TEST(test_filter_alone)
 // A server with its listening socket starts processes, which can use the stricter filter, and nothing else is allowed.
 static int stricter_process(void)
 {
-    return !sandbox_filter_install(SANDBOX_DRAWS) ? EINVAL : make_process() == EPERM ? 0 : ECHILD;
+    return !sandbox_filter_install(SANDBOX_DRAWS, -1) ? EINVAL : make_process() == EPERM ? 0 : ECHILD;
 }
 
 static int ends_process(void)

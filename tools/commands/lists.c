@@ -63,8 +63,13 @@ int run_formats(int operand_count, char **operands, const struct options *option
 {
     (void)operand_count, (void)operands, (void)options;
     printf("Models:\n");
-    for (int i = 0; lam_model_format_name(i); i++)
-        printf("  %-6s .%s\n", lam_model_format_name(i), lam_model_format_extensions(i));
+    bool installed;
+    for (int i = 0; lam_model_format_name(i); i++) {
+        const char *package = lam_model_format_package(i, &installed);
+        const char *how = !package ? "" : installed ? "  with " : "  not installed: apt install ";
+        printf("  %-6s .%s%s%s\n", lam_model_format_name(i), lam_model_format_extensions(i), how,
+               package ? package : "");
+    }
     printf("Pictures that are written:\n");
     const char *name;
     for (int i = 0; (name = lam_image_format_name(i)); i++) {

@@ -168,7 +168,7 @@ static bool find_operand(struct view *view, const char *operand, lam_error *erro
 
 static bool enter_sandbox(const struct view *view, lam_error *error)
 {
-    struct sandbox_paths paths = {.serves = true};
+    struct sandbox_paths paths = {.serves = true, .imports = true};
     struct options options = *view->options;
     if (view->files.prefix)
         sandbox_add(&paths, *view->files.prefix ? view->files.prefix : "/", SANDBOX_READ);

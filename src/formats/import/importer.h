@@ -51,6 +51,9 @@ struct importer {
     int (*probe)(const uint8_t *bytes, size_t size, size_t file_size);
     // Fills an empty scene with meshes, materials, and one object per mesh. On failure, the caller frees the scene.
     bool (*load)(struct import_source *source, struct lam_scene *scene, lam_error *error);
+    // For a format that a module reads (module_formats.c): the module, and the name of unsupported_formats.c by which
+    // files are recognised; `probe` is then NULL.
+    const char *module, *described;
 };
 
 // The formats, in the order of the lists that users see. tests/fuzz/meson.build reads these names too.
@@ -59,6 +62,12 @@ struct importer {
 #define IMPORTER(name) extern const struct importer importer_##name;
 IMPORTERS(IMPORTER)
 #undef IMPORTER
+
+// module_formats.c: the formats that modules read; the last has no name. Static programs, Windows and pages have none.
+extern const struct importer module_importers[];
+#define MODULES_PACKAGE "lambent-formats"
+// Returns whether the program lambent-import and the importer's module are installed.
+bool module_is_installed(const struct importer *importer);
 
 // Returns the crease angle that the load parameters select for scene_prepare (0 means the default). Flat normals
 // correspond to FACET_CREASE_RAD.

@@ -12,18 +12,37 @@
 static const struct importer *const importers[] = {IMPORTERS(ROW)};
 enum { COUNT = sizeof importers / sizeof *importers };
 
-const char *lam_model_format_name(int format) { return format >= 0 && format < COUNT ? importers[format]->name : NULL; }
+// Returns a format of the library itself, then of the modules, or NULL.
+static const struct importer *importer_at(int format)
+{
+    for (int i = COUNT; format >= COUNT && i < format; i++)
+        if (!module_importers[i - COUNT].name)
+            return NULL;
+    const struct importer *module = &module_importers[format < COUNT ? 0 : format - COUNT];
+    return format < 0 ? NULL : format < COUNT ? importers[format] : module->name ? module : NULL;
+}
+
+const char *lam_model_format_name(int format) { return importer_at(format) ? importer_at(format)->name : NULL; }
 
 const char *lam_model_format_extensions(int format)
 {
-    return format >= 0 && format < COUNT ? importers[format]->extensions : NULL;
+    return importer_at(format) ? importer_at(format)->extensions : NULL;
+}
+
+const char *lam_model_format_package(int format, bool *installed)
+{
+    const struct importer *importer = importer_at(format);
+    const bool module = importer && importer->module;
+    if (installed)
+        *installed = importer && (!module || module_is_installed(importer));
+    return module ? MODULES_PACKAGE : NULL;
 }
 
 const char *format_list(char out[FORMAT_LIST_SIZE])
 {
     size_t used = 0;
     out[0] = 0;
-    for (int i = 0; i < COUNT; i++) {
+    for (int i = 0; i < COUNT; i++) { // without the formats of modules
         const char *word = importers[i]->extensions;
         while (*word && used < FORMAT_LIST_SIZE) {
             size_t length = strcspn(word, " ");
@@ -59,14 +78,15 @@ static int probe_all(const char *ending, const struct import_source *source, con
 {
     int best = 0;
     *by_content = *by_ending = NULL;
-    for (int i = 0; i < COUNT; i++) {
-        int sure = importers[i]->probe(source->bytes, source->size, source->parts.size);
-        bool named = has_ending(importers[i], ending);
+    for (int i = 0; importer_at(i); i++) {
+        const struct importer *importer = importer_at(i);
+        int sure = importer->module ? 0 : importer->probe(source->bytes, source->size, source->parts.size);
+        bool named = has_ending(importer, ending);
         if (named)
-            *by_ending = importers[i];
+            *by_ending = importer;
         if (sure > best || (sure == best && sure > 0 && named)) {
             best = sure;
-            *by_content = importers[i];
+            *by_content = importer;
         }
     }
     return best;
@@ -79,9 +99,9 @@ const struct importer *importer_for(struct import_source *source, const char *wa
     const char *name = source->name;
     char list[FORMAT_LIST_SIZE];
     if (wanted) {
-        for (int i = 0; i < COUNT; i++) {
-            if (strcasecmp(importers[i]->name, wanted) == 0 || has_ending(importers[i], wanted))
-                return importers[i];
+        for (int i = 0; importer_at(i); i++) {
+            if (strcasecmp(importer_at(i)->name, wanted) == 0 || has_ending(importer_at(i), wanted))
+                return importer_at(i);
         }
         fail(error, LAM_UNSUPPORTED, "%s: the format '%s' cannot be read; lambent reads %s", name, wanted,
              format_list(list));
@@ -103,6 +123,9 @@ const struct importer *importer_for(struct import_source *source, const char *wa
     const struct unsupported_format *foreign = unsupported_format_of(source->bytes, source->size);
     if (!foreign && !by_ending)
         foreign = unsupported_format_named(ending);
+    for (const struct importer *m = module_importers; foreign && m->name; m++)
+        if (strcmp(m->described, foreign->name) == 0)
+            return m;
     if (foreign && foreign->instead) {
         fail(error, LAM_UNSUPPORTED, "%s: this is %s; lambent reads %s: export the model as %s", name, foreign->name,
              format_list(list), foreign->instead);

@@ -114,6 +114,8 @@ static void explain_path(const char *path, lam_error *error)
 {
     char list[FORMAT_LIST_SIZE];
     const struct unsupported_format *foreign = unsupported_format_named(path_ending(path));
+    for (const struct importer *m = module_importers; foreign && m->name; m++)
+        foreign = strcmp(m->described, foreign->name) == 0 ? NULL : foreign;
     bool address = strstr(path, "://") != NULL;
     if (!error || error->code != LAM_CANNOT_READ || (!address && !foreign))
         return;

@@ -30,10 +30,10 @@ static void draw(void *user, int from, int to)
 {
     const struct start *start = user;
     // A network connection would otherwise stay open until this process ends.
-    close_files((int[]){from, to}, 2);
+    close_files((int[]){from, to, sandbox_active()->starter}, 3);
     // The server's filter allows connections and new processes. A drawing process needs neither, so it installs a
     // stricter filter. Landlock already restricts the folders of the server and of the drawing process.
-    if (sandbox_active()->filter && !sandbox_filter_install(SANDBOX_DRAWS))
+    if (sandbox_active()->filter && !sandbox_filter_install(SANDBOX_DRAWS, sandbox_active()->starter))
         _exit(1);
     view_draw_serve(start->files, start->options, from, to);
 }

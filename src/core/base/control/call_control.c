@@ -102,6 +102,13 @@ bool call_charge_spare(struct call_control *call, size_t bytes)
     return false;
 }
 
+uint64_t call_memory_left(const struct call_control *call)
+{
+    uint64_t limit = call->control.memory_limit_bytes, most = expansion_bytes(call), used = call->memory_used;
+    most = limit && limit < most ? limit : most;
+    return most == UINT64_MAX ? most : most > used ? most - used : 0;
+}
+
 static void note_refusal(struct call_control *call, enum call_budget budget, uint64_t used, uint64_t bytes,
                          uint64_t limit)
 {

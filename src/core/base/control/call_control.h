@@ -50,6 +50,8 @@ bool call_charge(struct call_control *call, size_t bytes);
 // continues.
 bool call_charge_spare(struct call_control *call, size_t bytes);
 void call_refund(struct call_control *call, size_t bytes);
+// Returns how many bytes call_charge would still accept, for the limit of another process.
+uint64_t call_memory_left(const struct call_control *call);
 
 // Tasks that run together would charge their memory in a random order. Between call_together and call_apart, refunds are
 // therefore postponed. If the sum of all charges is within the budget, then so is each order of the tasks. Otherwise the

@@ -4,6 +4,7 @@
 #include "fail.h"
 #include "json_parse.h"
 #include "spelling.h"
+#include "srgb.h"
 #include "texture_batch.h"
 
 #include <math.h>
@@ -321,6 +322,20 @@ void gltf_take_factors(struct gltf *gltf, const struct place *place, const json_
                   fabs(out[i]) < standard ? ", which the standard does not allow" : "", out[i]);
         note_error(gltf, "factors", "");
     }
+}
+
+void gltf_take_field(struct gltf *gltf, const struct place *place, const json_t *object, const lam_field *field,
+                     bool encoded, void *to)
+{
+    double numbers[4];
+    int count = lam_field_get(field, to, numbers);
+    if (!json_object_get(object, field->key) || field->type == LAM_FIELD_ANGLE)
+        return;
+    gltf_take_factors(gltf, place, object, field->key, (size_t)count, field->min < -1e30 ? -1e30 : field->min,
+                      field->max > 1e30 ? 1e30 : field->max, numbers);
+    for (int i = 0; i < 3 && count > 1 && encoded && gltf->source->params->color != LAM_COLOR_RAW; i++)
+        numbers[i] = numbers[i] < 1 ? srgb_linear(numbers[i]) : numbers[i];
+    lam_field_set(field, to, numbers);
 }
 
 void gltf_take_word(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,

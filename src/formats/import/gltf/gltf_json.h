@@ -4,6 +4,8 @@
 
 #include "gltf.h"
 
+#include <lambent/fields.h>
+
 // Parses the text into gltf->root. Returns false on error.
 bool gltf_json_parse(struct gltf *gltf, const uint8_t *text, size_t size);
 void gltf_json_free(struct gltf *gltf);
@@ -55,6 +57,10 @@ void gltf_take_numbers(struct gltf *gltf, const struct place *place, const json_
 // rounding error. Limits of 1e6 and more are not limits of the standard.
 void gltf_take_factors(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                        size_t count, double min, double max, double *out);
+// Gets a field of lam_material or lam_light in `to`, if the object has the field's key. With `encoded`, colours are sRGB.
+// Angles are not read.
+void gltf_take_field(struct gltf *gltf, const struct place *place, const json_t *object, const lam_field *field,
+                     bool encoded, void *to);
 void gltf_take_word(struct gltf *gltf, const struct place *place, const json_t *object, const char *key,
                     const struct json_choice *words, int *out);
 bool gltf_take_flag(struct gltf *gltf, const struct place *place, const json_t *object, const char *key, bool missing);

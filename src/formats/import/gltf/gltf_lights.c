@@ -49,12 +49,17 @@ static bool read_light(struct gltf *gltf, const struct place *place, const json_
     light->diffuse = (lam_rgb){channel(color[0] * intensity / PI), channel(color[1] * intensity / PI),
                                channel(color[2] * intensity / PI)};
     light->specular = light->diffuse;
-    if (type == LAM_LIGHT_DIRECTIONAL)
-        return true;
-    light->attenuation = (lam_attenuation){0, 0, 1};
-    light->range = channel(range);
+    if (type != LAM_LIGHT_DIRECTIONAL) {
+        light->attenuation = (lam_attenuation){0, 0, 1};
+        light->range = channel(range);
+    }
     if (type == LAM_LIGHT_SPOT)
         take_cone(gltf, place, object, light);
+    // The modules for other formats state what glTF lacks: ambient light, and attenuation.
+    for (int i = 0; lam_light_field(i); i++)
+        if (lam_light_field(i)->light_types & 1U << type)
+            gltf_take_field(gltf, KEY_OF(KEY_OF(place, "extensions"), "LAMBENT_light"),
+                            gltf_extension(object, "LAMBENT_light"), lam_light_field(i), false, light);
     return true;
 }
 

@@ -202,6 +202,34 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
                          gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness));
 }
 
+// Reads LAMBENT_material, in which the modules for other formats describe a material (docs/internals/import.md): any
+// fields of lam_material by their keys, and any maps by their names. As in MTL, colours are encoded as sRGB, and a
+// material without an ambient colour has its diffuse colour.
+static bool take_own_material(struct gltf *gltf, const struct place *place, const json_t *object, int index,
+                              lam_material *material)
+{
+    const json_t *own = gltf_extension(object, "LAMBENT_material"), *maps = json_object_get(own, "maps");
+    const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "LAMBENT_material");
+    lam_material described = lam_material_default();
+    if (!own)
+        return true;
+    described.name = material->name;
+    for (int i = 0; lam_material_field(i); i++)
+        gltf_take_field(gltf, here, own, lam_material_field(i), true, &described);
+    if (!json_object_get(own, "ambient"))
+        described.ambient = (lam_rgb){described.diffuse.r, described.diffuse.g, described.diffuse.b};
+    *material = described;
+    for (int slot = 0; slot < LAM_MAP_COUNT; slot++) {
+        bool color =
+            slot == LAM_MAP_DIFFUSE || slot == LAM_MAP_AMBIENT || slot == LAM_MAP_SPECULAR || slot == LAM_MAP_EMISSION;
+        const struct gltf_map_request request = {
+            index, (lam_map)slot, color ? LAM_TEXTURE_COLOR : LAM_TEXTURE_NUMBERS, 0, 1, 0};
+        if (!gltf_take_map(gltf, KEY_OF(here, "maps"), maps, lam_map_name((lam_map)slot), request))
+            return false;
+    }
+    return true;
+}
+
 // Finds the index of the requested variant; −1 if the caller requests no variant. Returns false if the file does not
 // contain this variant.
 static bool find_variant(struct gltf *gltf)
@@ -228,7 +256,8 @@ bool gltf_materials_read(struct gltf *gltf)
         take_factors(gltf, place, object, &factors);
         bool ok = take_maps(gltf, place, object, (int)i, (float)factors.glossiness);
         lam_material material = material_of(&factors, ok ? gltf_name(gltf, object, &ok) : NULL);
-        ok = ok && gltf_take_layers(gltf, place, object, (int)i, &material);
+        ok = ok && gltf_take_layers(gltf, place, object, (int)i, &material) &&
+             take_own_material(gltf, place, object, (int)i, &material);
         if (!ok || scene_adopt_material(gltf->scene, &material, gltf->json.error) < 0)
             return false;
     }

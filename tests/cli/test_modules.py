@@ -1,0 +1,283 @@
+# test_modules.py: the formats of lambent-formats: a small file of each with its size, colours and names; files that crash a reader; and what is
+# said if the package is missing.
+import json
+import pathlib
+import random
+import shutil
+import struct
+import subprocess
+import unittest
+
+from harness import Case, long, HAS_SANDBOX, PROGRAM, read_png, write_png
+
+BUILD = pathlib.Path(PROGRAM).resolve().parent
+HAS_ASSIMP = (BUILD / "lambent-assimp.so").exists()
+CORNERS = [(x, y, z) for z in (0, 3) for y in (0, 2) for x in (0, 1)]  # a box of 1 × 2 × 3
+QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]  # counterclockwise from outside
+TRIANGLES = [t for a, b, c, d in QUADS for t in ((a, b, c), (a, c, d))]
+ORANGE = (0.8, 0.4, 0.2)
+
+
+def words(rows, form="%g", between=" "):
+    return between.join(form % number for row in rows for number in row)
+
+
+OFF = "OFF\n8 6 0\n" + "".join("%d %d %d\n" % c for c in CORNERS) + "".join("4 %d %d %d %d\n" % q for q in QUADS)
+AC = ('AC3Db\nMATERIAL "paint" rgb %g %g %g amb 0.2 0.2 0.2 emis 0 0 0 spec 0 0 0 shi 10 trans 0\nOBJECT world\nkids 1\nOBJECT poly\nname "box"\n' % ORANGE +
+      "numvert 8\n" + "".join("%d %d %d\n" % c for c in CORNERS) + "numsurf 6\n" +
+      "".join("SURF 0x0\nmat 0\nrefs 4\n" + "".join("%d 0 0\n" % v for v in q) for q in QUADS) + "kids 0\n")
+X = ("xof 0303txt 0032\nMaterial paint { %g;%g;%g;1;; 0; 0;0;0;; 0;0;0;; }\nFrame box { Mesh {\n8;\n" % ORANGE +
+     ",\n".join("%d;%d;%d;" % (x, y, -z) for x, y, z in CORNERS) + ";\n6;\n" + ",\n".join("4;%d,%d,%d,%d;" % q[::-1] for q in QUADS) +
+     ";\nMeshMaterialList { 1; 6; 0,0,0,0,0,0; {paint} } } }\n")  # left-handed: z is negated, and faces are clockwise
+AMF = ('<?xml version="1.0"?>\n<amf unit="inch"><object id="1"><mesh><vertices>' +
+       "".join("<vertex><coordinates><x>%d</x><y>%d</y><z>%d</z></coordinates></vertex>" % c for c in CORNERS) + '</vertices><volume materialid="2">' +
+       "".join("<triangle><v1>%d</v1><v2>%d</v2><v3>%d</v3></triangle>" % t for t in TRIANGLES) + "</volume></mesh></object>" +
+       '<material id="2"><color><r>%g</r><g>%g</g><b>%g</b></color></material></amf>\n' % ORANGE)
+DAE = ('''<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit meter="0.5"/><up_axis>Z_UP</up_axis></asset>
+<library_effects><effect id="e"><profile_COMMON><technique sid="c"><phong><diffuse><color>%g %g %g 1</color></diffuse><specular><color>0.5 0.5 0.5 1</color>
+</specular><shininess><float>20</float></shininess></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m" name="paint"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="24">%s</float_array><technique_common><accessor source="#a" count="8"
+stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source><vertices id="v">
+<input semantic="POSITION" source="#p"/></vertices><polylist count="6" material="s"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4 4 4 4 4 4</vcount>
+<p>%s</p></polylist></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="w"><node name="box"><instance_geometry url="#g"><bind_material>
+<technique_common><instance_material symbol="s" target="#m"/></technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#w"/></scene></COLLADA>''' % (*ORANGE, words(CORNERS), words(QUADS)))
+FBX = ('''; FBX 7.4.0 project file
+FBXHeaderExtension: { FBXHeaderVersion: 1003
+ FBXVersion: 7400 }
+GlobalSettings: { Version: 1000
+ Properties70: { P: "UpAxis", "int", "Integer", "",%d
+  P: "UpAxisSign", "int", "Integer", "",1
+  P: "FrontAxis", "int", "Integer", "",%d
+  P: "FrontAxisSign", "int", "Integer", "",%d
+  P: "CoordAxis", "int", "Integer", "",0
+  P: "CoordAxisSign", "int", "Integer", "",1
+  P: "UnitScaleFactor", "double", "Number", "",2.54 } }
+Objects: {
+ Geometry: 100, "Geometry::", "Mesh" { Vertices: *24 { a: %s }
+  PolygonVertexIndex: *24 { a: %s }
+  GeometryVersion: 124
+  LayerElementMaterial: 0 { Version: 101
+   MappingInformationType: "AllSame"
+   ReferenceInformationType: "IndexToDirect"
+   Materials: *1 { a: 0 } }
+  LayerElementUV: 0 { Version: 101
+   MappingInformationType: "ByPolygonVertex"
+   ReferenceInformationType: "Direct"
+   UV: *48 { a: %s } }
+  Layer: 0 { Version: 100
+   LayerElement: { Type: "LayerElementMaterial"
+    TypedIndex: 0 }
+   LayerElement: { Type: "LayerElementUV"
+    TypedIndex: 0 } } }
+ Model: 200, "Model::box", "Mesh" { Version: 232
+  Properties70: { P: "Lcl Translation", "Lcl Translation", "", "A",5,0,0 } }
+ Material: 300, "Material::paint", "" { Version: 102
+  ShadingModel: "phong"
+  Properties70: { P: "DiffuseColor", "Color", "", "A",%g,%g,%g
+   P: "DiffuseFactor", "Number", "", "A",1
+   P: "SpecularColor", "Color", "", "A",0.5,0.5,0.5
+   P: "SpecularFactor", "Number", "", "A",0.5
+   P: "ShininessExponent", "Number", "", "A",20 } }
+%s}
+Connections: {
+ C: "OO",200,0
+ C: "OO",100,200
+ C: "OO",300,200
+%s}
+''')
+FBX_TEXTURE = ''' Texture: 400, "Texture::t", "" { Type: "TextureVideoClip"
+  FileName: "C:\\\\work\\\\Maps\\\\Wood.PNG"
+  RelativeFilename: "..\\\\Maps\\\\Wood.PNG" }
+'''
+
+
+def fbx(z_up=False, texture=False):
+    ends = [(a, b, c, -d - 1) for a, b, c, d in QUADS]
+    uv = [(0, 0, 1, 0, 1, 1, 0, 1)] * 6
+    return FBX % (2 if z_up else 1, 1 if z_up else 2, -1 if z_up else 1, words(CORNERS, between=","), words(ends, between=","), words(uv, between=","),
+                  *((1, 1, 1) if texture else ORANGE), FBX_TEXTURE if texture else "", ' C: "OP",400,300, "DiffuseColor"\n' if texture else "")
+
+
+def chunk(kind, *parts):
+    body = b"".join(parts)
+    return struct.pack("<HI", kind, 6 + len(body)) + body
+
+
+def studio():
+    """A 3DS file."""
+    color = chunk(0x0011, bytes(round(255 * c) for c in ORANGE))
+    mesh = chunk(0x4100, chunk(0x4110, struct.pack("<H24f", 8, *sum(CORNERS, ()))),
+                 chunk(0x4120, struct.pack("<H", 12), *(struct.pack("<4H", *t, 7) for t in TRIANGLES),
+                       chunk(0x4130, b"paint\0", struct.pack("<H12H", 12, *range(12)))))
+    return chunk(0x4D4D, chunk(0x3D3D, chunk(0xAFFF, chunk(0xA000, b"paint\0"), chunk(0xA020, color)), chunk(0x4000, b"box\0", mesh)))
+
+
+def light_wave():
+    """An LWO2 file."""
+    def part(kind, *parts):
+        body = b"".join(parts)
+        return kind + struct.pack(">I", len(body)) + body + b"\0" * (len(body) % 2)
+
+    def sub(kind, body):
+        return kind + struct.pack(">H", len(body)) + body
+    surface = part(b"SURF", b"paint\0\0\0", sub(b"COLR", struct.pack(">3fH", *ORANGE, 0)), sub(b"DIFF", struct.pack(">fH", 1, 0)))
+    body = (b"LWO2" + part(b"TAGS", b"paint\0") + part(b"LAYR", struct.pack(">HH3f", 0, 0, 0, 0, 0), b"box\0") +
+            part(b"PNTS", struct.pack(">24f", *(n for x, y, z in CORNERS for n in (x, y, -z)))) +
+            part(b"POLS", b"FACE", *(struct.pack(">5H", 4, *q[::-1]) for q in QUADS)) +
+            part(b"PTAG", b"SURF", *(struct.pack(">HH", i, 0) for i in range(6))) + surface)
+    return b"FORM" + struct.pack(">I", len(body)) + body
+
+
+# bytes, the size of the box, whether there is a material (AMF: colours of vertices), the unit
+FILES = {
+    "off": (OFF, [1, 2, 3], False, None), "ac": (AC, [1, 2, 3], True, None), "x": (X, [1, 2, 3], True, None), "amf": (AMF, [1, 2, 3], False, "inch"),
+    "dae": (DAE, [0.5, 1.5, 1], True, "metre"), "fbx": (fbx(), [1, 2, 3], True, "inch"), "3ds": (studio(), [1, 3, 2], True, None), "lwo": (light_wave(), [1, 2, 3], True, None),
+}
+CRASHES = "x"  # a file that crashes Assimp 5.2: a bone refers to a vertex that does not exist
+
+
+@unittest.skipUnless(HAS_ASSIMP, "this build has no Assimp")
+class Modules(Case):
+    def same(self, one, other, message=None):
+        """The colours differ by at most 4 of 255: the formats split the faces along other diagonals."""
+        one, other = read_png(one), read_png(other)
+        self.assertEqual(one[:2], other[:2])
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(one[2], other[2])), 4, message)
+
+    def file(self, name, data):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data if isinstance(data, bytes) else data.encode())
+        return path
+
+    def info(self, *words, **more):
+        return json.loads(self.good("info", "--json", *words, **more).stdout)
+
+    def test_formats(self):
+        for ending, (data, size, painted, unit) in FILES.items():
+            with self.subTest(ending):
+                self.file("box." + ending, data)
+                info = self.info("box." + ending)
+                self.assertEqual(info["format"], ending)
+                self.assertEqual(info["counts"]["triangles"], 12)
+                for found, wanted in zip(info["size"], size):
+                    self.assertAlmostEqual(found, wanted, places=5)
+                # the faces' order is right: the volume is positive
+                self.assertAlmostEqual(info["measure"]["volume"], size[0] * size[1] * size[2], places=4)
+                material = info["materials"][0]
+                self.assertEqual(material.get("name"), None if ending in ("off", "amf") else "paint")
+                if painted:  # the colour is decoded from sRGB
+                    for found, wanted in zip(material["diffuse"], (0.6038, 0.1329, 0.0331)):
+                        self.assertAlmostEqual(found, wanted, delta=0.002)
+                self.assertEqual(info["unit"], unit)
+
+    def test_same_picture(self):
+        """The picture is the OBJ file's, with and without a sandbox, from a file and from standard input, and by its content alone."""
+        self.file("box.obj", "mtllib box.mtl\no box\nusemtl paint\n" + "".join("v %d %d %d\n" % c for c in CORNERS) +
+                  "".join("f %d %d %d %d\n" % tuple(v + 1 for v in q) for q in QUADS))
+        self.file("box.mtl", "newmtl paint\nKd %g %g %g\n" % ORANGE)
+        wanted = self.good("box.obj", "-s", 64, "-o", "-").stdout
+        for ending in ("ac", "x", "lwo"):
+            path = self.file("box." + ending, FILES[ending][0])
+            for more in ([], ["--sandbox", "off"]) + ((["--sandbox", "require"],) if HAS_SANDBOX else ()):
+                self.same(self.good(path, "-s", 64, "-o", "-", *more).stdout, wanted, ending)
+            if ending != "lwo":
+                self.same(self.good("-", "-s", 64, "-o", "-", stdin=path.read_bytes()).stdout, wanted)
+            shutil.copy(path, self.folder / "nameless")
+            self.same(self.good("nameless", "-s", 64, "-o", "-").stdout, wanted)
+        # The variables of the environment select no other functions of the C library.
+        plain = self.good("box.x", "-s", 64, "-o", "-").stdout
+        self.assertEqual(self.good("box.x", "-s", 64, "-o", "-", env={"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-SSE4_1", "LC_ALL": "de_DE"}).stdout, plain)
+
+    def test_fbx(self):
+        self.file("up.fbx", fbx(z_up=True))
+        self.assertEqual([round(n, 4) for n in self.info("up.fbx")["size"]], [1, 3, 2])
+        material = self.info("up.fbx")["materials"][0]
+        self.assertFalse(material.get("physical"))
+        self.assertEqual(material["shininess"], 20)
+        # The picture is found in the model's folder, by the last part of a path of another computer, in any case.
+        self.file("model/wood.png", write_png(4, 2, b"\x40\x80\xff\xff" * 8))
+        self.file("model/box.fbx", fbx(texture=True))
+        info = self.info("model/box.fbx")
+        self.assertTrue(info["textures"][0]["file"].endswith("Wood.PNG"), info["textures"])
+        self.assertEqual(info["textures"][0]["width"], 4)
+        self.file("model/lone/box.fbx", fbx(texture=True))
+        done = self.good("model/lone/box.fbx", "-s", 16)
+        self.assertEqual(done.stderr.count(b"warning"), 1)
+
+    def test_crash(self):
+        """One sentence and exit 2; in a batch, the other models are drawn, and the worker lives."""
+        crash = self.file("b.x", (pathlib.Path(__file__).parent.parent / "modules/crash.x").read_bytes())
+        self.bad(2, crash, says=["b.x: ", "lambent-import"])
+        self.file("a.off", OFF)
+        self.file("c.off", OFF)
+        for more in ([], ["--isolate"], ["-j", 2]):
+            shutil.rmtree(self.folder / "out", ignore_errors=True)
+            done = self.run_program("a.off", "b.x", "c.off", "-s", 16, "-o", "out/", *more)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), ["a.png", "c.png"])
+
+    def test_limits(self):
+        many = "OFF\n300000 1 0\n" + "0 0 0\n" * 300000 + "3 0 1 2\n"
+        self.file("many.off", many)
+        self.bad(4, "many.off", "--memory-limit", "4MB", says="many.off: ")
+        self.file("claim.off", "OFF\n2000000000 1 0\n0 0 0\n")
+        self.bad(4, "claim.off", says=["claim.off: ", "memory"])
+        self.file("box.off", OFF)
+        self.bad(4, "box.off", "--triangle-limit", 5, says=["box.off: ", "--triangle-limit"])
+
+    def mutate(self, count):
+        """Changed files are read or refused with one sentence, and nothing is written."""
+        chance = random.Random(1)
+        for ending, (data, *_) in FILES.items():
+            data = data if isinstance(data, bytes) else data.encode()
+            for number in range(count):
+                changed = bytearray(data)
+                for _ in range(chance.choice((1, 1, 2, 5, 20))):
+                    at = chance.randrange(len(changed))
+                    kind = chance.randrange(4)
+                    if kind == 0:
+                        changed[at] = chance.randrange(256)
+                    elif kind == 1:
+                        del changed[at:at + chance.randrange(1, 9)]
+                    elif kind == 2:
+                        changed[at:at] = changed[chance.randrange(len(changed)):][:chance.randrange(40)]
+                    else:
+                        changed[at:at + 1] = chance.choice((b"-1", b"99999999999", b"1e39", b"nan", b"\0\0\0\0", b"\xff\xff\xff\xff"))
+                self.file("m." + ending, bytes(changed[:chance.choice((len(changed), len(changed), chance.randrange(len(changed) + 1)))]))
+                done = self.run_program("info", "-q", "m." + ending, "--time-limit", 20, "--memory-limit", "300MB")
+                text = done.stderr.decode(errors="replace")
+                self.assertIn(done.returncode, (0, 2, 3, 4), f"{ending} {number}: {text}")
+                self.assertTrue(done.returncode == 0 or text.count("\n") == 1, f"{ending} {number}: {text}")
+            self.assertEqual(self.new_files(), {"m." + e for e in FILES if (self.folder / ("m." + e)).exists()})
+
+    def test_mutations(self):
+        self.mutate(12)
+
+    @long
+    def test_many_mutations(self):
+        self.mutate(2500)
+
+    def test_scene_file(self):
+        self.file("box.ac", AC)
+        self.file("scene.json", '{"lambent": 1, "objects": [{"file": "box.ac"}]}')
+        self.assertEqual(self.info("scene.json")["counts"]["triangles"], 12)
+
+    def test_missing(self):
+        """Without the package, the sentence names it, and folders are drawn without these files."""
+        shutil.copy(PROGRAM, self.folder / "lambent")
+        self.file("models/box.fbx", fbx())
+        self.file("models/box.obj", (self.folder / "cube.obj").read_bytes())
+        alone = [str(self.folder / "lambent")]
+        done = subprocess.run(alone + ["models/box.fbx"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual(done.stderr.decode(), "lambent: models/box.fbx: this is an FBX file, which the package lambent-formats reads "
+                                               "(apt install lambent-formats)\n")
+        done = subprocess.run(alone + ["formats"], stdout=subprocess.PIPE)
+        self.assertIn("  fbx    .fbx  not installed: apt install lambent-formats\n", done.stdout.decode())
+        self.assertNotIn("not installed", self.good("formats").stdout.decode().split("Pictures")[0])
+
+

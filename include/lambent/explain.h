@@ -178,7 +178,8 @@ typedef struct lam_explained_map {
     // The footprint: by how many texels of level 0 (columns, rows) the position changes from this pixel to its right
     // neighbour and to the one below.
     float across[2], down[2];
-    int probes; // number of lookups along the longer axis of the footprint (lam_draw_params.anisotropy)
+    // The number of lookups along the longer axis of the footprint (lam_draw_params.anisotropy).
+    int probes;
     // The filtered texel, before scale and offset. For a bump map: the heights one texel of level 0 before and behind
     // the point, along rows and along columns.
     lam_rgba texel;

@@ -72,7 +72,8 @@ class builder
             animation(*in.mAnimations[i]);
     }
 
-    bool morphs = false; // the file has morph targets, which are not read
+    bool morphs = false;  // the file has morph targets, which are not read
+    bool rasters = false; // the file contains pictures as raw pixels, which are not read
 
   private:
     const aiScene &in;
@@ -82,7 +83,7 @@ class builder
     std::vector<const aiNode *> order; // parents before children, children together
     std::map<std::string, std::string> index, pictures;
     std::set<std::string> moved; // nodes that an animation moves
-    list extras;           // nodes after the file's own
+    list extras;                 // nodes after the file's own
     std::map<unsigned, std::string> materials;
     std::string plain[2]; // materials
     float brightest = 1;  // light
@@ -121,7 +122,9 @@ class builder
         list children, whole;
         for (unsigned i = 0; i < node.mNumChildren; i++)
             children.push_back(std::to_string(child + i));
-        auto mesh_of = [&](const std::string &p) { return add(out.meshes, object({{"name", name}, {"primitives", p}})); };
+        auto mesh_of = [&](const std::string &p) {
+            return add(out.meshes, object({{"name", name}, {"primitives", p}}));
+        };
         for (unsigned i = 0; i < node.mNumMeshes; i++) {
             const aiMesh &mesh = *in.mMeshes[node.mMeshes[i]];
             const std::string own = primitive(mesh);
@@ -137,14 +140,16 @@ class builder
         for (unsigned i = 0; i < in.mNumLights; i++)
             if (in.mLights[i]->mName == node.mName)
                 light(*in.mLights[i], children);
-        members all = {{"name", name}, {"mesh", whole.empty() ? "" : mesh_of(array(whole))},
-                             {"children", children.empty() ? "" : array(children)}};
+        members all = {{"name", name},
+                       {"mesh", whole.empty() ? "" : mesh_of(array(whole))},
+                       {"children", children.empty() ? "" : array(children)}};
         if (moved.count(node.mName.C_Str())) {
             aiVector3D scale, position;
             aiQuaternion q;
             node.mTransformation.Decompose(scale, q, position);
             const float rotation[4] = {q.x, q.y, q.z, q.w};
-            all.insert(all.end(), {{"translation", numbers(&position.x, 3)}, {"rotation", numbers(rotation, 4)},
+            all.insert(all.end(), {{"translation", numbers(&position.x, 3)},
+                                   {"rotation", numbers(rotation, 4)},
                                    {"scale", numbers(&scale.x, 3)}});
         } else {
             all.emplace_back("matrix", matrix(node.mTransformation));
@@ -158,7 +163,8 @@ class builder
                      high = 2 * std::atan(std::tan(static_cast<double>(from.mHorizontalFOV) / 2) / aspect);
         const std::string near = number(std::max(from.mClipPlaneNear, 1e-4F)),
                           lens = object({{"yfov", number(high)}, {"znear", near}}),
-                          own = add(out.cameras, object({{"type", "\"perspective\""}, {"perspective", lens},
+                          own = add(out.cameras, object({{"type", "\"perspective\""},
+                                                         {"perspective", lens},
                                                          {"name", text(from.mName.C_Str())}}));
         return extra(object({{"camera", own}, {"matrix", matrix(looking(from.mPosition, from.mLookAt, from.mUp))}}));
     }
@@ -172,16 +178,21 @@ class builder
         const aiColor3D color = from.mColorDiffuse * (1 / brightest);
         if (!sun && !spot && from.mType != aiLightSource_POINT)
             return;
-        const std::string own = object({{"diffuse", numbers(&color.r, 3)}, {"specular", numbers(&color.r, 3)},
+        const std::string own = object({{"diffuse", numbers(&color.r, 3)},
+                                        {"specular", numbers(&color.r, 3)},
                                         {"ambient", out.lights.empty() ? numbers(&ambient.r, 3) : ""},
                                         {"attenuation", fades ? numbers(fading, 3) : "[1,0,0]"}});
         const std::string cone = object({{"outerConeAngle", number(from.mAngleOuterCone / 2)},
                                          {"innerConeAngle", number(from.mAngleInnerCone / 2)}}),
-                          kind = sun ? "\"directional\"" : spot ? "\"spot\"" : "\"point\"",
-                          lamp = add(out.lights, object({{"type", kind}, {"name", text(from.mName.C_Str())},
+                          kind = sun    ? "\"directional\""
+                                 : spot ? "\"spot\""
+                                        : "\"point\"",
+                          lamp = add(out.lights, object({{"type", kind},
+                                                         {"name", text(from.mName.C_Str())},
                                                          {"spot", spot ? cone : ""},
                                                          {"extensions", object({{"LAMBENT_light", own}})}}));
-        children.push_back(extra(object({{"extensions", object({{"KHR_lights_punctual", object({{"light", lamp}})}})},
+        children.push_back(
+            extra(object({{"extensions", object({{"KHR_lights_punctual", object({{"light", lamp}})}})},
                           {"matrix", from.mDirection.SquareLength() > 0
                                          ? matrix(looking(from.mPosition, from.mDirection, aiVector3D(0, 1, 0)))
                                          : matrix(frame({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, from.mPosition))}})));
@@ -221,7 +232,8 @@ class builder
         morphs |= mesh.mNumAnimMeshes != 0;
         return object({{"attributes", object(all)},
                        {"indices", out.accessor(indices.data(), indices.size(), U32, 1)},
-                       {"mode", corners == 3 ? "4" : std::to_string(corners - 1)}, {"material", material_of(mesh)}});
+                       {"mode", corners == 3 ? "4" : std::to_string(corners - 1)},
+                       {"material", material_of(mesh)}});
     }
 
     static float linear(float c) // from sRGB
@@ -258,7 +270,7 @@ class builder
             inverse.push_back(aiMatrix4x4(mesh.mBones[b]->mOffsetMatrix).Transpose());
         }
         return add(out.skins, object({{"joints", array(joints)},
-                           {"inverseBindMatrices", out.accessor(inverse.data(), inverse.size(), F32, 16)}}));
+                                      {"inverseBindMatrices", out.accessor(inverse.data(), inverse.size(), F32, 16)}}));
     }
 
     // --- animations
@@ -284,9 +296,10 @@ class builder
         }
         if (times.empty())
             return;
-        const std::string sampler = add(to.samplers,
-            object({{"input", out.accessor(times.data(), times.size(), F32, 1)},
-                    {"output", out.accessor(values.data(), times.size(), F32, values.size() / times.size())}}));
+        const std::string sampler =
+            add(to.samplers,
+                object({{"input", out.accessor(times.data(), times.size(), F32, 1)},
+                        {"output", out.accessor(values.data(), times.size(), F32, values.size() / times.size())}}));
         add(to.channels, object({{"sampler", sampler}, {"target", object({{"node", node}, {"path", path}})}}));
     }
 
@@ -301,7 +314,8 @@ class builder
             channel(to, "\"scale\"", node, a.mScalingKeys, a.mNumScalingKeys);
         }
         if (!to.channels.empty())
-            add(out.animations, object({{"name", text(from.mName.C_Str())}, {"samplers", array(to.samplers)},
+            add(out.animations, object({{"name", text(from.mName.C_Str())},
+                                        {"samplers", array(to.samplers)},
                                         {"channels", array(to.channels)}}));
     }
 
@@ -323,7 +337,8 @@ class builder
 
     static std::string own_material(const std::string &name, const std::string &fields, bool two_sided)
     {
-        return object({{"name", name}, {"doubleSided", two_sided ? "true" : ""},
+        return object({{"name", name},
+                       {"doubleSided", two_sided ? "true" : ""},
                        {"extensions", object({{"LAMBENT_material", fields}})}});
     }
 
@@ -339,8 +354,10 @@ class builder
         if (known.empty()) {
             const aiTexture *own = in.GetEmbeddedTexture(name.C_Str());
             const bool address = std::strncmp(name.C_Str(), "file://", 7) == 0;
-            if (own && own->mHeight) // a raster of pixels
+            if (own && own->mHeight) {
+                rasters = true;
                 return "";
+            }
             const std::string image =
                 own ? object({{"bufferView", out.view(own->pcData, own->mWidth)}, {"mimeType", "\"image/png\""}})
                     : object({{"uri", text(name.C_Str() + (address ? 7 : 0))}});
@@ -405,8 +422,8 @@ double unit_of(const aiScene &scene, const std::string &format, const std::strin
 {
     double centimetres = 0;
     float single = 0; // of Assimp 5.2
-    if (format == "fbx" && scene.mMetaData && (scene.mMetaData->Get("UnitScaleFactor", single) ||
-                                               scene.mMetaData->Get("UnitScaleFactor", centimetres)))
+    if (format == "fbx" && scene.mMetaData &&
+        (scene.mMetaData->Get("UnitScaleFactor", single) || scene.mMetaData->Get("UnitScaleFactor", centimetres)))
         return (static_cast<double>(single) + centimetres) / 100;
     for (const auto &unit : {std::make_pair("inch", 0.0254), {"feet", 0.3048}, {"meter", 1.0}, {"micron", 1e-6}})
         if (format == "amf" && head.find(std::string("unit=\"") + unit.first + '"') != std::string::npos)
@@ -422,7 +439,8 @@ int convert(const import_request &request, const uint8_t *bytes, flat::scene &ou
                       aiGetVersionMinor(), request.format);
         return IMPORT_NO_MODULE;
     }
-    const aiScene *scene = importer->ReadFileFromMemory(bytes, request.size,
+    const aiScene *scene = importer->ReadFileFromMemory(
+        bytes, request.size,
         aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType | aiProcess_LimitBoneWeights |
             aiProcess_GenUVCoords | aiProcess_TransformUVCoords | aiProcess_ValidateDataStructure,
         request.format);
@@ -437,8 +455,10 @@ int convert(const import_request &request, const uint8_t *bytes, flat::scene &ou
     out.generator = text(generator.C_Str());
     out.unit_m = unit_of(*scene, request.format,
                          std::string(reinterpret_cast<const char *>(bytes), std::min<size_t>(request.size, 1000)));
-    const bool morphs = builder(*scene, out, request).morphs;
-    std::snprintf(note, IMPORT_NOTE_SIZE, "%s", morphs ? "its morph targets are not drawn" : "");
+    const builder made(*scene, out, request);
+    std::snprintf(note, IMPORT_NOTE_SIZE, "%s%s%s", made.morphs ? "its morph targets are not drawn" : "",
+                  made.morphs && made.rasters ? "; " : "",
+                  made.rasters ? "its pictures of raw pixels are not drawn" : "");
     return IMPORT_READ;
 }
 

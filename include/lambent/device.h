@@ -245,6 +245,14 @@ typedef enum lam_specular_aa {
     LAM_SPECULAR_AA_COUNT
 } lam_specular_aa;
 
+// A filter against the noise of path tracing (lam_draw_params.bounces). It needs two paths or more.
+typedef enum lam_denoise {
+    LAM_DENOISE_AUTO = 0, // ON from 2 bounces on, below 1024 paths
+    LAM_DENOISE_OFF,      // the mean of the paths, which is right on average
+    LAM_DENOISE_ON,       // the filtered mean
+    LAM_DENOISE_COUNT
+} lam_denoise;
+
 // The filters of texture maps.
 typedef enum lam_map_filter {
     LAM_MAP_FILTER_FILE = 0,  // as each map says (lam_texture_map)
@@ -352,6 +360,7 @@ typedef struct lam_draw_params {
     // Paths from each surface in a pixel, 1..65536; 0: 64. The noise of a pixel is inversely proportional to the square
     // root of this number.
     int paths;
+    lam_denoise denoise; // the noise of `bounces` (docs/lighting/bounces.md)
     // The width of lines and the diameter of points, in pixels, up to 1000. 0 for lines: 1.5. 0 for points: 16 % of the
     // picture's shorter side, divided by the square root of the number of points, but at most 2.5 % of the shorter
     // side. The result is at least 3 pixels, and at least 8 pixels for fewer than 100 points. Points below 4 pixels are

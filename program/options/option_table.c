@@ -684,6 +684,11 @@ struct option option_table[OPTIONS_MAX] = {
      "The picture is the mean of these paths, so it contains noise. The same number of paths always gives the same "
      "picture, on every machine.",
      .others = "spp noise"},
+    {"denoise", 0, GROUP_SHADING, "SWITCH", NULL, NULL,
+     "The filter compares two pictures of half the paths each, and averages pixels that differ by no more than their "
+     "noise, on the same surface. The picture is smooth with few paths, but fine shadows may be blurred. For "
+     "measurements, use `--denoise off`.",
+     .others = "denoiser no-denoise"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
      "hemisphere light and the environment cast no shadows. A light with a `radius` casts soft shadows. "

@@ -158,6 +158,12 @@ uint64_t path_frame_bytes(const struct path_frame *paths) { return 0; }
 void path_start(struct path *path, float x, float y, uint32_t number) {}
 const struct path_kernels *path_kernels_of(int lanes) { return NULL; }
 
+bool path_denoise(const struct path_pictures *in, lam_image *out, struct pool *pool, struct call_control *call,
+                  lam_error *error)
+{
+    return false;
+}
+
 bool paths_trace(const struct path_frame *paths, struct path_stream *stream, struct light_rays *rays,
                  const struct path_shader *shader, struct call_control *call)
 {

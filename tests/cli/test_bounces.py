@@ -28,7 +28,7 @@ class Bounces(Case):
                  "objects": objects, "materials": materials,
                  "camera": {"eye": eye, "target": target, "fovy": fovy, "near": 0.01, "far": 300}, **more}
         (self.folder / "scene.json").write_text(json.dumps(scene))
-        self.good("scene.json", "-q", "-o", "out.pfm", *words)
+        self.good("scene.json", "-q", "-o", "out.pfm", *words, *([] if "--denoise" in words else ["--denoise", "off"]))
         data = (self.folder / "out.pfm").read_bytes()
         return struct.unpack("<%df" % (size * size * 3), data[-size * size * 12:])
 
@@ -95,6 +95,27 @@ class Bounces(Case):
         words = (ROOT / "examples/cornell.json", "-q", "--bounces", 4, "--paths", 3, "-s", 40, "-o", "-")
         pictures = {self.good(*words, "--threads", threads, "--isa", isa).stdout for threads, isa in ((1, "scalar"), (3, "auto"), (16, "scalar"))}
         self.assertEqual(len(pictures), 1)
+
+    def test_denoise(self):
+        """The filter brings 32 paths nearer to 1,024, leaves pixels without noise alone, and is off for many paths and one bounce."""
+        def floats(*words, size=48):
+            self.good(ROOT / "examples/cornell.json", "-q", "--bounces", 3, "-s", size, "-o", "c.pfm", *words)
+            data = (self.folder / "c.pfm").read_bytes()
+            return struct.unpack("<%df" % (size * size * 3), data[-size * size * 12:])
+
+        def apart(a, b):
+            return sum(abs(min(x, 1) - min(y, 1)) for x, y in zip(a, b)) / len(a)
+        truth, noisy, smooth = (floats("--paths", n, "--denoise", how) for n, how in ((1024, "off"), (32, "off"), (32, "auto")))
+        self.assertEqual(smooth, floats("--paths", 32, "--denoise", "on"))
+        self.assertLess(apart(smooth, truth), 0.65 * apart(noisy, truth))
+        self.assertLess(abs(sum(min(v, 1) for v in smooth) / sum(min(v, 1) for v in truth) - 1), 0.03)
+        lamp = ([{"shape": "sphere", "material": "m"}], {"m": matt(0, 0.7)}, ([0, 0, 5], BLACK, 40))
+        self.assertEqual(*(self.draw(*lamp, "--bounces", 3, "--paths", 8, "--denoise", how) for how in ("on", "off")))
+        for words in (("--bounces", 1, "--paths", 4), ("--bounces", 2, "--paths", 1)):
+            self.assertEqual(*(self.good("sphere", "-q", *words, "-s", 16, "--denoise", how, "-o", "-").stdout for how in ("auto", "off")))
+        values = self.draw([{"shape": "cube", "material": "m"}], {"m": matt(0.5, 1e30)}, ([0.05, 0.1, 0.9], [0.3, 0.2, -0.1], 60),
+                           "--bounces", 5, "--paths", 4, "--denoise", "on", size=16)
+        self.assertTrue(all(0 <= v < 1.1e31 for v in values))
 
     def test_hostile_scenes(self):
         """No picture contains a NaN, no path is endless, and limits hold."""

@@ -49,6 +49,7 @@ INVISIBLE = {
     "environment: faces": "pictures: test_environment.py",
     "environment: equirectangular": "pictures: test_environment.py",
     "setting: anisotropy": "needs a texture: test_textures.py",
+    "setting: denoise": "needs bounces: test_bounces.py",
     "setting: map_filter": "needs a texture: test_textures.py",
     "setting: brighten": "needs a model file: test_newcomers.py",
     "setting: light_cutoff": "skips weak lights among many: test_many_lights.c",

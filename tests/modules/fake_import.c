@@ -63,7 +63,7 @@ int main(int count, char **words)
     answer.size = request.size - HEAD;
     if (strncmp(mode, "crash", 5) == 0)
         raise(SIGSEGV);
-    for (bool hangs = strncmp(mode, "hang", 4) == 0; hangs;)
+    while (strncmp(mode, "hang", 4) == 0)
         if (poll(&(struct pollfd){.fd = STDIN_FILENO}, 1, -1) > 0)
             _exit(1);
     if (strncmp(mode, "version", 7) == 0)

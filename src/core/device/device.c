@@ -6,6 +6,7 @@
 #include "linear.h"
 #include "pixels.h"
 #include "pool.h"
+#include "denoised.h"
 #include "sky.h"
 
 #include <string.h>
@@ -45,8 +46,10 @@ static bool find_edges(lam_device *device, struct call_control *call, lam_error 
 // Draws the frame, then the edges over it. If surfaces are off, they still hide edges, so the frame is built twice:
 // first with the surfaces, then without them.
 static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_camera *camera,
-                       const lam_draw_params *params, lam_image *target, struct call_control *call, lam_error *error)
+                       const lam_draw_params *params, struct path_pictures *denoised, lam_image *target,
+                       struct call_control *call, lam_error *error)
 {
+    device->frame.path_first = 0;
     if (device->frame.draws_edges && !find_edges(device, call, error))
         return false;
     lam_draw_params lines = *params;
@@ -54,8 +57,8 @@ static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_cam
     if (params->no_surfaces &&
         !frame_build(&device->frame, scene, camera, &lines, target->width, target->height, call, error))
         return false;
-    if (!(sky_is_drawn(&device->frame) ? sky_draw(device, target, call, error)
-                                       : device->type->draw(device, &device->frame, target, call, error)))
+    if (!(denoised || sky_is_drawn(&device->frame) ? sky_draw(device, denoised, target, call, error)
+                                                   : device->type->draw(device, &device->frame, target, call, error)))
         return false;
     if (device->frame.draws_edges)
         edges_blend(&device->edges, &device->frame, target, device->pool);
@@ -72,7 +75,9 @@ static bool draw_once(lam_device *device, const lam_scene *scene, const lam_came
         return call_memory_error(call, held, error);
     lam_draw_params whole = *params;
     whole.no_surfaces = false;
-    bool ok = frame_build(&device->frame, scene, camera, &whole, target->width, target->height, call, error);
+    struct path_pictures surfaces, *denoised = is_denoised(&whole) && !device->recorder ? &surfaces : NULL;
+    bool ok = (!denoised || denoise_prepare(device, scene, camera, &whole, target, denoised, call, error)) &&
+              frame_build(&device->frame, scene, camera, &whole, target->width, target->height, call, error);
     device->report.frame_ms = (double)(now_ns() - call->start_ns) * 1e-6;
     device->report.triangles = device->frame.triangle_count;
     device->report.brightened = device->frame.brightened;
@@ -88,7 +93,10 @@ static bool draw_once(lam_device *device, const lam_scene *scene, const lam_came
         device->report.ground_height = v3_dot(ground->middle, ground->up);
         device->report.ground_square = ground->kind == LAM_GROUND_CHECKER ? ground->square : 0;
     }
-    return ok && draw_frame(device, scene, camera, params, target, call, error);
+    ok = ok && draw_frame(device, scene, camera, params, denoised, target, call, error);
+    if (denoised)
+        denoise_free(denoised, call);
+    return ok;
 }
 
 // Draws with all threads, if the memory limit leaves memory to spare. Otherwise the device releases what it keeps from

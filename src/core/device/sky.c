@@ -1,11 +1,13 @@
 // sky.c: draws the environment behind a picture (lam_draw_params.background_environment), along the rays of the camera.
-// All devices use this code: the device draws linear light over nothing, and this code adds the environment.
+// All devices use this code: the device draws linear light over nothing, and this code adds the background. Light
+// without noise (denoised.h) is drawn in the same way.
 #include "sky.h"
 
 #define LANES 1
 #include "lighting.h"
 #include "picture_pixels.h"
 
+#include "denoised.h"
 #include "environment.h"
 #include "fail.h"
 #include "linear.h"
@@ -77,6 +79,9 @@ static void set_glass(const struct sky *sky, struct frame *frame)
 static bool prepare(struct sky *sky, struct frame *frame, struct pool *pool, struct call_control *call,
                     lam_error *error)
 {
+    *sky = (struct sky){.frame = frame};
+    if (!sky_is_drawn(frame))
+        return true;
     if (!frame->environment)
         return fail(error, LAM_BAD_ARGUMENT,
                     "background: no environment lights this scene; set one, such as studio, to show it");
@@ -117,17 +122,20 @@ static void compose_row(void *user, size_t row, int thread)
     for (int x = 0; x < sky->light->width; x += BATCH) {
         float light[3][BATCH];
         int count = sky->light->width - x < BATCH ? sky->light->width - x : BATCH;
-        look(sky, x, (int)row, count, light);
+        if (sky->lookups)
+            look(sky, x, (int)row, count, light);
         for (int i = 0; i < count; i++) {
             const float *p = from + 4 * (size_t)(x + i);
-            own.settings.background = background_of(sky->frame, sky->target->format == LAM_RGBA8, light, i);
+            if (sky->lookups)
+                own.settings.background = background_of(sky->frame, sky->target->format == LAM_RGBA8, light, i);
             write_pixels(&own, (struct pixel_lanes){p[0], p[1], p[2], p[3]}, sky->target->format,
                          to + size * (size_t)(x + i), 1);
         }
     }
 }
 
-bool sky_draw(struct lam_device *device, lam_image *target, struct call_control *call, lam_error *error)
+bool sky_draw(struct lam_device *device, struct path_pictures *denoised, lam_image *target, struct call_control *call,
+              lam_error *error)
 {
     struct frame *frame = &device->frame;
     struct sky sky;
@@ -147,7 +155,8 @@ bool sky_draw(struct lam_device *device, lam_image *target, struct call_control 
     bool direct = target->format == working.format;
     bool ok = lam_image_make(&light, target->width, target->height, LAM_RGBA32F, error) &&
               (direct || lam_image_make(&working, working.width, working.height, working.format, error)) &&
-              device->type->draw(device, frame, &light, call, error);
+              (denoised ? denoise_draw(device, denoised, &light, call, error)
+                        : device->type->draw(device, frame, &light, call, error));
     sky.light = &light;
     sky.target = direct ? target : &working;
     if (ok)

@@ -148,6 +148,7 @@ struct frame {
     lam_draw_params settings;
     lam_output shown;          // the output that was asked for; settings.output is the one that devices draw for it
     float to_world[3][3];      // eye space to world space, rotation only
+    int path_first;            // the number of the first path (settings.paths)
     float exposure;            // 2^stops, from the parameters and `brightened`
     double brightened;         // stops (lam_brighten)
     int point_triangles;       // triangles per point (frame_strokes.h)

@@ -111,4 +111,17 @@ struct path_shader {
 bool paths_trace(const struct path_frame *paths, struct path_stream *stream, struct light_rays *rays,
                  const struct path_shader *shader, struct call_control *call);
 
+// The input of path_denoise, of one size (LAM_RGBA32F, without padding): two pictures of different paths, linear and
+// premultiplied, and the normals, distances and base colours of the surfaces.
+struct path_pictures {
+    lam_image halves[2];
+    lam_image normals, depths, colors;
+};
+struct pool;
+
+// Writes the mean of the halves without its noise. Pixels without noise, and alpha, do not change. Fails with LAM_LIMIT
+// or LAM_CANCELLED.
+bool path_denoise(const struct path_pictures *in, lam_image *out, struct pool *pool, struct call_control *call,
+                  lam_error *error);
+
 #endif

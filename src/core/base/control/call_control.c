@@ -271,6 +271,7 @@ void call_progress(struct call_control *call, double share, const char *step)
 {
     if (!call || !call->control.progress)
         return;
+    share = call->part_begin + (1 - call->part_rest) * share;
     if (share < call->last_share)
         share = call->last_share;
     call->last_share = share;

@@ -28,6 +28,8 @@ struct call_control {
     uint64_t input_bytes;
     bool unknown_field; // the control sets a field that this version does not know
     double last_share;
+    // The part of the call that reports progress now: it begins at `part_begin`, and `part_rest` follows or precedes.
+    double part_begin, part_rest;
     // The number of operations in the formulas of a scene file, and the maximum number; 0 means no limit.
     uint64_t operations, operation_limit;
 };

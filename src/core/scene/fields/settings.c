@@ -54,6 +54,9 @@ WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto`
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the model is lit by the studio or by an environment"},
       {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
       {"on", LAM_SPECULAR_AA_ON, "the variance of the normals within each pixel increases the roughness"})
+WORDS(denoise_words, {"auto", LAM_DENOISE_AUTO, "on from two bounces on, below 1024 paths"},
+      {"off", LAM_DENOISE_OFF, "the mean of the paths, which contains noise and is right on average"},
+      {"on", LAM_DENOISE_ON, "filter the noise; edges, textures and highlights stay"})
 WORDS(map_filter_words, {"file", LAM_MAP_FILTER_FILE, "the filters that the model file selects for each map"},
       {"nearest", LAM_MAP_FILTER_NEAREST, "the nearest texel: blocks near the eye, noise in the distance"},
       {"bilinear", LAM_MAP_FILTER_BILINEAR, "four texels, interpolated: smooth near the eye, noise in the distance"},
@@ -133,6 +136,8 @@ static const lam_setting rows[] = {
          "of all light, 2 and more add light between surfaces. With 0, Lambent computes local lighting."},
     {"paths", MEMBER(WHOLE, paths), .min = 1, .max = 65536, .standard = 64, .expected = "0 to 65536",
      .summary = "The number of paths per pixel, if `bounces` is above 0; four times as many halve the noise."},
+    {"denoise", MEMBER(WORD, denoise), WORDS_OF(denoise_words), .expected = "lam_denoise",
+     .summary = "Filter the noise of `bounces`: auto, off or on."},
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",

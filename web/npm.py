@@ -11,7 +11,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
-SIZE_MAX = 800_000  # bytes of the packed file
+SIZE_MAX = 870_000  # bytes of the packed file
 
 SCRIPTS = ["npm/index.js", "npm/index.d.ts", "npm/files.js", "npm/words.js", "npm/client.js", "npm/worker.js", "npm/README.md", "lambent.js", "wasi.js"]
 # Options that the package does not support: its own calls replace them, or they need files of the machine.

@@ -519,7 +519,7 @@ static void check_refused(const struct demo *demo, const char *reason)
         assert_int_equal(error.code, LAM_UNSUPPORTED);
         assert_non_null(strstr(error.text, reason));
         lam_draw_params params = demo->params;
-        params.reference = 0;
+        params.reference = params.bounces = 0;
         if (scene) // glass is opaque there
             params.shading = LAM_SHADING_GOURAUD;
         params.occlusion = LAM_OCCLUSION_AUTO;
@@ -538,6 +538,7 @@ static void check_scene(void **state)
     if (!demo_build(row, &demo, &error))
         fail_msg("%s: %s", row->name, error.text);
     const char *reason = demo.params.reference                         ? "reference is 100"
+                         : demo.params.bounces                         ? "bounces is"
                          : demo.params.occlusion == LAM_OCCLUSION_RAYS ? "'rays'"
                          : strcmp(row->name, "layers-refraction") == 0 ? "rough or thick glass"
                                                                        : NULL;

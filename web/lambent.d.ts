@@ -60,7 +60,6 @@ export interface Option {
   value: string | null;
   default: string | null;
   summary: string;
-  details: string | null;
   /** Synonyms for the search, separated by spaces. */
   others: string | null;
   kind: 'any' | 'file' | 'color' | 'material' | 'light' | 'camera' | 'environment' | 'varied' | 'swept';

@@ -247,7 +247,7 @@ typedef enum lam_specular_aa {
 
 // A filter against the noise of path tracing (lam_draw_params.bounces). It needs two paths or more.
 typedef enum lam_denoise {
-    LAM_DENOISE_AUTO = 0, // ON from 2 bounces on, below 1024 paths
+    LAM_DENOISE_AUTO = 0, // ON from 2 bounces on, below 1024 paths, without lam_draw_params.noise
     LAM_DENOISE_OFF,      // the mean of the paths, which is right on average
     LAM_DENOISE_ON,       // the filtered mean
     LAM_DENOISE_COUNT
@@ -357,10 +357,16 @@ typedef struct lam_draw_params {
     // it. LAM_BAD_ARGUMENT: together with gl1, or without Phong shading. CPU device only; others fail with
     // LAM_UNSUPPORTED.
     int bounces;
-    // Paths from each surface in a pixel, 1..65536; 0: 64. The noise of a pixel is inversely proportional to the square
-    // root of this number.
+    // Paths from each surface in a pixel, 1..65536; 0: 64, or 65536 with `noise` or `stop_after_s`. The noise of a pixel
+    // is inversely proportional to the square root of this number.
     int paths;
     lam_denoise denoise; // the noise of `bounces` (docs/lighting/bounces.md)
+    // Parts of 64×64 pixels end before `paths` when their estimated noise is at most this, 0..255: the root mean square
+    // error in values of 8-bit pictures. 0: no part ends before.
+    float noise;
+    // The picture is finished when this many seconds have passed since the start of the call, with the paths that it has
+    // then, at least 16 (lam_frame_report.paths). With these paths, `paths` gives the same picture. 0: no limit.
+    float stop_after_s;
     // The width of lines and the diameter of points, in pixels, up to 1000. 0 for lines: 1.5. 0 for points: 16 % of the
     // picture's shorter side, divided by the square root of the number of points, but at most 2.5 % of the shorter
     // side. The result is at least 3 pixels, and at least 8 pixels for fewer than 100 points. Points below 4 pixels are
@@ -417,7 +423,7 @@ typedef struct lam_draw_params {
     // environment is blurred like the mirror image in a surface of this roughness; up to 0.045 it is sharp. Without an
     // environment: LAM_BAD_ARGUMENT.
     float background_environment;
-    LAM_RESERVED(12);
+    LAM_RESERVED(11);
 } lam_draw_params;
 
 // Timings of a frame in milliseconds, and counters.
@@ -463,7 +469,11 @@ typedef struct lam_frame_report {
     uint64_t edge_rays;   // from points of edges to the eye
     // Stops that a dark model was brightened by (lam_brighten); negative for a white model.
     double brightened;
-    LAM_RESERVED(4);
+    // Path tracing (lam_draw_params.bounces): the paths from each surface in a pixel, on average over the picture, and the
+    // estimated root mean square error in values of 8-bit pictures, without the filter. 0 for other pictures; the error is
+    // 0 if there was one path.
+    double paths, noise;
+    LAM_RESERVED(2);
 } lam_frame_report;
 
 // Draws the scene from the camera into `image`, which the caller created with the desired size and pixel format.

@@ -288,6 +288,13 @@ typedef struct lam_explained_fragment {
     LAM_RESERVED(4);
 } lam_explained_fragment;
 
+// The light of a pixel that was reflected a given number of times on its way to the eye, with lam_draw_params.bounces:
+// linear, with exposure, premultiplied, over nothing.
+typedef struct lam_explained_bounce {
+    lam_rgb light; // the mean of the paths
+    lam_rgb error; // the standard error of `light`
+} lam_explained_bounce;
+
 // One pixel of a picture.
 typedef struct lam_explanation {
     int x, y;                  // the pixel, from the upper left corner
@@ -326,6 +333,12 @@ typedef struct lam_explanation {
     // A part of `sum` that belongs to no fragment: the picture behind rough or thick glass, which is blurred or
     // refracted, and the glass's tint of the background.
     lam_rgb behind;
+    // With lam_draw_params.bounces, the fragments and all other members describe local lighting, and these members the
+    // light of the picture's paths before the filter: emission, and light after 1 to `bounces` reflections. The sum of
+    // all is the light of the pixel.
+    int bounce_paths; // the paths; fewer than in the picture if 16 does not divide them
+    int bounce_count; // 1 + bounces; 0: local lighting
+    const lam_explained_bounce *bounces;
     LAM_RESERVED(2);
 } lam_explanation;
 

@@ -683,12 +683,21 @@ struct option option_table[OPTIONS_MAX] = {
     {"paths", 0, GROUP_SHADING, "N", NULL, NULL,
      "The picture is the mean of these paths, so it contains noise. The same number of paths always gives the same "
      "picture, on every machine.",
-     .others = "spp noise"},
+     .others = "spp"},
     {"denoise", 0, GROUP_SHADING, "SWITCH", NULL, NULL,
      "The filter compares two pictures of half the paths each, and averages pixels that differ by no more than their "
      "noise, on the same surface. The picture is smooth with few paths, but fine shadows may be blurred. For "
      "measurements, use `--denoise off`.",
      .others = "denoiser no-denoise"},
+    {"noise", 0, GROUP_SHADING, "X", NULL, NULL,
+     "Each part of the picture (64 by 64 pixels) ends when its noise is small enough, so that dark corners get more "
+     "paths than bright walls. 1 is hard to see, 4 is grainy. The filter is then off by default. `--paths` is the "
+     "largest number of paths, 65536 by default.",
+     .others = "noise-threshold adaptive-threshold"},
+    {"stop-after", 0, GROUP_SHADING, "SECONDS", NULL, NULL,
+     "The picture depends on the speed of the machine. `--verbose` and reports contain the number of paths; with this "
+     "number, `--paths` draws the same picture. Use `--time-limit` for a limit that fails.",
+     .others = "time-budget"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
      "hemisphere light and the environment cast no shadows. A light with a `radius` casts soft shadows. "

@@ -110,6 +110,16 @@ static const struct option *find_long(const char *name, size_t length)
     return NULL;
 }
 
+// Returns the option that a command with these groups takes. Some names mean different options of different commands.
+static const struct option *find_taken(const char *name, size_t length, uint64_t groups)
+{
+    const struct option *first = find_long(name, length);
+    for (const struct option *o = first; o && o->name; o++)
+        if (is_name(o->name, name, length) && option_is_taken(o, groups))
+            return o;
+    return first;
+}
+
 static const struct option *find_letter(char letter)
 {
     for (const struct option *o = option_table; o->name; o++)
@@ -457,7 +467,7 @@ static bool read_long(int count, char **words, int *at, uint64_t groups, struct 
 {
     const char *name = words[*at] + 2;
     size_t length = strcspn(name, "=");
-    const struct option *option = find_long(name, length);
+    const struct option *option = find_taken(name, length, groups);
     if (!option)
         return unknown_long(name, length, groups, error);
     const char *value = name[length] ? name + length + 1 : NULL;

@@ -142,10 +142,14 @@ struct option {
     const char *name; // without the dashes
     char letter;      // the letter of the short form; 0 means no short form
     enum option_group group;
-    const char *value;          // the value's placeholder in the help; NULL if the option has no value
-    const char *standard;       // the text of the default; NULL hides it
-    const char *summary;        // one sentence for --help
-    const char *details;        // more text for the man page and the docs, `code` in back quotes; may be NULL
+    const char *value;    // the value's placeholder in the help; NULL if the option has no value
+    const char *standard; // the text of the default; NULL hides it
+    const char *summary;  // one sentence for --help
+#if defined(__wasm__)
+    bool details; // only whether there are any: a page would wait for this text, and does not show it
+#else
+    const char *details; // more text for the man page and the docs, `code` in back quotes; may be NULL
+#endif
     const struct choice *words; // the accepted values; NULL accepts any
     enum value_kind kind;       // the value's syntax, for the completions
 

@@ -117,6 +117,43 @@ class Bounces(Case):
                            "--bounces", 5, "--paths", 4, "--denoise", "on", size=16)
         self.assertTrue(all(0 <= v < 1.1e31 for v in values))
 
+    def test_passes(self):
+        """--noise ends parts of the picture; --stop-after gives the bytes of the paths that it reports; both do not depend on threads."""
+        words = (ROOT / "examples/cornell.json", "-q", "--bounces", 2, "-s", "130x70")
+
+        def image(*more):
+            return json.loads(self.good(*words, *more, "-o", "p.png", "--json").stdout)["image"], (self.folder / "p.png").read_bytes()
+        few, many = image("--paths", 32)[0], image("--paths", 128)[0]
+        self.assertEqual([few["paths"], many["paths"]], [32, 128])
+        self.assertAlmostEqual(few["noise"] / many["noise"], 2, delta=0.5)
+        ended, bytes_of_one = image("--noise", 5, "--paths", 512, "-j", 1, "--isa", "scalar")
+        self.assertEqual(bytes_of_one, image("--noise", 5, "--paths", 512, "-j", 3)[1])
+        self.assertLessEqual(ended["noise"], 5)
+        self.assertTrue(32 <= ended["paths"] < 512, ended)
+        self.assertNotEqual(ended["paths"] % 16, 0, "all tiles have the same number of paths")
+        stopped, picture = image("--stop-after", 0.5)
+        self.assertEqual(picture, image("--paths", int(stopped["paths"]))[1])
+        self.assertEqual(stopped["paths"] % 16, 0)
+
+    def test_explain(self):
+        """The light after each number of reflections adds up to the picture's pixel, within its standard error."""
+        words = (ROOT / "examples/cornell.json", "-s", 32, "--bounces", 3, "--paths", 1024)
+        self.good(*words, "-q", "--denoise", "off", "-o", "p.pfm")
+        data = struct.unpack("<3072f", (self.folder / "p.pfm").read_bytes()[-12288:])
+        for x, y in ((6, 16), (16, 2), (27, 22)):
+            found = json.loads(self.good("explain", words[0], "%d,%d" % (x, y), *words[1:], "--json").stdout)
+            bounces = found["bounces"]
+            self.assertEqual((len(bounces), found["paths"]), (4, 1024))
+            for c in range(3):
+                pixel = data[3 * (32 * (31 - y) + x) + c]
+                error = math.sqrt(sum(b["error"][c] ** 2 for b in bounces))
+                self.assertLessEqual(abs(sum(b["light"][c] for b in bounces) - pixel), 8 * error + 1e-5, (x, y, c))
+            on_ceiling = y == 2 # which the lamp does not light
+            self.assertEqual(bounces[1]["light"][0] < bounces[2]["light"][0], on_ceiling, (x, y))
+        text = self.good("explain", words[0], "6,16", *words[1:-1], 16).stdout
+        for part in ("are those of local lighting, without --bounces", "light between surfaces: 16 paths", "emission", "standard error"):
+            self.assertIn(part, text)
+
     def test_hostile_scenes(self):
         """No picture contains a NaN, no path is endless, and limits hold."""
         for name, material in {"bright": matt(0.5, 1e30), "mirrors": physical(metallic=1, roughness=0), "glass": GLASS,

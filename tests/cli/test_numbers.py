@@ -209,7 +209,7 @@ CONTEXT = {
     "light-scale": ([], "1.1"), "shading": ([], "flat"), "stage": ([], None), "flat-normal": (["--shading", "flat"], "vertex"),
     "bounces": (["--paths", 2], "1"), "paths": (["--bounces", 1], "3"),
     "reference": (["--environment", "studio", "--material", "#ffc356,metallic=1,roughness=0.3"], "64"),
-    "anisotropy": (["floor.obj"], "1"), "map-filter": (["floor.obj"], "nearest"), "denoise": (["--bounces", "2", "--paths", "4"], "off"), "line-width": (["lines.obj"], "3"), "viewer": ([], "infinite"), "normals": ([], "facet"),
+    "anisotropy": (["floor.obj"], "1"), "map-filter": (["floor.obj"], "nearest"), "denoise": (["--bounces", "2", "--paths", "4"], "off"), "noise": (["--bounces", "1", "--paths", "4"], None), "stop-after": (["--bounces", "1", "--paths", "4"], None), "line-width": (["lines.obj"], "3"), "viewer": ([], "infinite"), "normals": ([], "facet"),
     "texture-filter": (["floor.obj"], None), "section": ([], "x=40%"), "arrange": ([], None), "explode": (["parts.obj"], "0.5"),
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),

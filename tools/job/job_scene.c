@@ -183,7 +183,7 @@ static bool apply_rig(struct job *job, lam_error *error)
     for (int i = 0; i < o->lighting.lights.count; i++)
         replaces |= o->lighting.lights.items[i][0] != '+';
     job->rig = o->lighting.has_rig && o->lighting.rig < RIG_DARK ? (lam_rig)o->lighting.rig : LAM_RIG_AUTO;
-    if (o->lighting.has_rig && o->lighting.rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 &&
+    if (option_given(o, "rig") && o->lighting.rig == (int)LAM_RIG_NONE && lam_scene_light_count(job->scene) == 0 &&
         o->lighting.lights.count == 0 && !lam_scene_environment(job->scene))
         lam_scene_add_warning(job->scene, "option '--rig file': the model has no lights");
     // A scene file with lights sets the rig, unless the command line does.

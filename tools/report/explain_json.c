@@ -324,6 +324,13 @@ void explain_json(FILE *file, const lam_explanation *e, const struct job *job)
         json_put(&json, COUNT("reference", e->reference));
     json_put(&json, COLOR("exposed", exposed_color(e)), COLOR("curved", curved_color(e)), COLOR("toned", e->toned),
              COLOR("encoded", e->encoded), NUMBERS("bytes", 4, e->bytes[0], e->bytes[1], e->bytes[2], e->bytes[3]));
+    if (e->bounce_count) {
+        json_put(&json, COUNT("paths", e->bounce_paths));
+        json_open(&json, "bounces", '[');
+        for (int k = 0; k < e->bounce_count; k++)
+            json_put(&json, OBJECT(NULL, COLOR("light", e->bounces[k].light), COLOR("error", e->bounces[k].error)));
+        json_close(&json, ']');
+    }
     json_close(&json, '}');
     putc('\n', file);
 }

@@ -87,6 +87,11 @@ static void table_of_program(const struct job *job)
     }
 }
 
+static double rays_per_second(const lam_frame_report *frame)
+{
+    return frame->total_ms > 0 ? 1000 * (double)frame->rays / frame->total_ms : 0;
+}
+
 static void table_of_picture(const struct job *job)
 {
     const lam_frame_report *frame = &job->times.frame;
@@ -106,7 +111,10 @@ static void table_of_picture(const struct job *job)
                   frame->triangles_binned, frame->triangles, frame->pixels_covered, frame->points_lit,
                   (double)frame->memory_bytes / 1e6);
     if (frame->rays)
-        say_plain("rays     %" PRIu64 "\n", frame->rays);
+        say_plain("rays     %" PRIu64 ", %.3g million a second\n", frame->rays, rays_per_second(frame) * 1e-6);
+    if (frame->paths > 0)
+        say_plain("paths    %.10g from each surface in a pixel, estimated noise %.3g of 255\n", frame->paths,
+                  frame->noise);
     if (job->exposure_fitted)
         say_plain("exposure %.10g stops, selected for this picture\n", job->draw.exposure);
     if (frame->brightened > 0)
@@ -209,6 +217,9 @@ static void json_image(struct json *json, const struct job *job)
             json_text(json, NULL, job_label(job->scene, job->draw.output, i));
         json_close(json, ']');
     }
+    if (frame->paths > 0)
+        json_put(json, NUMBER("paths", frame->paths), NUMBER("noise", frame->noise),
+                 NUMBER("rays_per_second", rays_per_second(frame)));
     if (frame->ground)
         json_put(json, NUMBER("ground_height", frame->ground_height));
     if (frame->ground && frame->ground_square > 0)

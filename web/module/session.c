@@ -283,8 +283,7 @@ static void describe_option(struct json *json, const struct option *o)
 {
     json_open(json, NULL, '{');
     json_put(json, TEXT("name", o->name), TEXT("group", group_titles[o->group]), TEXT("value", o->value),
-             TEXT("default", o->standard), TEXT("summary", o->summary), TEXT("details", o->details),
-             TEXT("others", o->others));
+             TEXT("default", o->standard), TEXT("summary", o->summary), TEXT("others", o->others));
     static const char *const kinds[] = {"any",    "file",        "color",  "material", "light",
                                         "camera", "environment", "varied", "swept"};
     json_put(json, TEXT("kind", kinds[o->kind]),

@@ -64,7 +64,7 @@ export interface CallOptions {
 export interface Described {
   version: string;
   shapes: string[];
-  options: { name: string; group: string; value: string | null; default: string | null; summary: string; details: string | null; [more: string]: unknown }[];
+  options: { name: string; group: string; value: string | null; default: string | null; summary: string; [more: string]: unknown }[];
 }
 
 /** The module for `open` and `openWorker`: its URL, Response, bytes or compiled module. The default is the file in the package. */

@@ -79,10 +79,18 @@ static void triangle_task(void *user, size_t index, int thread)
     cpu->bins[thread].work = 0;
 }
 
+// Returns the tile that contains a pixel, given by its column and row.
+static size_t tile_of(const struct cpu_frame *cpu, const int *pixel)
+{
+    return (size_t)(pixel[1] >> TILE_SHIFT) * (size_t)cpu->raster.tiles_across + (size_t)(pixel[0] >> TILE_SHIFT);
+}
+
 static void tile_task(void *user, size_t index, int thread)
 {
     struct cpu_frame *cpu = user;
-    if (!work_continues(&cpu->work))
+    const bool *finished = cpu->shade.frame->finished_tiles;
+    const int *pixel = cpu->shade.frame->only_pixel;
+    if (!work_continues(&cpu->work) || (finished && finished[index]) || (pixel && tile_of(cpu, pixel) != index))
         return;
     draw_tile(cpu, index, thread);
     if (thread == 0)
@@ -126,9 +134,7 @@ static bool draw_behind(struct cpu_frame *cpu, struct behind *behind, struct buf
 // Draws the tile with the explained pixel again, and records the pixel's values.
 static void record_tile(struct cpu_frame *cpu, struct recorder *recorder)
 {
-    const lam_explanation *out = recorder->out;
-    tile_task(cpu, (size_t)(out->y >> TILE_SHIFT) * (size_t)cpu->raster.tiles_across + (size_t)(out->x >> TILE_SHIFT),
-              0);
+    tile_task(cpu, tile_of(cpu, (int[2]){recorder->out->x, recorder->out->y}), 0);
     if (recorder->failed)
         cpu->failure = FAILED_MEMORY;
 }

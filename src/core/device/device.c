@@ -7,6 +7,7 @@
 #include "pixels.h"
 #include "pool.h"
 #include "denoised.h"
+#include "path_passes.h"
 #include "sky.h"
 
 #include <string.h>
@@ -49,7 +50,6 @@ static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_cam
                        const lam_draw_params *params, struct path_pictures *denoised, lam_image *target,
                        struct call_control *call, lam_error *error)
 {
-    device->frame.path_first = 0;
     if (device->frame.draws_edges && !find_edges(device, call, error))
         return false;
     lam_draw_params lines = *params;
@@ -57,8 +57,9 @@ static bool draw_frame(lam_device *device, const lam_scene *scene, const lam_cam
     if (params->no_surfaces &&
         !frame_build(&device->frame, scene, camera, &lines, target->width, target->height, call, error))
         return false;
-    if (!(denoised || sky_is_drawn(&device->frame) ? sky_draw(device, denoised, target, call, error)
-                                                   : device->type->draw(device, &device->frame, target, call, error)))
+    if (!(path_passes_are_drawn(&device->frame) || sky_is_drawn(&device->frame)
+              ? sky_draw(device, denoised, target, call, error)
+              : device->type->draw(device, &device->frame, target, call, error)))
         return false;
     if (device->frame.draws_edges)
         edges_blend(&device->edges, &device->frame, target, device->pool);

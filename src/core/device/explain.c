@@ -310,7 +310,13 @@ lam_explanation *lam_explain(lam_device *device, const lam_scene *scene, const l
     surfaces.edges = 0;
     surfaces.bounces = 0;
     device->recorder = &recorder;
-    bool ok = lam_draw(device, scene, camera, &surfaces, &image, control, error);
+    bool ok = true;
+    if (params && params->bounces) {
+        lam_draw_params paths = surfaces;
+        paths.bounces = params->bounces;
+        ok = lam_draw(device, scene, camera, &paths, &image, control, error);
+    }
+    ok = ok && lam_draw(device, scene, camera, &surfaces, &image, control, error);
     device->recorder = NULL;
     lam_image_free(&image);
     explanation->arena = recorder.arena;

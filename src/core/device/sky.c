@@ -7,7 +7,7 @@
 #include "lighting.h"
 #include "picture_pixels.h"
 
-#include "denoised.h"
+#include "path_passes.h"
 #include "environment.h"
 #include "fail.h"
 #include "linear.h"
@@ -141,6 +141,8 @@ bool sky_draw(struct lam_device *device, struct path_pictures *denoised, lam_ima
     struct sky sky;
     if (!prepare(&sky, frame, device->pool, call, error))
         return false;
+    if (device->recorder && path_passes_are_drawn(frame))
+        return path_bounces_record(device, target, call, error);
     if (device->recorder) { // only the recorded pixel matters
         float behind[3][BATCH];
         look(&sky, device->recorder->out->x, device->recorder->out->y, 1, behind);
@@ -155,8 +157,8 @@ bool sky_draw(struct lam_device *device, struct path_pictures *denoised, lam_ima
     bool direct = target->format == working.format;
     bool ok = lam_image_make(&light, target->width, target->height, LAM_RGBA32F, error) &&
               (direct || lam_image_make(&working, working.width, working.height, working.format, error)) &&
-              (denoised ? denoise_draw(device, denoised, &light, call, error)
-                        : device->type->draw(device, frame, &light, call, error));
+              (path_passes_are_drawn(frame) ? path_passes_draw(device, denoised, &light, call, error)
+                                            : device->type->draw(device, frame, &light, call, error));
     sky.light = &light;
     sky.target = direct ? target : &working;
     if (ok)

@@ -321,6 +321,8 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
 {
     lam_draw_params *settings = &frame->settings;
     settings_resolve(params, settings);
+    if (!params->paths && (settings->noise > 0 || settings->stop_after_s > 0))
+        settings->paths = 65536;
     settings->occlusion_radius = params->occlusion_radius; // see setting_number
     frame->shown = params->output;
     if (output_rows[frame->shown].drawn)
@@ -331,6 +333,10 @@ static void resolve_settings(struct frame *frame, const lam_draw_params *params,
         settings->samples = lam_default_samples(width, height);
     if (settings->output != LAM_OUTPUT_PICTURE && settings->output != LAM_OUTPUT_CLIPPED)
         settings->bounces = 0;
+    frame->path_bounces = settings->bounces;
+    frame->path_first = frame->path_position = 0;
+    frame->finished_tiles = NULL;
+    frame->only_pixel = NULL;
     bool of_material = output_kind(params->output) == OUTPUT_MATERIAL;
     if (of_material)
         settings->shading = LAM_SHADING_PHONG;

@@ -138,6 +138,8 @@ struct frame_edges {
     double unit_m; // the length of a model unit in metres, or 0
 };
 
+enum { FRAME_TILE = 64 }; // pixels per side of a tile of the picture; the same on every machine
+
 struct frame {
     struct scene_token *token; // the scene's token; the frame does not own a reference to it
     int width, height;
@@ -146,9 +148,15 @@ struct frame {
     // own model (frame_draw_range.reflection). If light_cutoff is 0, every light is evaluated. edge_angle_rad and
     // occlusion_radius are unchanged.
     lam_draw_params settings;
-    lam_output shown;          // the output that was asked for; settings.output is the one that devices draw for it
-    float to_world[3][3];      // eye space to world space, rotation only
-    int path_first;            // the number of the first path (settings.paths)
+    lam_output shown;     // the output that was asked for; settings.output is the one that devices draw for it
+    float to_world[3][3]; // eye space to world space, rotation only
+    // Path tracing, in passes (path_passes.h): the numbers of the first path and of the first position within a pixel, and
+    // NULL or, for each tile, whether it is not drawn any more.
+    int path_first, path_position;
+    const bool *finished_tiles;
+    // An explained pixel: paths of other pixels need not be traced. NULL: all pixels matter.
+    const int *only_pixel;
+    int path_bounces;          // the reflections of a path, at most settings.bounces
     float exposure;            // 2^stops, from the parameters and `brightened`
     double brightened;         // stops (lam_brighten)
     int point_triangles;       // triangles per point (frame_strokes.h)

@@ -143,7 +143,7 @@ bool path_frame_make(struct path_frame *f, struct call_control *call, lam_error 
     double power[SOURCE_KINDS] = {0}, sum = 0;
     f->environment = (struct environment_view){frame->environment, frame->to_environment, NULL, &f->samples};
     f->samples.light_count = 0;
-    f->bounces = frame->settings.bounces;
+    f->bounces = frame->path_bounces;
     if (frame->environment_lights && !environment_samples_make(&f->samples, frame->environment, frame->to_environment,
                                                                ENVIRONMENT_DIRECTIONS, &f->sample_storage, call, error))
         return false;

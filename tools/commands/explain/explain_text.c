@@ -589,6 +589,23 @@ static void print_pixel(const lam_explanation *e)
            (double)e->result.b, (double)e->result.a, e->exposure == 1 ? "" : "exposure · ");
 }
 
+static void print_bounces(const lam_explanation *e)
+{
+    lam_rgb sum = {0, 0, 0};
+    printf("\nlight between surfaces: %d paths, with exposure, before the background\n", e->bounce_paths);
+    row_heading(0, "reflections", "   standard error");
+    for (int k = 0; k < e->bounce_count; k++) {
+        const lam_explained_bounce *b = &e->bounces[k];
+        char name[32];
+        snprintf(name, sizeof name, k ? "%d" : "emission", k);
+        row_label(2, name);
+        printf("%13.7g %13.7g %13.7g %13.7g %13.7g %13.7g\n", (double)b->light.r, (double)b->light.g,
+               (double)b->light.b, (double)b->error.r, (double)b->error.g, (double)b->error.b);
+        sum = (lam_rgb){sum.r + b->light.r, sum.g + b->light.g, sum.b + b->light.b};
+    }
+    row_color(2, "sum", sum, "the light of the picture's pixel before --denoise");
+}
+
 // Prints the derivatives of the model's formula, and the normal that they give, in the axes of the formula.
 static void print_formula(const lam_explanation *e, const struct job *job)
 {
@@ -623,7 +640,11 @@ void explain_text(const lam_explanation *e, const struct job *job)
     print_formula(e, job);
     if (!e->fragment_count)
         printf("\nOnly the background is visible here.\n");
+    if (e->bounce_count)
+        printf("\nThe terms, the pixel and its bytes below are those of local lighting, without --bounces.\n");
     for (int i = 0; i < e->fragment_count; i++)
         print_fragment(e, &e->fragments[i]);
     print_pixel(e);
+    if (e->bounce_count)
+        print_bounces(e);
 }

@@ -5,8 +5,8 @@
 #include <stdint.h>
 
 enum {
-    TILE = 64, // pixels per side; the same on every machine
     TILE_SHIFT = 6,
+    TILE = 1 << TILE_SHIFT, // pixels per side (FRAME_TILE)
     SUBPIXEL = 256, // steps per pixel to which vertices are snapped
     SUBPIXEL_SHIFT = 8,
     LANES_MAX = 16,

@@ -54,7 +54,7 @@ WORDS(cavity_words, {"auto", LAM_CAVITY_AUTO, "on if ambient occlusion is `auto`
 WORDS(specular_aa_words, {"auto", LAM_SPECULAR_AA_AUTO, "on if the model is lit by the studio or by an environment"},
       {"off", LAM_SPECULAR_AA_OFF, "the exact equations"},
       {"on", LAM_SPECULAR_AA_ON, "the variance of the normals within each pixel increases the roughness"})
-WORDS(denoise_words, {"auto", LAM_DENOISE_AUTO, "on from two bounces on, below 1024 paths"},
+WORDS(denoise_words, {"auto", LAM_DENOISE_AUTO, "on from two bounces on, below 1024 paths, without `noise`"},
       {"off", LAM_DENOISE_OFF, "the mean of the paths, which contains noise and is right on average"},
       {"on", LAM_DENOISE_ON, "filter the noise; edges, textures and highlights stay"})
 WORDS(map_filter_words, {"file", LAM_MAP_FILTER_FILE, "the filters that the model file selects for each map"},
@@ -138,6 +138,10 @@ static const lam_setting rows[] = {
      .summary = "The number of paths per pixel, if `bounces` is above 0; four times as many halve the noise."},
     {"denoise", MEMBER(WORD, denoise), WORDS_OF(denoise_words), .expected = "lam_denoise",
      .summary = "Filter the noise of `bounces`: auto, off or on."},
+    {"noise", MEMBER(NUMBER, noise), .max = 255, .zero = true, .expected = "0 to 255",
+     .summary = "Trace paths until the estimated noise is at most this, in values of 8-bit pictures (0 to 255)."},
+    {"stop_after", MEMBER(NUMBER, stop_after_s), .max = 1e9, .zero = true, .expected = "0 to 1000000000",
+     .summary = "Finish the picture after this many seconds, with the paths traced by then."},
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",

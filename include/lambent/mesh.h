@@ -94,8 +94,9 @@ typedef struct lam_mesh {
     uint32_t point_count; // points of a mesh of points
 
     // One byte for each triangle: bit k (0, 1, 2) is set if the edge from corner k to the next corner is inside a
-    // polygon that was split into triangles. The wireframe omits such edges. Bit 3 is set if the triangle is a cut surface
-    // (section.h), whose outline is a feature edge. NULL: all edges are edges of the model.
+    // polygon that was split into triangles. The wireframe omits such edges. Bit 3 is set if the triangle belongs to a cut
+    // surface (section.h) or to a face of an exact shape (STEP), whose outline is a feature edge. NULL: all edges are
+    // edges of the model.
     const uint8_t *inner_edges;
     bool hidden; // true: objects of this mesh are hidden (lam_scene_hide_mesh)
     LAM_RESERVED(29);

@@ -1,6 +1,7 @@
 # test_modules.py: the formats of lambent-formats: a small file of each with its size, colours and names; files that crash a reader; and what is
 # said if the package is missing.
 import json
+import math
 import pathlib
 import random
 import shutil
@@ -11,7 +12,8 @@ import unittest
 from harness import Case, long, HAS_SANDBOX, PROGRAM, read_png, write_png
 
 BUILD = pathlib.Path(PROGRAM).resolve().parent
-HAS_ASSIMP = (BUILD / "lambent-assimp.so").exists()
+HAS_ASSIMP, HAS_OCCT = ((BUILD / f"lambent-{name}.so").exists() for name in ("assimp", "occt"))
+SHAPES = pathlib.Path(__file__).parent.parent / "modules"
 CORNERS = [(x, y, z) for z in (0, 3) for y in (0, 2) for x in (0, 1)]  # a box of 1 × 2 × 3
 QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]  # counterclockwise from outside
 TRIANGLES = [t for a, b, c, d in QUADS for t in ((a, b, c), (a, c, d))]
@@ -136,17 +138,10 @@ FILES = {
     "off": (OFF, [1, 2, 3], False, None), "ac": (AC, [1, 2, 3], True, None), "x": (X, [1, 2, 3], True, None), "amf": (AMF, [1, 2, 3], False, "inch"),
     "dae": (DAE, [0.5, 1.5, 1], True, "metre"), "fbx": (fbx(), [1, 2, 3], True, "inch"), "3ds": (studio(), [1, 3, 2], True, None), "lwo": (light_wave(), [1, 2, 3], True, None),
 }
-CRASHES = "x"  # a file that crashes Assimp 5.2: a bone refers to a vertex that does not exist
+BYTES = {ending: row[0] if isinstance(row[0], bytes) else row[0].encode() for ending, row in FILES.items()}
 
 
-@unittest.skipUnless(HAS_ASSIMP, "this build has no Assimp")
 class Modules(Case):
-    def same(self, one, other, message=None):
-        """The colours differ by at most 4 of 255: the formats split the faces along other diagonals."""
-        one, other = read_png(one), read_png(other)
-        self.assertEqual(one[:2], other[:2])
-        self.assertLessEqual(max(abs(a - b) for a, b in zip(one[2], other[2])), 4, message)
-
     def file(self, name, data):
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -155,6 +150,39 @@ class Modules(Case):
 
     def info(self, *words, **more):
         return json.loads(self.good("info", "--json", *words, **more).stdout)
+
+    def mutate(self, files, count):
+        """Changed files are read or refused with one sentence, and nothing is written."""
+        chance = random.Random(1)
+        for ending, data in files.items():
+            for number in range(count):
+                changed = bytearray(data)
+                for _ in range(chance.choice((1, 1, 2, 5, 20))):
+                    at = chance.randrange(len(changed))
+                    kind = chance.randrange(4)
+                    if kind == 0:
+                        changed[at] = chance.randrange(256)
+                    elif kind == 1:
+                        del changed[at:at + chance.randrange(1, 9)]
+                    elif kind == 2:
+                        changed[at:at] = changed[chance.randrange(len(changed)):][:chance.randrange(40)]
+                    else:
+                        changed[at:at + 1] = chance.choice((b"-1", b"99999999999", b"1e39", b"nan", b"\0\0\0\0", b"\xff\xff\xff\xff"))
+                self.file("m." + ending, bytes(changed[:chance.choice((len(changed), len(changed), chance.randrange(len(changed) + 1)))]))
+                done = self.run_program("info", "-q", "m." + ending, "--time-limit", 20, "--memory-limit", "300MB")
+                text = done.stderr.decode(errors="replace")
+                self.assertIn(done.returncode, (0, 2, 3, 4), f"{ending} {number}: {text}")
+                self.assertTrue(done.returncode == 0 or text.count("\n") == 1, f"{ending} {number}: {text}")
+            self.assertEqual(self.new_files(), {"m." + e for e in files if (self.folder / ("m." + e)).exists()})
+
+
+@unittest.skipUnless(HAS_ASSIMP, "this build has no Assimp")
+class Assimp(Modules):
+    def same(self, one, other, message=None):
+        """The colours differ by at most 4 of 255: the formats split the faces along other diagonals."""
+        one, other = read_png(one), read_png(other)
+        self.assertEqual(one[:2], other[:2])
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(one[2], other[2])), 4, message)
 
     def test_formats(self):
         for ending, (data, size, painted, unit) in FILES.items():
@@ -210,7 +238,7 @@ class Modules(Case):
 
     def test_crash(self):
         """One sentence and exit 2; in a batch, the other models are drawn, and the worker lives."""
-        crash = self.file("b.x", (pathlib.Path(__file__).parent.parent / "modules/crash.x").read_bytes())
+        crash = self.file("b.x", (SHAPES / "crash.x").read_bytes())
         self.bad(2, crash, says=["b.x: ", "lambent-import"])
         self.file("a.off", OFF)
         self.file("c.off", OFF)
@@ -229,37 +257,12 @@ class Modules(Case):
         self.file("box.off", OFF)
         self.bad(4, "box.off", "--triangle-limit", 5, says=["box.off: ", "--triangle-limit"])
 
-    def mutate(self, count):
-        """Changed files are read or refused with one sentence, and nothing is written."""
-        chance = random.Random(1)
-        for ending, (data, *_) in FILES.items():
-            data = data if isinstance(data, bytes) else data.encode()
-            for number in range(count):
-                changed = bytearray(data)
-                for _ in range(chance.choice((1, 1, 2, 5, 20))):
-                    at = chance.randrange(len(changed))
-                    kind = chance.randrange(4)
-                    if kind == 0:
-                        changed[at] = chance.randrange(256)
-                    elif kind == 1:
-                        del changed[at:at + chance.randrange(1, 9)]
-                    elif kind == 2:
-                        changed[at:at] = changed[chance.randrange(len(changed)):][:chance.randrange(40)]
-                    else:
-                        changed[at:at + 1] = chance.choice((b"-1", b"99999999999", b"1e39", b"nan", b"\0\0\0\0", b"\xff\xff\xff\xff"))
-                self.file("m." + ending, bytes(changed[:chance.choice((len(changed), len(changed), chance.randrange(len(changed) + 1)))]))
-                done = self.run_program("info", "-q", "m." + ending, "--time-limit", 20, "--memory-limit", "300MB")
-                text = done.stderr.decode(errors="replace")
-                self.assertIn(done.returncode, (0, 2, 3, 4), f"{ending} {number}: {text}")
-                self.assertTrue(done.returncode == 0 or text.count("\n") == 1, f"{ending} {number}: {text}")
-            self.assertEqual(self.new_files(), {"m." + e for e in FILES if (self.folder / ("m." + e)).exists()})
-
     def test_mutations(self):
-        self.mutate(12)
+        self.mutate(BYTES, 12)
 
     @long
     def test_many_mutations(self):
-        self.mutate(2500)
+        self.mutate(BYTES, 2500)
 
     def test_scene_file(self):
         self.file("box.ac", AC)
@@ -281,3 +284,124 @@ class Modules(Case):
         self.assertNotIn("not installed", self.good("formats").stdout.decode().split("Pictures")[0])
 
 
+
+
+def true_edges(name):
+    """The edges of the shape that lambent-import marks: chains of sides between points at which not just two sides meet."""
+    data = (SHAPES / name).read_bytes()
+    request = struct.pack("<I16s16sIQQQI4x", 2, b"occt", name.split(".")[-1].encode(), 60, 1 << 30, len(data), 1 << 30, 0)
+    process = subprocess.Popen([BUILD / "lambent-import"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    process.stdin.write(request + data)
+    process.stdin.flush()
+    result, size = struct.unpack("<4xIQ408x", process.stdout.read(424))
+    scene = process.stdout.read(size)
+    process.communicate()
+    length = struct.unpack_from("<I", scene, 12)[0]
+    root, binary = json.loads(scene[20:20 + length]), scene[28 + length:]
+
+    def array(accessor):
+        accessor = root["accessors"][accessor]
+        view = root["bufferViews"][accessor["bufferView"]]
+        return memoryview(binary[view["byteOffset"]:][:view["byteLength"]]).cast({5121: "B", 5125: "I", 5126: "f"}[accessor["componentType"]])
+
+    counts = {}
+    for mesh in root["meshes"]:
+        sides, primitive = set(), mesh["primitives"][0]
+        positions, indices = array(primitive["attributes"]["POSITION"]), array(primitive["indices"])
+        for triangle, inner in enumerate(array(primitive["extensions"]["LAMBENT_faces"]["inner"])):
+            corners = [tuple(positions[3 * i:3 * i + 3]) for i in indices[3 * triangle:3 * triangle + 3]]
+            sides |= {frozenset((corners[k], corners[(k + 1) % 3])) for k in range(3) if not inner >> k & 1}
+        around = {}
+        for side in sides:
+            for point in side:
+                around.setdefault(point, []).append(side)
+        left, chains = set(sides), 0
+        while left:
+            chains, stack = chains + 1, [left.pop()]
+            while stack:
+                for point in stack.pop():
+                    if len(around[point]) == 2:
+                        stack += left.intersection(around[point])
+                        left.difference_update(around[point])
+        counts[mesh.get("name")] = chains
+    return counts
+
+
+# Made with OpenCASCADE: "stand" is a plate of 40 × 20 × 5 mm with a hole, orange with a blue top, and two pins of one part, in inches. "rounded" is a box
+# of 40 × 30 × 20 with a fillet of radius 4 on each edge.
+@unittest.skipUnless(HAS_OCCT, "this build has no OpenCASCADE")
+class OpenCascade(Modules):
+    STAND = {ending: (SHAPES / f"stand.{ending}").read_bytes() for ending in ("step", "iges", "brep")}
+    VOLUME = (40 * 20 - math.pi * 16) * 5 + 2 * math.pi * 9 * 15  # mm³
+
+    def test_shapes(self):
+        for ending, (names, unit, pins) in {"step": (["plate:1", "pin:1", "p\u00efn:2"], "inch", 2), "iges": (["stand"], "inch", 2), "brep": ([], None, 1)}.items():
+            with self.subTest(ending):
+                info = self.info(self.file("stand." + ending, self.STAND[ending]))
+                self.assertEqual((info["format"], info["up"], info["unit"]), (ending, "z", unit))
+                scale = 1 if unit is None else 25.4
+                for found, wanted in zip(info["size"], (40, 20, 20)):
+                    self.assertAlmostEqual(found * scale, wanted, places=4)
+                wanted = self.VOLUME - (2 - pins) * math.pi * 9 * 15
+                self.assertAlmostEqual(info["measure"]["volume"] * scale**3 / wanted, 1, delta=0.01)
+                self.assertEqual([n["name"] for n in info["names"] if n["objects"]], names)
+                if unit:  # colours are decoded from sRGB; a face's own colour replaces its part's
+                    colors = sorted(m["diffuse"] for m in info["materials"])
+                    for found, wanted in zip(colors, ((0.01, 0.0331, 0.7874), (0.2140,) * 3, (0.6038, 0.1329, 0.0331))):
+                        for a, b in zip(found, wanted):
+                            self.assertAlmostEqual(a, b, delta=0.002)
+
+    def test_names(self):
+        self.file("stand.step", self.STAND["step"])
+        whole = self.good("stand.step", "-s", 64, "-o", "-").stdout
+        hidden = self.good("stand.step", "-s", 64, "--hide", "plate:1", "-o", "-").stdout
+        self.assertNotEqual(hidden, whole)
+        self.assertNotEqual(self.good("stand.step", "-s", 64, "--hide", "plate", "-o", "-").stdout, whole)  # the part's name
+        self.assertEqual(self.good("stand.step", "-s", 64, "--only", "pin:1", "--only", "p\u00efn:2", "-o", "-").stdout, hidden)
+        self.bad(1, "stand.step", "-s", 64, "--hide", "bolt", says="plate:1")
+
+    def test_edges(self):
+        """The library's own counts of edges, without the seams of cylinders and the poles of spheres: no angle decides."""
+        self.assertEqual(true_edges("rounded.brep"), {None: 48})  # TopExp: 56, of which 8 poles; all of them are tangent
+        self.assertEqual(true_edges("stand.step"), {"plate": 14, "pin": 2})  # 15 and 3, of which one seam each
+        path = self.file("rounded.brep", (SHAPES / "rounded.brep").read_bytes())
+        plain, drawn = (self.good(path, "-s", 64, "--view", "top", *more, "-o", "-").stdout for more in ([], ["--edges", "crease"]))
+        self.assertNotEqual(plain, drawn)
+
+    def test_same_bytes(self):
+        """The same bytes for each number of threads and each instruction set."""
+        for ending, data in self.STAND.items():
+            path = self.file("stand." + ending, data)
+            wanted = self.good(path, "-s", 96, "--edges", "all", "-o", "-").stdout
+            for more in (["--threads", 1], ["--threads", 5], ["--isa", "scalar"], ["--sandbox", "off"]):
+                self.assertEqual(self.good(path, "-s", 96, "--edges", "all", "-o", "-", *more).stdout, wanted, more)
+            self.assertEqual(self.good("-", "-s", 96, "--edges", "all", "-o", "-", stdin=data).stdout, wanted)
+
+    def test_damaged(self):
+        for ending, data in self.STAND.items():
+            for size in (100, len(data) // 2):
+                path = self.file("cut." + ending, data[:size])
+                self.bad(2, path, says=[f"cut.{ending}: ", "cannot read the " + ending])
+        self.file("few.step", self.STAND["step"])
+        self.bad(4, "few.step", "--triangle-limit", 100, says=["few.step: ", "--triangle-limit"])
+        claim = ("DBRep_DrawableShape\n\nCASCADE Topology V1, (c) Matra-Datavision\nLocations 0\nCurve2ds 0\nCurves 0\nPolygon3D 0\n"
+                 "PolygonOnTriangulations 0\nSurfaces 0\nTriangulations 1\n2000000000 2000000000 1 0\n")
+        self.bad(4, self.file("claim.brep", claim), says=["claim.brep: ", "memory"])
+        self.bad(4, self.file("long.brep", claim.replace("Locations 0", "Locations 2000000000")), "--time-limit", 1, says="long.brep: ")
+
+    def test_mutations(self):
+        self.mutate(self.STAND, 12)
+
+    @long
+    def test_many_mutations(self):
+        self.mutate(self.STAND, 700)
+
+    def test_missing(self):
+        shutil.copy(PROGRAM, self.folder / "lambent")
+        for name, data, described in (("part.step", self.STAND["step"], "a STEP file"), ("part.igs", self.STAND["iges"], "an IGES file"),
+                                      ("part.brep", self.STAND["brep"], "a BREP file")):
+            self.file(name, data)
+            done = subprocess.run([str(self.folder / "lambent"), name], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            self.assertEqual((done.returncode, done.stderr.decode()), (3, f"lambent: {name}: this is {described}, which the package lambent-formats reads "
+                                                                      "(apt install lambent-formats)\n"))
+        self.assertIn("  step   .step stp  with lambent-formats\n", self.good("formats").stdout.decode())

@@ -70,6 +70,9 @@ static const struct text_kind {
     {{"a COLLADA file", ".glb"}, '<', "<COLLADA"},
     {{"an X3D file", ".glb"}, '<', "<X3D"},
     {{"an AMF file", ".stl"}, '<', "<amf"},
+    {{"a BREP file", ".stl"}, 'D', "CASCADE Topology V"},
+    {{"a BREP file", ".stl"}, 'C', "CASCADE Topology V"},
+    {{"a BREP file", ".stl"}, 'O', "CASCADE Topology V"},
     {{"an XML file", NULL}, '<', "<?xml"},
     {{"a DXF file", ".stl"}, '0', "SECTION"},
     {{"an MTL file (materials only; give the .obj that names it)", NULL}, 'n', "newmtl "},
@@ -99,9 +102,10 @@ static const struct named_kind {
     {"off", {"an OFF file", ".ply"}},
     {"step stp", {"a STEP file", ".stl"}},
     {"iges igs", {"an IGES file", ".stl"}},
+    {"brep brp", {"a BREP file", ".stl"}},
     {"amf", {"an AMF file", ".stl"}},
     {"dxf dwg", {"an AutoCAD drawing", ".stl"}},
-    {"f3d ipt iam sldprt sldasm fcstd 3dm scad brep x_t", {"a CAD file", ".stl"}},
+    {"f3d ipt iam sldprt sldasm fcstd 3dm scad x_t", {"a CAD file", ".stl"}},
 };
 
 const struct unsupported_format *unsupported_format_named(const char *ending)
@@ -130,7 +134,10 @@ static bool is_3ds(const uint8_t *bytes, size_t size)
 }
 
 // IGES files consist of 80-column cards. The first card is numbered S 1.
-static bool is_iges(const uint8_t *bytes, size_t size) { return size > 80 && memcmp(bytes + 72, "S      1", 8) == 0; }
+static bool is_iges(const uint8_t *bytes, size_t size)
+{
+    return size > 80 && (memcmp(bytes + 72, "S      1", 8) == 0 || memcmp(bytes + 72, "S0000001", 8) == 0);
+}
 
 const struct unsupported_format *unsupported_format_of(const uint8_t *bytes, size_t size)
 {

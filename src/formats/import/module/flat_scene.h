@@ -74,7 +74,7 @@ inline std::string text(const char *name)
 
 // --- the scene
 
-enum { U16 = 5123, U32 = 5125, F32 = 5126 };
+enum { U8 = 5121, U16 = 5123, U32 = 5125, F32 = 5126 };
 
 // Appends to a list and returns the index.
 inline std::string add(list &to, const std::string &json)
@@ -103,7 +103,10 @@ class scene
     std::string accessor(const void *data, size_t count, int component, size_t width)
     {
         static const char *const types[] = {"\"SCALAR\"", "\"VEC2\"", "\"VEC3\"", "\"VEC4\""};
-        return add(accessors, object({{"bufferView", view(data, count * width * (component == U16 ? 2 : 4))},
+        return add(accessors, object({{"bufferView", view(data, count * width *
+                                                                    (component == U8    ? 1
+                                                                     : component == U16 ? 2
+                                                                                        : 4))},
                                       {"componentType", std::to_string(component)},
                                       {"count", std::to_string(count)},
                                       {"type", width == 16 ? "\"MAT4\"" : types[width - 1]}}));

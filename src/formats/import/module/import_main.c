@@ -6,6 +6,7 @@
 #include "import_module.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
@@ -48,6 +49,19 @@ static _Noreturn void answer(int result, const char *note, const struct import_s
     }
     fflush(out);
     _exit(0);
+}
+
+static struct {
+    uint8_t *bytes; // NULL before they have arrived
+    size_t size;
+} file;
+
+// Replaces the C library's fopen in the libraries of the modules.
+__attribute__((visibility("default"))) FILE *open_by_name(const char *name, const char *mode) __asm__("fopen");
+FILE *open_by_name(const char *name, const char *mode)
+{
+    errno = ENOENT;
+    return file.bytes && strcmp(name, IMPORT_FILE) == 0 ? fmemopen(file.bytes, file.size, mode) : NULL;
 }
 
 static void *end_with_parent(void *unused)
@@ -143,11 +157,12 @@ int main(int count, char **words)
     if (!module || module->version != IMPORT_MODULE_VERSION || request.version != IMPORT_MODULE_VERSION)
         answer(IMPORT_NO_MODULE, module ? "lambent-formats belongs to another version" : note, NULL);
     drop_rights(&request);
-    uint8_t *bytes = request.size < SIZE_MAX - 64 ? calloc(1, request.size + 64) : NULL;
-    if (!bytes || pthread_create(&watcher, NULL, end_with_parent, NULL) != 0)
+    file.size = request.size;
+    file.bytes = file.size < SIZE_MAX - 64 ? calloc(1, file.size + 64) : NULL;
+    if (!file.bytes || pthread_create(&watcher, NULL, end_with_parent, NULL) != 0)
         answer(IMPORT_NO_MEMORY, "", NULL);
-    if (fread(bytes, 1, request.size, stdin) != request.size)
+    if (fread(file.bytes, 1, file.size, stdin) != file.size)
         return 1;
-    int result = module->read(&request, bytes, &scene, note);
+    int result = module->read(&request, file.bytes, &scene, note);
     answer(result, note, result == IMPORT_READ ? &scene : NULL);
 }

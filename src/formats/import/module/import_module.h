@@ -17,11 +17,13 @@ extern "C" {
 #endif
 
 // Increment this version with every change in this file.
-enum { IMPORT_MODULE_VERSION = 1 };
+enum { IMPORT_MODULE_VERSION = 2 };
 
 enum { IMPORT_NOTE_SIZE = 400, IMPORT_NAME_SIZE = 16 };
 
 #define IMPORT_PROGRAM "lambent-import"
+// lambent-import's fopen opens the bytes of the file by this name, for readers that need a name, and nothing else.
+#define IMPORT_FILE "file"
 // With this argument, lambent-import is the starter (lam_import_start): its standard input is a socket. For each message,
 // which carries the ends of two pipes, it starts a copy of itself with these standard streams.
 #define IMPORT_STARTER "starter"
@@ -37,6 +39,7 @@ struct import_request {
     uint32_t seconds;              // limit of processor time
     uint64_t memory;               // limit in bytes, beside the memory of the libraries
     uint64_t size;                 // bytes of the file that follow
+    uint64_t triangles;            // more are refused: a module may stop making them
     uint32_t raw;                  // colours are linear already
 };
 

@@ -16,24 +16,27 @@
 
 static bool module_load(struct import_source *source, struct lam_scene *scene, lam_error *error);
 
-// name, up axis of files that do not state it, whether this axis is only a habit, module, name in messages
-#define ROW(name_, up_, habit_, module_, described_)                                                                   \
+// name, extensions, up axis of files that do not state it, whether this axis is only a habit, module, name in messages
+#define ROW(name_, extensions_, up_, habit_, module_, described_)                                                      \
     {.name = name_,                                                                                                    \
-     .extensions = name_,                                                                                              \
+     .extensions = extensions_,                                                                                        \
      .up = up_,                                                                                                        \
      .up_is_habit = habit_,                                                                                            \
      .load = module_load,                                                                                              \
      .module = module_,                                                                                                \
      .described = described_}
 const struct importer module_importers[] = {
-    ROW("fbx", LAM_UP_Y, false, "assimp", "an FBX file"),
-    ROW("dae", LAM_UP_Y, false, "assimp", "a COLLADA file"),
-    ROW("3ds", LAM_UP_Y, false, "assimp", "a 3DS file"),
-    ROW("off", LAM_UP_Y, true, "assimp", "an OFF file"),
-    ROW("x", LAM_UP_Y, false, "assimp", "a DirectX file"),
-    ROW("amf", LAM_UP_Z, false, "assimp", "an AMF file"),
-    ROW("lwo", LAM_UP_Y, false, "assimp", "a LightWave file"),
-    ROW("ac", LAM_UP_Y, false, "assimp", "an AC3D file"),
+    ROW("fbx", "fbx", LAM_UP_Y, false, "assimp", "an FBX file"),
+    ROW("dae", "dae", LAM_UP_Y, false, "assimp", "a COLLADA file"),
+    ROW("3ds", "3ds", LAM_UP_Y, false, "assimp", "a 3DS file"),
+    ROW("off", "off", LAM_UP_Y, true, "assimp", "an OFF file"),
+    ROW("x", "x", LAM_UP_Y, false, "assimp", "a DirectX file"),
+    ROW("amf", "amf", LAM_UP_Z, false, "assimp", "an AMF file"),
+    ROW("lwo", "lwo", LAM_UP_Y, false, "assimp", "a LightWave file"),
+    ROW("ac", "ac", LAM_UP_Y, false, "assimp", "an AC3D file"),
+    ROW("step", "step stp", LAM_UP_Z, true, "occt", "a STEP file"),
+    ROW("iges", "iges igs", LAM_UP_Z, true, "occt", "an IGES file"),
+    ROW("brep", "brep brp", LAM_UP_Z, true, "occt", "a BREP file"),
     {.name = NULL},
 };
 
@@ -79,6 +82,7 @@ static bool module_load(struct import_source *source, struct lam_scene *scene, l
         return false;
     double seconds = source->call->control.time_limit_s;
     request.seconds = seconds > 0 && seconds < 3600 ? (uint32_t)seconds + 1 : 3600;
+    request.triangles = call_triangle_limit(source->call);
     request.memory = call_memory_left(source->call);
     request.size = source->size;
     snprintf(request.module, sizeof request.module, "%s", importer->module);

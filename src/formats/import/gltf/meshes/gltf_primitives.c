@@ -127,16 +127,52 @@ static bool take_attributes(struct gltf *gltf, const struct place *place, const 
            take_floats(gltf, place, attributes, &tangent_rule, count, &mesh->tangents, &mesh->tangent_count);
 }
 
-// Adds one part that covers the whole mesh, with the primitive's material.
-static bool add_part(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
+// Adds one part with the primitive's material, or the parts that LAMBENT_faces lists.
+static bool add_parts(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
 {
-    lam_part *part = arena_alloc_zeroed(&gltf->scene->arena, sizeof *part);
-    if (!part)
-        return gltf_no_memory(gltf, sizeof *part);
-    *part = (lam_part){.name = mesh->name, .triangle_count = mesh_items(mesh)};
-    mesh->parts = part;
-    mesh->part_count = 1;
-    return gltf_take_material(gltf, place, primitive, &part->material);
+    const json_t *own = gltf_extension(primitive, "LAMBENT_faces");
+    const struct place *here = own ? KEY_OF(KEY_OF(KEY_OF(place, "extensions"), "LAMBENT_faces"), "parts") : place;
+    size_t left = mesh_items(mesh), count = own ? json_array_size(json_object_get(own, "parts")) : 1;
+    lam_part *parts = arena_array(&gltf->scene->arena, count, sizeof *parts);
+    if (!parts)
+        return gltf_no_memory(gltf, count * sizeof *parts);
+    for (size_t i = 0; i < count; i++) {
+        const json_t *part = own ? json_array_get(json_object_get(own, "parts"), i) : primitive;
+        size_t size = left;
+        if (own && !gltf_take_whole(gltf, ELEMENT_OF(here, i), part, "triangles", 0, (double)left, &size))
+            return false;
+        parts[i] = (lam_part){.name = mesh->name,
+                              .first_triangle = (uint32_t)(mesh_items(mesh) - left),
+                              .triangle_count = (uint32_t)size};
+        left -= size;
+        if (!gltf_take_material(gltf, own ? ELEMENT_OF(here, i) : place, part, &parts[i].material))
+            return false;
+    }
+    mesh->parts = parts;
+    mesh->part_count = (uint32_t)count;
+    return (count && !left) || json_fail(&gltf->json, here, "found %zu triangles of no part", left);
+}
+
+// Reads LAMBENT_faces, in which the modules for exact shapes mark the edges of the shape (docs/internals/import.md): a
+// number for each triangle as in lam_mesh.inner_edges.
+static bool take_edges(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
+{
+    struct gltf_accessor *accessor = NULL;
+    const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "LAMBENT_faces");
+    bool ok = gltf_take_accessor(gltf, here, gltf_extension(primitive, "LAMBENT_faces"), "inner", &accessor);
+    if (!accessor)
+        return ok;
+    const uint32_t *numbers = gltf_indices(gltf, KEY_OF(here, "inner"), accessor);
+    uint8_t *inner = numbers ? arena_array(&gltf->scene->arena, accessor->count, 1) : NULL;
+    if (!inner)
+        return numbers && gltf_no_memory(gltf, accessor->count);
+    if (accessor->count != mesh->triangle_count)
+        return json_fail(&gltf->json, KEY_OF(here, "inner"), "found %zu elements, expected %u, one for each triangle",
+                         accessor->count, mesh->triangle_count);
+    for (size_t i = 0; i < accessor->count; i++)
+        inner[i] = numbers[i] & 15;
+    mesh->inner_edges = inner;
+    return true;
 }
 
 static bool make_primitive(struct gltf *gltf, const struct place *place, const json_t *primitive, const char *name,
@@ -160,7 +196,7 @@ static bool make_primitive(struct gltf *gltf, const struct place *place, const j
         return false;
     bool ok = mode < GLTF_TRIANGLES ? gltf_strokes(gltf, place, primitive, mode, &mesh)
                                     : gltf_triangles(gltf, place, primitive, mode, &mesh);
-    if (!ok || !add_part(gltf, place, primitive, &mesh) ||
+    if (!ok || !take_edges(gltf, place, primitive, &mesh) || !add_parts(gltf, place, primitive, &mesh) ||
         !take_attributes(gltf, here, attributes, gltf_material_is_opaque(gltf, mesh.parts->material), &mesh))
         return false;
     if (!mesh_items(&mesh))

@@ -9,29 +9,35 @@
 
 enum { HEAD = 16, LARGEST = 1 << 20 };
 
-// A valid scene as the modules write it: a triangle with a material and a light.
+// A valid scene as the modules write it: a triangle of an exact shape, with a material and a light.
 static const char json[] =
-    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"buffers\":[{\"byteLength\":36}],"
-    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
-    "\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":36}],\"nodes\":[{\"mesh\":0,\"name\":\"part\","
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"buffers\":[{\"byteLength\":40}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+    "{\"bufferView\":1,\"componentType\":5121,\"count\":1,\"type\":\"SCALAR\"}],\"bufferViews\":[{\"buffer\":0,"
+    "\"byteOffset\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":1}],\"nodes\":[{\"mesh\":0,"
+    "\"name\":\"part\","
     "\"children\":[1]},{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],\"meshes\":[{\"primitives\":["
-    "{\"attributes\":{\"POSITION\":0},\"mode\":4,\"material\":0}]}],\"materials\":[{\"name\":\"red\",\"extensions\":"
+    "{\"attributes\":{\"POSITION\":0},\"mode\":4,\"extensions\":{\"LAMBENT_faces\":{\"inner\":1,\"parts\":"
+    "[{\"material\":0,\"triangles\":1}]}}}]}],\"materials\":[{\"name\":\"red\",\"extensions\":"
     "{\"LAMBENT_material\":{\"diffuse\":[1,0.5,0,1],\"specular\":[0,0,0],\"shininess\":20}}}],\"extensions\":"
     "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"extensions\":{\"LAMBENT_light\":"
     "{\"attenuation\":[1,0,0.5],\"ambient\":[0.1,0.1,0.1]}}}]}}}";
-static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+static const struct {
+    float corners[9];
+    uint8_t inner[4];
+} binary = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {10, 0, 0, 0}};
 
 static size_t make_scene(uint8_t *out)
 {
     size_t length = (sizeof json - 1 + 3) & ~(size_t)3;
-    uint32_t head[5] = {0x46546c67, 2, (uint32_t)(28 + length + sizeof corners), (uint32_t)length, 0x4e4f534a};
-    uint32_t chunk[2] = {sizeof corners, 0x004e4942};
+    uint32_t head[5] = {0x46546c67, 2, (uint32_t)(28 + length + sizeof binary), (uint32_t)length, 0x4e4f534a};
+    uint32_t chunk[2] = {sizeof binary, 0x004e4942};
     memset(out, ' ', 20 + length);
     memcpy(out, head, sizeof head);
     memcpy(out + 20, json, sizeof json - 1);
     memcpy(out + 20 + length, chunk, sizeof chunk);
-    memcpy(out + 28 + length, corners, sizeof corners);
-    return 28 + length + sizeof corners;
+    memcpy(out + 28 + length, &binary, sizeof binary);
+    return 28 + length + sizeof binary;
 }
 
 static lam_scene *load(const char *mode, const uint8_t *scene, size_t size, const lam_control *control,
@@ -68,6 +74,8 @@ TEST(test_scene)
     lam_scene *scene = load("good", made, made_size, NULL, &error);
     SUCCEEDS(scene);
     assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 1);
+    assert_int_equal(lam_scene_mesh(scene, 0)->inner_edges[0], 10);
+    assert_int_equal(lam_scene_mesh(scene, 0)->parts[0].material, 0);
     assert_string_equal(lam_scene_object(scene, 0)->name, "part");
     const lam_material *material = lam_scene_material(scene, 0);
     assert_false(material->physical);
@@ -116,6 +124,29 @@ TEST(test_failures)
     lam_error error = {0};
     assert_null(load("early", large, LARGEST, NULL, &error));
     free(large);
+}
+
+TEST(test_wrong_faces)
+{
+    static const char *const rows[][3] = {
+        {"\"triangles\":1}", "\"triangles\":0}", "1 triangles of no part"},
+        {"\"triangles\":1}", "\"triangles\":2}", "parts[0].triangles"},
+        {"\"material\":0,\"tri", "\"material\":7,\"tri", NULL}, // gets the default material
+        {"\"parts\"", "\"pants\"", "1 triangles of no part"},
+        {"\"inner\":1", "\"inner\":0", "expected SCALAR"},
+        {"\"inner\":1", "\"inner\":9", "LAMBENT_faces.inner"},
+        {"5121,\"count\":1", "5121,\"count\":2", "bufferView 1"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        uint8_t changed[sizeof made];
+        lam_error error = {0};
+        memcpy(changed, made, made_size);
+        memcpy(memmem(changed, made_size, rows[i][0], strlen(rows[i][0])), rows[i][1], strlen(rows[i][1]));
+        lam_scene *scene = load("good", changed, made_size, NULL, &error);
+        if (!scene == !rows[i][2] || (rows[i][2] && !strstr(error.text, rows[i][2])))
+            fail_msg("%s: '%s'", rows[i][1], error.text);
+        lam_scene_free(scene);
+    }
 }
 
 // Each truncation, and each byte changed, is read or refused with one sentence.

@@ -1,16 +1,19 @@
 #!/bin/sh
-# deb.sh FOLDER: builds the Debian source package and the binary packages of the committed tree in FOLDER (make deb). The version comes from
-# meson.build and the date from the commit, so the same commit gives the same bytes. DEBFULLNAME and DEBEMAIL name the maintainer.
+# deb.sh FOLDER: builds the Debian source package and the binary packages of the committed tree (without .git: of the tree) in FOLDER (make
+# deb). scripts/project.py knows the version and the commit's date, so the same commit gives the same bytes. The source package contains the
+# page of build-web, because a package is built without a network. DEBFULLNAME and DEBEMAIL name the maintainer.
 set -eu
 tree=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
-version=$(sed -n "s/^  version: '\(.*\)',/\1/p" "$tree/meson.build")
+version=$("$tree/scripts/project.py" version)
 maintainer="${DEBFULLNAME:-The Lambent authors} <${DEBEMAIL:-lambent@users.noreply.github.com}>"
 source="$out/lambent-$version"
-rm -rf "$source" "$out"/lambent*_* "$out"/liblambent*_*
-mkdir "$source"
-git -C "$tree" archive HEAD | tar -x -C "$source"
+python3 "$tree/web/build.py" "$tree/build-web"
+rm -rf "$source" "$out"/*lambent*_*
+"$tree/scripts/project.py" tree "$source"
+mkdir "$source/build-web"
+cp "$tree/build-web/lambent.html" "$tree/build-web/lambent-threads.wasm" "$tree/build-web/LICENCES" "$source/build-web"
 cp -R "$source/packaging/debian" "$source/debian"
 sed -i "s/@MAINTAINER@/$maintainer/" "$source/debian/control"
 cat >"$source/debian/changelog" <<END
@@ -18,7 +21,7 @@ lambent ($version) unstable; urgency=medium
 
   * The changes are in CHANGELOG.md.
 
- -- $maintainer  $(git -C "$tree" log -1 --format=%cD)
+ -- $maintainer  $(date -u -R -d "@$("$tree/scripts/project.py" time)")
 END
 cd "$source"
 dpkg-buildpackage -us -uc ${DEB_FLAGS:-} >"$out/build.log" 2>&1 || {

@@ -1,28 +1,35 @@
 #!/usr/bin/env python3
-"""release.py [FOLDER]: builds a complete release in FOLDER (dist): the source, the Debian packages, the static programs, the changes, and checksums
-(make release). It releases the committed tree, with the version in meson.build.
+"""release.py [FOLDER]: builds a complete release of the committed tree in FOLDER (dist): all that docs/install.md lists, with its bill of materials
+(CycloneDX), the changes, and checksums (make release). SIGN_KEY names the key that signs the checksums: a file of minisign, or a key of gpg.
 
 release.py --notes prints the changes: the section of CHANGELOG.md, and the pictures of tests/images that differ from the last release (the newest tag
 vX.Y.Z), by name."""
 import hashlib
+import json
+import os
 import pathlib
 import platform
 import re
 import shutil
 import subprocess
 import sys
+import time
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / name) for name in ("scripts", "packaging", "web")]
+import build as web  # noqa: E402
+import project  # noqa: E402
+import static  # noqa: E402
+import windows  # noqa: E402
+from project import version  # noqa: E402
+
 MACHINES = ("x86_64", "aarch64")  # of the static programs
 EXPECTED = "tests/images/expected/hashes.txt"  # one line for each picture: its name, and the hash of its bytes
 
 
 def git(*words, root=ROOT):
     return subprocess.run(["git", "-C", str(root), *words], stdout=subprocess.PIPE, check=True, text=True).stdout
-
-
-def version(root=ROOT):
-    return re.search(r"^  version: '(.*)',", (root / "meson.build").read_text(), re.M)[1]
 
 
 def section(root=ROOT):
@@ -35,7 +42,7 @@ def section(root=ROOT):
 
 
 def last_release(root=ROOT):
-    tags = [tag for tag in git("tag", "--list", "v*", "--sort=-version:refname", root=root).split() if tag != "v" + version(root)]
+    tags = [tag for tag in git("tag", "--list", "v*", "--sort=-version:refname", root=root).split() if tag != project.tag(root)]
     return tags[0] if tags else None
 
 
@@ -66,6 +73,76 @@ def run(*command):
     done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode:
         sys.exit("release: %s failed:\n%s" % (" ".join(map(str, command)), done.stdout[-3000:]))
+    return done.stdout
+
+
+def zipped(path, files):
+    """Writes a zip file of {name: file}; the same files give the same bytes."""
+    date = time.gmtime(project.time())[:6]
+    with zipfile.ZipFile(path, "w") as out:
+        for name in sorted(files):
+            info = zipfile.ZipInfo(name, date)
+            info.external_attr = 0o644 << 16
+            out.writestr(info, files[name].read_bytes(), zipfile.ZIP_DEFLATED)
+
+
+def below(folder):
+    return {str(path.relative_to(folder)): path for path in folder.rglob("*") if path.is_file()}
+
+
+def build_all(dist, name):
+    """Builds all files in DIST. Returns, for the files that contain code of others, the folder with its source packages, and the other packages."""
+    run("git", "archive", "--format=tar.gz", "--prefix=%s/" % name, "-o", dist / (name + ".tar.gz"), "HEAD")
+    for target in ("deb", "windows", "python", "npm", "site"):
+        run("make", target)
+    for path in sorted([*ROOT.glob("build-deb/*.deb"), *ROOT.glob("build-python/*.whl"), *ROOT.glob("build-web/*.tgz")]):
+        if "dbgsym" not in path.name:
+            shutil.copy(path, dist)
+    parts = {}
+    for machine in MACHINES:
+        is_cross = machine != platform.machine()
+        run("make", "static", *["machine=" + machine] * is_cross)
+        folder = ROOT / ("build-static" + "-%s" % machine * is_cross)
+        target = "%s-%s-linux" % (name, machine)
+        shutil.copy(folder / "lambent", dist / target)
+        parts[target] = (folder, static.INSIDE)
+    shutil.copy(folder / "LICENCES", dist / ("%s-linux-licences.txt" % name))
+    zipped(dist / (name + "-x86_64-windows.zip"), {file: ROOT / "build-windows" / file for file in ("lambent.exe", "lambent.dll", "lambent.dll.a", "LICENCES")})
+    zipped(dist / (name + "-page.zip"), below(ROOT / "build-web/page"))
+    zipped(dist / (name + "-site.zip"), below(ROOT / "build-site"))
+    parts[name + "-x86_64-windows.zip"] = (ROOT / "build-windows", windows.INSIDE)
+    for path in [*dist.glob("*-page.zip"), *dist.glob("*-site.zip"), *dist.glob("*.tgz"), *dist.glob("lambent-page_*.deb"), *dist.glob("lambent-doc_*.deb")]:
+        parts[path.name] = (ROOT / "build-web", web.TOOLS)
+    parts.update({path.name: (None, ["libspng0", "libjansson4", "libjpeg62-turbo", "zlib1g"]) for path in dist.glob("*.whl")})
+    return parts
+
+
+def materials(dist, parts):
+    """The bill of materials: each file of the release, and the Debian packages whose code is in it."""
+    components, links = {}, []
+    for path in sorted(dist.iterdir()):
+        own = {"type": "file", "bom-ref": path.name, "name": path.name, "hashes": [{"alg": "SHA-256", "content": hashlib.sha256(path.read_bytes()).hexdigest()}]}
+        folder, packages = parts.get(path.name, (None, []))
+        rows = [dsc.stem.split("_", 1) + ["source"] for dsc in folder.glob("source/*.dsc")] if folder else []
+        if packages:
+            rows += [line.split() + ["binary"] for line in run("dpkg-query", "-W", "-f", "${Package} ${source:Version}\n", *packages).splitlines()]
+        refs = ["pkg:deb/debian/%s@%s%s" % (package, number.replace("+", "%2B").replace(":", "%3A"), "?arch=source" * (kind == "source")) for package, number, kind in rows]
+        components.update({ref: {"type": "library", "bom-ref": ref, "purl": ref, "name": row[0], "version": row[1]} for ref, row in zip(refs, rows)})
+        components[path.name] = own
+        links.append({"ref": path.name, "dependsOn": sorted(set(refs))})
+    return {"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "components": [components[ref] for ref in sorted(components)], "dependencies": links,
+            "metadata": {"timestamp": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(project.time())),
+                         "component": {"type": "application", "name": "lambent", "version": version(), "licenses": [{"license": {"id": "MIT"}}]}}}
+
+
+def sign(path):
+    key = os.environ.get("SIGN_KEY")
+    if not key:
+        print("%s is not signed: SIGN_KEY names no key" % path.name)
+    elif os.path.exists(key):
+        run("minisign", "-S", "-s", key, "-m", path, "-t", project.tag())
+    else:
+        run("gpg", "--batch", "--yes", "--armor", "--detach-sign", "--local-user", key, path)
 
 
 def main():
@@ -79,22 +156,15 @@ def main():
     shutil.rmtree(dist, ignore_errors=True)
     dist.mkdir(parents=True)
     name = "lambent-" + version()
-    run("git", "archive", "--format=tar.gz", "--prefix=%s/" % name, "-o", dist / (name + ".tar.gz"), "HEAD")
-    run(ROOT / "packaging" / "deb.sh", ROOT / "build-deb")
-    for path in sorted((ROOT / "build-deb").glob("*.deb")):
-        if "dbgsym" not in path.name:
-            shutil.copy(path, dist)
-    for machine in MACHINES:
-        folder = ROOT / ("build-static" + "-%s" % machine * (machine != platform.machine()))
-        run(sys.executable, ROOT / "packaging" / "static.py", folder, machine)
-        shutil.copy(folder / "lambent", dist / ("%s-%s-linux" % (name, machine)))
-    shutil.copy(folder / "LICENCES", dist / ("%s-linux-licences.txt" % name))
+    parts = build_all(dist, name)
+    (dist / (name + ".cdx.json")).write_text(json.dumps(materials(dist, parts), indent=1) + "\n")
     (dist / "NOTES.md").write_text(text)
     files = sorted(path for path in dist.iterdir())
     sums = "".join("%s  %s\n" % (hashlib.sha256(path.read_bytes()).hexdigest(), path.name) for path in files)
     (dist / "SHA256SUMS").write_text(sums)
     for path in files:
         print("%9.1f kB  %s" % (path.stat().st_size / 1e3, path.name))
+    sign(dist / "SHA256SUMS")
 
 
 if __name__ == "__main__":

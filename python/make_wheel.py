@@ -7,6 +7,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+import project  # noqa: E402
 
 
 def build(library, folder):
@@ -15,10 +17,9 @@ def build(library, folder):
     folder.mkdir(exist_ok=True)
     for old in folder.glob("*.whl"):
         old.unlink()
-    time = subprocess.run(["git", "-C", ROOT, "log", "-1", "--format=%ct"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
     done = subprocess.run([sys.executable, "setup.py", "-q", "egg_info", "--egg-base", folder, "build", "--build-base", folder / "build", "bdist_wheel",
                            "--bdist-dir", folder / "wheel", "--dist-dir", folder], cwd=ROOT / "python", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          env={"SOURCE_DATE_EPOCH": time or "1", **os.environ, "LAMBENT_BUILD": str(pathlib.Path(library).resolve())})
+                          env={"SOURCE_DATE_EPOCH": str(project.time()), **os.environ, "LAMBENT_BUILD": str(pathlib.Path(library).resolve())})
     if done.returncode:
         raise RuntimeError(done.stdout)
     return next(folder.glob("*.whl"))

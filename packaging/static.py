@@ -59,7 +59,7 @@ def compile_library(row, folder, prefix):
     objects = []
     for name in row["files"]:
         objects.append(str(made / (pathlib.Path(name).stem + ".o")))
-        call(prefix + row["compiler"], *row["flags"], "-O2", "-fPIC", "-DSPNG_STATIC", "-w", "-I%s" % (folder / "debian/usr/include"), "-c", str(path / name),
+        call(prefix + row["compiler"], *row["flags"], "-O2", "-fPIC", "-DNDEBUG", "-DSPNG_STATIC", "-w", "-ffile-prefix-map=%s=." % folder, "-I%s" % (folder / "debian/usr/include"), "-c", str(path / name),
              "-o", objects[-1])
     archive = made / ("lib%s.a" % row["library"])
     call(prefix + "ar", "crD", str(archive), *objects)
@@ -96,16 +96,6 @@ def cross_file(folder, machine, prefix):
     return path
 
 
-def write_licences(folder):
-    """The licence notices of the program's components, from Debian's packages."""
-    texts = ["The program lambent contains the following software. What Debian's packages say of each:\n", (ROOT / "LICENSE").read_text()]
-    for row in SOURCES:
-        texts.append("==== %s\n\n%s" % (row["source"], (pathlib.Path(libraries.unpacked(str(folder), row["source"])) / "debian" / "copyright").read_text()))
-    for package in INSIDE:
-        texts.append("==== %s\n\n%s" % (package, next(pathlib.Path("/usr/share/doc").glob(package + "/copyright")).read_text()))
-    (folder / "LICENCES").write_text("\n".join(texts))
-
-
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build-static").resolve()
     machine = sys.argv[2] if len(sys.argv) > 2 else platform.machine()
@@ -132,7 +122,7 @@ def main():
         call("meson", "configure", str(build), *flags, env=environment)
     call("ninja", "-C", str(build), "lambent", env=environment)
     call(prefix + "strip", "-o", str(folder / "lambent"), str(build / "lambent"))
-    write_licences(folder)
+    (folder / "LICENCES").write_text(libraries.notices("The program lambent", str(folder), [row["source"] for row in SOURCES], INSIDE))
     print("%s: %.1f MB" % (folder / "lambent", (folder / "lambent").stat().st_size / 1e6))
 
 

@@ -49,7 +49,7 @@ def build(folder):
     """Builds outdated parts, and returns the build folder."""
     folder.mkdir(parents=True, exist_ok=True)
     libraries.CLANG, libraries.ARCHIVER, libraries.SIZE_T = COMPILER, PREFIX + "ar", "8"
-    libraries.FLAGS = ["-DNDEBUG", "-D__USE_MINGW_ANSI_STDIO=1", "-DSPNG_STATIC", "-ffp-contract=off", "-w"]
+    libraries.FLAGS = ["-DNDEBUG", "-D__USE_MINGW_ANSI_STDIO=1", "-DSPNG_STATIC", "-ffp-contract=off", "-w", "-ffile-prefix-map=%s=." % folder]
     libraries.make(str(folder), libraries.LIBRARIES + MORE)
     places = folder / "places.ini"
     places.write_text("[constants]\nroot = '%s'\nheaders = '%s'\n" % (folder / "root", ROOT / "src/system/windows/include"))
@@ -64,15 +64,6 @@ def build(folder):
     return made
 
 
-def write_licences(folder):
-    """The licence notices of the program's components, from Debian's packages."""
-    sources = {row["source"]: pathlib.Path(libraries.unpacked(str(folder), row["source"])) / "debian" for row in libraries.LIBRARIES + MORE}
-    packages = {name: pathlib.Path("/usr/share/doc") / name for name in INSIDE}
-    texts = ["The program lambent.exe and the library lambent.dll contain the following software. What Debian's packages say of each:\n", (ROOT / "LICENSE").read_text()]
-    texts += ["==== %s\n\n%s" % (name, (place / "copyright").read_text()) for name, place in {**sources, **packages}.items()]
-    (folder / "LICENCES").write_text("\n".join(texts))
-
-
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build-windows").resolve()
     if missing():
@@ -83,7 +74,8 @@ def main():
         call(PREFIX + "strip", "-o", str(target), str(made / name))
         print("%s: %.1f MB" % (target, target.stat().st_size / 1e6))
     shutil.copy(made / "src/lambent.dll.a", folder)
-    write_licences(folder)
+    sources = [row["source"] for row in libraries.LIBRARIES + MORE]
+    (folder / "LICENCES").write_text(libraries.notices("Each of the files lambent.exe and lambent.dll", str(folder), sources, INSIDE))
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bundle  # noqa: E402
+import libraries  # noqa: E402
 import module_parts  # noqa: E402
 from bundle import correct_programs  # noqa: E402, F401
 from module_parts import call  # noqa: E402
@@ -102,6 +103,9 @@ def make_offline(served, bundles):
     bundle.write(os.path.join(served, OFFLINE), text)
 
 
+# Debian's source packages whose code is in the modules, and tool packages that add code.
+SOURCES = [*(row["source"] for row in libraries.LIBRARIES), "draco", "meshoptimizer"]
+TOOLS = ["wasi-libc", "libclang-rt-19-dev-wasm32", "libc++-19-dev-wasm32"]
 OFFLINE, DECODERS = "offline_worker.js", "lambent-decoders.wasm"
 CHECK = "wasm/classroom/web/check.wasm" # built by classroom/web/meson.build
 ALONE = "alone.html" # lambent.html next to the served page, from which pages with a model are made
@@ -135,6 +139,8 @@ def make_page(folder):
     for name in ("lambent.d.ts", "threads.d.ts"):
         files[name] = open(os.path.join(HERE, name)).read()
     files[DECODERS] = open(os.path.join(folder, "decoders.wasm"), "rb").read()
+    files["LICENCES"] = libraries.notices("The page of Lambent", folder, SOURCES, TOOLS)
+    bundle.write(os.path.join(folder, "LICENCES"), files["LICENCES"])
     files["check.wasm"] = open(os.path.join(folder, CHECK), "rb").read()
     editor = bundle.codemirror(folder, packages(folder))
     if editor:
@@ -172,7 +178,10 @@ def make_one_file(folder, bundles, editor):
     if editor:
         texts["codemirror"] = packed_text(editor)
     inside = "".join('<script type="text/plain" id="%s">%s</script>\n' % row for row in texts.items())
-    page = page.replace("</body>", '%s<script type="module">%s</script>\n</body>' % (inside, script))
+    notices = open(os.path.join(folder, "LICENCES")).read()
+    if "--" + ">" in notices:
+        sys.exit("web: the notices of licences would end the comment that contains them")
+    page = page.replace("</body>", '%s<script type="module">%s</script>\n<!--\n%s\n-->\n</body>' % (inside, script, notices))
     bundle.write(os.path.join(folder, "lambent.html"), page)
 
 

@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # packaging/windows.py sets others.
 CLANG = "clang-19"
 ARCHIVER = "/usr/lib/llvm-19/bin/llvm-ar"
@@ -88,6 +89,17 @@ def fetch(folder, names):
 def unpacked(folder, name):
     found = [p for p in glob.glob(os.path.join(folder, "source", name + "-[0-9]*")) if os.path.isdir(p)]
     return found[0] if found else None
+
+
+def notices(what, folder, sources, packages):
+    """The licence notices of a file that contains code of these unpacked source packages and installed packages."""
+    texts = ["%s contains the following software. What Debian's packages say of each:\n" % what, open(os.path.join(ROOT, "LICENSE")).read()]
+    places = {name: unpacked(folder, name) + "/debian/copyright" for name in sources}
+    places.update({name: glob.glob("/usr/share/doc/%s/copyright" % name)[0] for name in packages})
+    texts += ["==== %s\n\n%s" % (name, open(path).read()) for name, path in places.items()]
+    if any("common-licenses/Apache-2.0" in text for text in texts):
+        texts.append(open("/usr/share/common-licenses/Apache-2.0").read())
+    return "\n".join(texts)
 
 
 def configure(name, path):

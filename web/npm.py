@@ -11,14 +11,11 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
-SIZE_MAX = 870_000  # bytes of the packed file
+SIZE_MAX = 940_000  # bytes of the packed file
 
-SCRIPTS = ["npm/index.js", "npm/index.d.ts", "npm/files.js", "npm/words.js", "npm/client.js", "npm/worker.js", "npm/README.md", "lambent.js", "wasi.js"]
+SCRIPTS = ["npm/index.js", "npm/drawing.js", "npm/index.d.ts", "npm/files.js", "npm/words.js", "npm/client.js", "npm/worker.js", "npm/README.md", "lambent.js", "decoders.js", "wasi.js"]
 # Options that the package does not support: its own calls replace them, or they need files of the machine.
 WITHOUT = ["output", "term", "durable", "save-scene", "stage"]
-# Debian's source packages whose code is in the module, and tool packages that add code.
-SOURCES = ["zlib", "jansson", "libspng", "libjpeg-turbo", "expat"]
-TOOLS = ["wasi-libc", "libclang-rt-19-dev-wasm32"]
 
 
 def key_of(name):
@@ -54,19 +51,9 @@ def package_json(version):
     return {
         "name": "lambent", "version": version, "description": "Pictures of 3D models, lit on the CPU: the same bytes on every machine", "license": "MIT", "type": "module",
         "main": "./index.js", "types": "./index.d.ts", "sideEffects": False, "engines": {"node": ">=18"},
-        "exports": {".": {"types": "./index.d.ts", "default": "./index.js"}, "./worker": "./worker.js", "./lambent.wasm": "./lambent.wasm", "./package.json": "./package.json"},
+        "exports": {".": {"types": "./index.d.ts", "default": "./index.js"}, "./worker": "./worker.js", "./lambent.wasm": "./lambent.wasm", "./decoders.wasm": "./decoders.wasm", "./package.json": "./package.json"},
         "keywords": ["3d", "render", "thumbnail", "gltf", "glb", "stl", "obj", "ply", "wasm"],
     }
-
-
-def licences(folder):
-    """The licence notices of the module's components."""
-    texts = [(ROOT / "LICENSE").read_text(), "The module lambent.wasm contains the following software. What Debian's packages say of each:\n"]
-    for name in SOURCES:
-        texts.append("==== %s\n\n%s" % (name, next((folder / "source").glob(name + "-[0-9]*/debian/copyright")).read_text()))
-    for name in TOOLS:
-        texts.append("==== %s\n\n%s" % (name, pathlib.Path("/usr/share/doc", name, "copyright").read_text()))
-    return "\n".join(texts)
 
 
 def described(wasm):
@@ -85,10 +72,11 @@ def make(folder):
     for name in SCRIPTS:
         shutil.copy(HERE / name, package)
     shutil.copyfile(wasm, package / "lambent.wasm")
+    shutil.copyfile(folder / "decoders.wasm", package / "decoders.wasm")
     options = described(wasm)
     (package / "options.d.ts").write_text(options_types(options))
     (package / "package.json").write_text(json.dumps(package_json(options["version"]), indent=2) + "\n")
-    (package / "LICENCES").write_text(licences(folder))
+    shutil.copy(folder / "LICENCES", package)
     shutil.copy(ROOT / "LICENSE", package)
     for path in package.iterdir():
         path.chmod(0o644)

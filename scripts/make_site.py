@@ -15,6 +15,7 @@ import sys
 import tempfile
 from urllib.parse import quote
 
+import reference
 from docs import ROOT, pages
 
 sys.path.insert(0, os.path.join(ROOT, "web"))
@@ -25,7 +26,7 @@ NO_PICTURE = ("plot", "materials", "check")
 # Short names of options in the commands of the pages.
 SHORT = {"-s": "--size", "-b": "--background", "-o": "--output", "-r": "--reflection"}
 NAVIGATION = [("README.md", "Lambent"), ("docs/lighting.md", "Lighting"), ("docs/command-line.md", "Command line"), ("docs/shaders.md", "Shaders"),
-              ("docs/check.md", "Check"), ("docs/formats.md", "Formats"), ("docs/architecture.md", "Architecture")]
+              ("docs/check.md", "Check"), ("docs/formats.md", "Formats"), ("docs/architecture.md", "Architecture"), ("docs/reference.md", "C interface")]
 
 
 def target_of(path):
@@ -132,12 +133,12 @@ def body_of(program, path, text):
         command = html.unescape(match[3] or "").strip()
         drawn = command.startswith("lambent ") and "\n" not in command and "-o docs/pictures/" in command
         links = lab_links(program, command, page) if drawn else ""
-        code = "<pre><code>%s</code></pre>" % html.escape(command) if drawn else match[2] or ""
+        code = "<pre class=\"wrapped\"><code>%s</code></pre>" % html.escape(command) if drawn else match[2] or ""
         return "<figure>%s%s%s</figure>\n" % (match[1], links, code)
 
     body = re.sub(r"<p>((?:<img[^>]*/?>\s*)+)</p>\s*(<pre><code>([^<]*)</code></pre>)?", figure, body)
     body = re.sub(r"<img ", '<img loading="lazy" ', body)
-    body = body.replace("<table>", '<div class="wide"><table>').replace("</table>", "</table></div>")
+    body = body.replace("<table>", '<div class="wide" tabindex="0"><table>').replace("</table>", "</table></div>")
     return body, linked
 
 
@@ -162,7 +163,7 @@ def whole_page(path, title, body):
 %s</main>
 </body>
 </html>
-""" % (html.escape(title), relative("site.css", page), "\n".join(parts), body)
+""" % (html.escape(title), relative("site.css", page), "\n".join(parts), body.replace("<pre>", '<pre tabindex="0">')) # the keyboard scrolls it
 
 
 def title_of(text, path):
@@ -188,12 +189,20 @@ def source_page(path):
     return whole_page(path, path, "<h1>%s</h1>\n<pre><code>%s</code></pre>\n" % (html.escape(path), html.escape(open(full, encoding="utf-8").read())))
 
 
+def text_of(path):
+    if path != "docs/reference.md":
+        return open(os.path.join(ROOT, path), encoding="utf-8").read()
+    lines = []
+    reference.write(reference.headers(os.path.join(ROOT, "include", "lambent")), lines)
+    return "\n".join(lines)
+
+
 def make(program, folder, lab):
     """Writes the site; `lab` is the single-file page."""
     shutil.rmtree(folder, ignore_errors=True)
-    texts, linked, waiting = {}, set(), {os.path.relpath(path, ROOT) for path in pages()}
+    texts, linked, waiting = {}, set(), {os.path.relpath(path, ROOT) for path in pages()} | {"docs/reference.md"}
     while waiting:
-        new = {path: open(os.path.join(ROOT, path), encoding="utf-8").read() for path in sorted(waiting)}
+        new = {path: text_of(path) for path in sorted(waiting)}
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             made = list(pool.map(lambda path: body_of(program, path, new[path]), new))
         for path, (body, more) in zip(new, made):

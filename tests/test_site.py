@@ -23,8 +23,8 @@ from web import Results  # noqa: E402
 NO_LAB = r"beam\.png|lambert\.png|fresnel\.png|depth\.png|lobe\.png|highlight\.png|attenuation\.png|spot\.png|tone\.svg|tone-colors\.svg|materials\.png|explained\.png|mistake-.*"
 
 
-def check_links(results, folder):
-    """Every href and src exists, including anchors. Returns the options in the links to the Lab, by page."""
+def links_of(folder):
+    """The pages below FOLDER, the options in their links to the Lab, and the links whose target or anchor is missing."""
     texts, words = {}, {}
     for where, _, names in os.walk(folder):
         for name in names:
@@ -45,6 +45,12 @@ def check_links(results, folder):
                 continue
             if not os.path.isfile(target) or (anchor and target in texts and 'id="%s"' % unquote(anchor) not in texts[target]):
                 missing.append("%s: %s" % (os.path.relpath(path, folder), link))
+    return texts, words, missing
+
+
+def check_links(results, folder):
+    """Every href and src exists, including anchors. Returns the pages, and the options in the links to the Lab."""
+    texts, words, missing = links_of(folder)
     results.ok(len(texts) > 40 and not missing, "every link of %d pages has its target" % len(texts), "\n".join(missing))
     return texts, words
 

@@ -32,8 +32,8 @@ const struct topic topics[] = {
      "that cannot be drawn keeps its place on the sheet, and the exit code is then 7."},
     {"viewer", "The viewer", BIT(VIEWER), TOPIC_NO_TABLE,
      "`lambent view bunny.obj` shows a model in the browser, and updates the picture when the model file changes. "
-     "`lambent view models/` shows a gallery of a folder. The viewer requires a web page. To build this page, run "
-     "`make web` once in Lambent's source folder. Lambent serves the page only on 127.0.0.1, at an address with a "
+     "`lambent view models/` shows a gallery of a folder. The viewer requires a web page: the package lambent-page, or "
+     "`make web`, run once in Lambent's source folder. Lambent serves the page only on 127.0.0.1, at an address with a "
      "secret token. Press Ctrl-C to stop the viewer. For details, see `docs/view.md`."},
     {"formats", "Model formats", 0, TOPIC_NO_TABLE,
      "`lambent formats` lists the formats that Lambent reads and writes. `docs/formats.md` describes how Lambent draws "

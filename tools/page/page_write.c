@@ -163,9 +163,10 @@ static void fail_missing(const char *folder, lam_error *error)
                  "'%.300s' web",
                  sources);
     else
-        complain(error, LAM_UNSUPPORTED,
-                 "the page, lambent.html, is not installed; `make web install` in the folder of Lambent's sources "
-                 "builds and installs it (or set LAMBENT_PAGE to its path)");
+        complain(
+            error, LAM_UNSUPPORTED,
+            "the page, lambent.html, is not installed; install the package lambent-page, or run `make web install` in "
+            "the folder of Lambent's sources (or set LAMBENT_PAGE to its path)");
     free(sources);
 }
 

@@ -1,7 +1,9 @@
 """setup.py: builds the package `lambent` (docs/python.md). LAMBENT_BUILD is a build folder of Meson. Its library becomes part of the extension, and
-the required libraries are stored next to it, with their licences. Without LAMBENT_BUILD, the extension uses the installed liblambent (pkg-config)."""
+the required libraries and the module for Draco are stored next to it, with their licences, and the wheel's tag names the C library that they need.
+Without LAMBENT_BUILD, the extension uses the installed liblambent (pkg-config)."""
 import os
 import pathlib
+import platform
 import re
 import shlex
 import shutil
@@ -10,11 +12,15 @@ import sys
 
 from setuptools import setup
 from setuptools.command.build_ext import build_ext
+from wheel.bdist_wheel import bdist_wheel
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 os.chdir(ROOT / "python")
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scripts")]
+import project  # noqa: E402
+
 INSIDE = {"spng": "libspng0", "jansson": "libjansson4", "jpeg": "libjpeg62-turbo"}  # a library, and the Debian package that contains its licence
+DRACO = ROOT / "src/formats/import/gltf/draco/draco_module.cpp"
 
 
 class Build(build_ext):
@@ -37,6 +43,7 @@ class Build(build_ext):
         describe.write_members(folder / "_members.py")
         if os.environ.get("LAMBENT_BUILD"):
             self.add_libraries(folder / "libs")
+            self.add_draco(folder)
         shutil.copy(ROOT / "LICENSE", folder)
         describe.write_stubs(folder)
 
@@ -50,6 +57,25 @@ class Build(build_ext):
                 shutil.copy(path, folder / name)
             shutil.copy("/usr/share/doc/%s/copyright" % package, folder / (package + ".copyright"))
 
+    def add_draco(self, folder):
+        """The module that the library opens for Draco, which contains Debian's archive of Draco."""
+        command = [*shlex.split(os.environ.get("CXX", "g++")), "-std=c++17", "-O2", "-DNDEBUG", "-shared", "-fPIC", "-fvisibility=hidden", "-s",
+                   "-Wl,--gc-sections,--exclude-libs,ALL", "-ffile-prefix-map=%s=." % ROOT, DRACO, "-o", folder / "lambent-draco.so", "-l:libdraco.a"]
+        subprocess.run(command, check=True)
+        shutil.copy("/usr/share/doc/libdraco-dev/copyright", folder / "libs/libdraco-dev.copyright")
 
-setup(version=re.search(r"^  version: '(.*)',", (ROOT / "meson.build").read_text(), re.M)[1], cffi_modules=["binding.py:builder"],
-      cmdclass={"build_ext": Build}, options={"bdist_wheel": {"py_limited_api": "cp311"}})
+
+class Wheel(bdist_wheel):
+    """The wheel's tag is the newest version of the C library that a symbol of its files needs, at least 2.17, as manylinux has it."""
+
+    def get_tag(self):
+        python, abi, tag = super().get_tag()
+        if os.environ.get("LAMBENT_BUILD"):
+            files = [str(path) for path in pathlib.Path(self.bdist_dir).rglob("*.so*")]
+            symbols = subprocess.check_output(["objdump", "-T", *files], text=True)
+            tag = "manylinux_2_%d_%s" % (max(17, *(int(minor) for minor in re.findall(r"GLIBC_2\.(\d+)", symbols))), platform.machine())
+        return python, abi, tag
+
+
+setup(version=project.version(), cffi_modules=["binding.py:builder"],
+      cmdclass={"build_ext": Build, "bdist_wheel": Wheel}, options={"bdist_wheel": {"py_limited_api": "cp311"}})

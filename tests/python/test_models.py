@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import pathlib
 import pickle
+import re
 import subprocess
 import sys
 import tempfile
@@ -273,9 +274,13 @@ class Package(unittest.TestCase):
 
     def test_wheel_holds_its_libraries(self):
         names = zipfile.ZipFile(os.environ["LAMBENT_WHEEL"]).namelist()
-        self.assertRegex(os.environ["LAMBENT_WHEEL"], r"lambent-[0-9.]+-cp311-abi3-linux_\w+\.whl$")
+        self.assertRegex(os.environ["LAMBENT_WHEEL"], r"lambent-[0-9.]+-cp311-abi3-manylinux_2_\d+_\w+\.whl$")
         for part in ("lambent/_native.abi3.so", "lambent/libs/libspng.so.0", "lambent/libs/libspng0.copyright", "lambent/LICENSE", "lambent/py.typed"):
             self.assertIn(part, names)
+        self.assertEqual(lambent.render("tests/fuzz/corpus/gltf/draco.gltf", 16).shape, (16, 16, 4))
+        files = [str(path) for path in pathlib.Path(lambent.__file__).parent.rglob("*.so*")]
+        symbols = subprocess.check_output(["objdump", "-T", *files], text=True)
+        self.assertEqual(max(int(minor) for minor in re.findall(r"GLIBC_2\.(\d+)", symbols)), int(re.search(r"manylinux_2_(\d+)", os.environ["LAMBENT_WHEEL"])[1]))
         text = subprocess.check_output(["ldd", str(pathlib.Path(lambent.__file__).parent / "_native.abi3.so")], text=True)
         self.assertNotIn("liblambent", text)
         self.assertIn("lambent/libs/libspng.so.0", text)

@@ -42,6 +42,7 @@ def make_inputs(program, folder):
     refused = {"draco.gltf": CORPUS / "gltf" / "draco.gltf", "meshopt.gltf": CORPUS / "gltf" / "meshopt.gltf"}
     expected = {"cube": drawn(*WORDS), "plainCube": drawn("cube.stl", "--size", "96"), "ball": drawn("ball.stl", "--size", "96"),
                 "package": drawn(str(CORPUS / "3mf" / "bambu.3mf"), "--size", "96"),
+                "draco": drawn(str(CORPUS / "gltf" / "draco.gltf"), "--size", "96"), "meshopt": drawn(str(CORPUS / "gltf" / "meshopt.gltf"), "--size", "96"),
                 "refused": {name: base64.b64encode(path.read_bytes()).decode() for name, path in refused.items()}}
     shutil.copy(CORPUS / "3mf" / "bambu.3mf", folder / "package.3mf")
     (folder / "expected.json").write_text(json.dumps(expected))
@@ -91,7 +92,7 @@ def try_types(results, folder, modules):
         results.ok(code == 0, f"tsc --noEmit ({kind})", text)
 
 
-def try_pages(results, folder, modules):
+def try_pages(results, folder, modules, tools):
     chromium = shutil.which("chromium")
     if not chromium or not modules or not os.path.exists(os.path.join(modules, "playwright-core")):
         results.ok(True, "pages # SKIP chromium or playwright-core is not installed")
@@ -106,6 +107,15 @@ def try_pages(results, folder, modules):
     code, text = esbuild(modules, "page.js", "worker=lambent/worker", "--loader:.wasm=file", '--define:PAGE_WORKER="worker.js"', "--platform=browser", "--outdir=bundled", cwd=folder)
     results.ok(code == 0 and "warning" not in text.lower(), "esbuild bundles a page", text)
     (bundled / "index.html").write_text('<!doctype html><title></title><script type="module" src="page.js"></script>')
+    vite = tools and os.path.join(tools, "vite", "bin", "vite.js")
+    if vite and os.path.exists(vite):
+        script = (HERE / "npm_page.js").read_text()
+        (folder / "page.js").write_text(script.replace("bundled ? (await import('lambent/lambent.wasm')).default : ", "")) # the import is esbuild's
+        (folder / "index.html").write_text('<!doctype html><title></title><script type="module" src="page.js"></script>')
+        code, text = run("node", vite, "build", "--base=./", "--logLevel=warn", cwd=folder)
+        results.ok(code == 0 and "warning" not in text.lower(), "Vite bundles a page without settings", text)
+    else:
+        results.ok(True, "Vite # SKIP npm cannot get Vite")
     tap(results, *run("node", HERE / "npm_page.mjs", os.path.dirname(modules), chromium, folder))
 
 
@@ -122,7 +132,7 @@ def main():
     made, packed = package.make(OUT)
     results.ok(packed.stat().st_size <= package.SIZE_MAX, "npm pack: %d kB, at most %d" % (packed.stat().st_size // 1000, package.SIZE_MAX // 1000))
     notices = (made / "LICENCES").read_text()
-    results.ok(all("==== " + name in notices for name in package.SOURCES + package.TOOLS), "the notices of what the module contains")
+    results.ok(all("==== " + name in notices for name in build.SOURCES + build.TOOLS), "the notices of what the module contains")
     modules = build.packages(str(OUT))
     with tempfile.TemporaryDirectory(prefix="lambent-npm-") as name:
         folder = pathlib.Path(name)
@@ -131,8 +141,9 @@ def main():
         results.ok(code == 0, "npm install of the packed file", text)
         make_inputs(program, folder)
         try_node(results, folder, modules)
-        try_types(results, folder, build.packages(str(OUT / "npm-tools"), str(HERE / "npm-tools")))
-        try_pages(results, folder, modules)
+        tools = build.packages(str(OUT / "npm-tools"), str(HERE / "npm-tools"))
+        try_types(results, folder, tools)
+        try_pages(results, folder, modules, tools)
     print("1..%d" % results.count)
     return results.failed > 0
 

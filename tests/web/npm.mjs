@@ -83,6 +83,14 @@ async function tryErrors(lambent) {
   ok(hash(lambent.draw('/cube.stl', options, png)) === expected.cube, 'after errors it draws as before');
 }
 
+async function tryDecoders(lambent, label) {
+  for (const name of ['draco', 'meshopt']) {
+    lambent.files.set(`/${name}.gltf`, Buffer.from(expected.refused[`${name}.gltf`], 'base64'));
+    ok(hash(await lambent.draw(`/${name}.gltf`, { size: 96 }, png)) === expected[name], `${label}: ${name} draws the program's bytes`);
+  }
+  lambent.dispose();
+}
+
 function tryFiles() {
   const files = new Files();
   files.set('/model.stl', read('cube.stl'));
@@ -140,4 +148,6 @@ await refused(() => lambent.draw('/cube.stl'), 'LambentError', 'DISPOSED', 'disp
 ok(new LambentError('a', 'LIMIT') instanceof Error, 'LambentError is exported');
 tryFiles().dispose();
 await trySources();
+await tryDecoders(await open(undefined, { decoders: true }), 'open');
+await tryDecoders(await openWorker(wasm, { decoders: true }), 'openWorker');
 await tryWorker();

@@ -1,6 +1,6 @@
 // npm_page.mjs PLAYWRIGHT CHROMIUM FOLDER: tests pages with the npm package in a browser (tests/npm.py): FOLDER/plain/index.html uses it without a
-// bundler, FOLDER/bundled/index.html bundled by esbuild. Each page draws with open() and openWorker() and stores its results in document.title.
-import { readFileSync } from 'node:fs';
+// bundler, FOLDER/bundled/index.html bundled by esbuild, FOLDER/dist/index.html by Vite. Each page draws with open() and openWorker() and stores its results in document.title.
+import { existsSync, readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
 
@@ -19,7 +19,7 @@ const server = createServer((request, answer) => {
 });
 await new Promise((done) => server.listen(0, '127.0.0.1', done));
 const browser = await launch(playwright, chromium), expected = JSON.parse(readFileSync(join(folder, 'expected.json')));
-for (const kind of ['plain', 'bundled']) {
+for (const kind of ['plain', 'bundled', ...(existsSync(join(folder, 'dist')) ? ['dist'] : [])]) {
   const page = await browser.newPage(), reports = [];
   page.on('pageerror', (error) => reports.push(error.message));
   page.on('console', (message) => message.type() === 'error' && reports.push(message.text()));

@@ -4,10 +4,9 @@ import { LambentError } from './lambent.js';
 import { checkCall, wordsOf } from './words.js';
 
 async function startWorker() {
-  const url = new URL('./worker.js', import.meta.url);
-  if (typeof Worker === 'function') return new Worker(url, { type: 'module' });
+  if (typeof Worker === 'function') return new Worker(new URL('./worker.js', import.meta.url), { type: 'module' }); // as bundlers such as Vite look for it
   const name = 'node:worker_threads'; // not a literal, because bundlers for browsers would look for it
-  return new (await import(/* @vite-ignore */ /* webpackIgnore: true */ name)).Worker(url);
+  return new (await import(/* @vite-ignore */ /* webpackIgnore: true */ name)).Worker(new URL('./worker.js', import.meta.url));
 }
 
 // Recreates an error of the worker.
@@ -18,6 +17,7 @@ function errorOf({ kind, message, code }) {
 export class LambentWorker {
   files = new Files();
   #module;
+  #decoders;
   #make;
   #worker = null;
   #changes = new Map(); // path → bytes, null: deleted; changes that the worker has not received
@@ -25,8 +25,9 @@ export class LambentWorker {
   #disposed = false;
   #stop = null; // ends the running call
 
-  constructor(module, make = startWorker) {
+  constructor(module, make = startWorker, decoders = undefined) {
     this.#module = module;
+    this.#decoders = decoders;
     this.#make = make;
     this.files.onChange = (path, bytes) => this.#changes.set(path, bytes);
   }
@@ -45,7 +46,7 @@ export class LambentWorker {
 
   async #begin() {
     const worker = await this.#make();
-    worker.postMessage({ module: this.#module });
+    worker.postMessage({ module: this.#module, decoders: this.#decoders });
     return worker;
   }
 

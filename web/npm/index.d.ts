@@ -74,7 +74,7 @@ type Bytes = ReturnType<typeof Uint8Array.from>;
 
 /** Draws pictures and blocks while it draws. `model` is a path in `files` or the name of a built-in shape. `words` are the words of a command line. */
 export class Lambent {
-  constructor(module: WebAssembly.Module, files?: Files);
+  constructor(module: WebAssembly.Module, files?: Files, decoders?: WebAssembly.Module);
   readonly files: Files;
   draw(model: string, options?: DrawOptions, call?: CallOptions & { as?: 'pixels' }): Picture;
   draw(model: string, options: DrawOptions | undefined, call: CallOptions & { as: Format }): Bytes;
@@ -104,8 +104,15 @@ export class LambentWorker {
   dispose(): void;
 }
 
-/** Loads the module. `signal` aborts the download. */
-export function open(source?: Source | Promise<Source>, how?: { signal?: AbortSignal }): Promise<Lambent>;
+export interface OpenOptions {
+  /** Aborts the download. */
+  signal?: AbortSignal;
+  /** The module that decodes Draco and meshoptimizer: true for the file in the package, or its source. Without it, such files are refused. */
+  decoders?: boolean | Source | Promise<Source>;
+}
+
+/** Loads the module. */
+export function open(source?: Source | Promise<Source>, how?: OpenOptions): Promise<Lambent>;
 
 /** Loads the module in a worker. `worker` is a function that creates the worker from `lambent/worker`, for bundlers that do not find its file by its URL. */
-export function openWorker(source?: Source | Promise<Source>, how?: { signal?: AbortSignal; worker?: () => any }): Promise<LambentWorker>;
+export function openWorker(source?: Source | Promise<Source>, how?: OpenOptions & { worker?: () => any }): Promise<LambentWorker>;

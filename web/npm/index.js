@@ -5,10 +5,10 @@
 //   const png = lambent.draw('/bunny.stl', { size: 512, view: 'front' }, { as: 'png' });
 //
 // A Lambent blocks while it draws. openWorker() offers the same calls as promises, in a worker.
-import { Files, typeError } from './files.js';
-import { Lambent as Module, LambentError } from './lambent.js';
 import { LambentWorker } from './client.js';
-import { checkCall, plainSentence, wordsOf } from './words.js';
+import { Lambent } from './drawing.js';
+import { Files, typeError } from './files.js';
+import { LambentError } from './lambent.js';
 
 const isBytes = (value) => value instanceof ArrayBuffer || ArrayBuffer.isView(value);
 
@@ -24,10 +24,9 @@ async function compileResponse(response) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-// Compiles the module from a URL, a Response or bytes, or returns `source` if it is a compiled module. The default is the package's own file.
+// Compiles a module from a URL, a Response or bytes, or returns `source` if it is a compiled module.
 async function compile(source, signal) {
   source = await source;
-  if (source === undefined) source = new URL('./lambent.wasm', import.meta.url);
   if (source instanceof WebAssembly.Module) return source;
   if (isBytes(source)) return WebAssembly.compile(source);
   if (typeof Response === 'function' && source instanceof Response) return compileResponse(source);
@@ -36,89 +35,24 @@ async function compile(source, signal) {
   return url.protocol === 'file:' && !globalThis.document ? WebAssembly.compile(await readFile(url)) : compileResponse(await fetch(url, { signal }));
 }
 
-export class Lambent {
-  #compiled;
-  #module = null; // created on first use; an aborted drawing or a trap makes it unusable
-  #disposed = false;
-  #progress = null; // called with the progress of the running call
-
-  constructor(module, files = new Files()) {
-    if (!(module instanceof WebAssembly.Module)) throw typeError('Lambent', 'module', module, 'a WebAssembly.Module');
-    if (!(files instanceof Files)) throw typeError('Lambent', 'files', files, 'Files');
-    this.#compiled = module;
-    this.files = files;
-  }
-
-  #run(call, what) {
-    if (this.#disposed) throw new LambentError('this Lambent is disposed', 'DISPOSED');
-    call.signal?.throwIfAborted();
-    this.#module ??= new Module(this.#compiled, this.files, { progress: (share) => this.#progress?.(share) });
-    if (this.files.changed) this.#module.forget();
-    this.#progress = (share) => {
-      call.onProgress?.(share);
-      call.signal?.throwIfAborted();
-    };
-    try {
-      return what(this.#module);
-    } catch (error) {
-      if (error instanceof LambentError) throw new LambentError(plainSentence(error.message), error.code);
-      this.#module = null;
-      if (error instanceof WebAssembly.RuntimeError) throw new LambentError(`the module failed: ${error.message}`, 'FAILED');
-      throw error;
-    } finally {
-      this.#progress = null;
-      this.files.changed = false;
-    }
-  }
-
-  // Returns the picture: its pixels, or the bytes of a file with { as: 'png' } and similar.
-  draw(model, options = undefined, call = undefined) {
-    const words = wordsOf('draw', model, options);
-    const about = checkCall('draw', Array.isArray(model) ? (call ?? options) : call);
-    return this.#run(about, (module) => {
-      if (about.as !== 'pixels') return module.save(words, about.as);
-      const picture = module.draw(words);
-      picture.warnings = picture.warnings?.map(plainSentence);
-      return picture;
-    });
-  }
-
-  // Returns the explanation of one pixel, as `lambent explain --json` prints it.
-  explain(model, x, y, options = undefined) {
-    for (const [name, value] of [['x', x], ['y', y]]) if (!Number.isInteger(value)) throw typeError('explain', name, value, 'a whole number');
-    const words = wordsOf('explain', model, options);
-    return this.#run({}, (module) => module.explain(words, x, y));
-  }
-
-  // Returns the picture's lights, as `lambent lights` prints them.
-  lights(model, options = undefined) {
-    const words = wordsOf('lights', model, options);
-    return this.#run({}, (module) => module.lights(words));
-  }
-
-  // Returns the options of `draw` as the program's help describes them, the names of the shapes, and the version.
-  describe() {
-    return this.#run({}, (module) => module.options());
-  }
-
-  // Frees the memory. Later calls throw a LambentError with the code DISPOSED.
-  dispose() {
-    this.#disposed = true;
-    this.#module = this.#compiled = null;
-  }
-}
-if (Symbol.dispose) Lambent.prototype[Symbol.dispose] = Lambent.prototype.dispose;
-
-export async function open(source = undefined, { signal } = {}) {
+// The modules of a call to open: the default, and the value true for the decoders, are the package's own files.
+function compileAll(source = new URL('./lambent.wasm', import.meta.url), { signal, decoders } = {}) {
   signal?.throwIfAborted();
-  return new Lambent(await compile(source, signal));
+  const more = decoders === true ? new URL('./decoders.wasm', import.meta.url) : decoders;
+  return Promise.all([compile(source, signal), more && compile(more, signal)]);
+}
+
+export async function open(source = undefined, how = {}) {
+  const [module, decoders] = await compileAll(source, how);
+  return new Lambent(module, new Files(), decoders);
 }
 
 // `worker` is a function that creates the worker. It is for bundlers that do not find worker.js by its URL.
-export async function openWorker(source = undefined, { signal, worker } = {}) {
-  signal?.throwIfAborted();
+export async function openWorker(source = undefined, how = {}) {
+  const { worker } = how;
   if (worker !== undefined && typeof worker !== 'function') throw typeError('openWorker', 'worker', worker, 'a function');
-  return new LambentWorker(await compile(source, signal), worker);
+  const [module, decoders] = await compileAll(source, how);
+  return new LambentWorker(module, worker, decoders);
 }
 
-export { Files, LambentError, LambentWorker };
+export { Files, Lambent, LambentError, LambentWorker };

@@ -1,5 +1,5 @@
 // worker.js: the worker of a LambentWorker (client.js), in browsers and in node.
-import { Lambent } from './index.js';
+import { Lambent } from './drawing.js';
 
 let lambent = null;
 
@@ -13,7 +13,7 @@ function answer({ method, args, files, watch }, post) {
 
 function take(data, post) {
   if (data.module) {
-    lambent = new Lambent(data.module);
+    lambent = new Lambent(data.module, undefined, data.decoders);
     return;
   }
   try {

@@ -157,6 +157,15 @@ async function controls({ open, origin, said }) {
   await page.locator('#panel-quick').getByRole('button', { name: 'Whole model' }).click();
   await until(page, () => [...document.querySelectorAll('.swatch canvas')].every((one) => one.width > 8 && one.getContext('2d').getImageData(one.width / 2, one.height / 2, 1, 1).data[3] === 255));
   ok(true, 'each choice has its picture');
+  const stops = await page.evaluate(() => [...document.querySelectorAll('.swatches')].map((group) => group.querySelectorAll('.swatch[tabindex="0"]').length));
+  ok(stops.length > 1 && stops.every((count) => count === 1), 'the Tab key reaches one choice of each group', stops.join(' '));
+  const focused = () => page.evaluate(() => document.activeElement.title);
+  await page.getByRole('group', { name: 'Material' }).first().locator('.swatch[tabindex="0"]').focus();
+  const first = await focused();
+  await page.keyboard.press('ArrowRight');
+  const second = await focused();
+  await page.keyboard.press('ArrowLeft');
+  ok(second !== first && (await focused()) === first, 'the arrow keys move from choice to choice', `${first}, ${second}`);
   await page.context().close();
 }
 

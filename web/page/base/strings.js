@@ -67,6 +67,7 @@ const STRINGS = {
   stop: 'Stop',
   stopping: 'Stopping…',
   stopped: 'Drawing stopped. This is the previous picture.',
+  stoppedFirst: 'Drawing stopped. There is no picture of this model yet.',
   tooLong: 'This picture took long and was not finished when the page was closed. The page did not start it again.',
   drawAgain: 'Draw it',
   progress: 'Progress of the drawing',

@@ -26,10 +26,23 @@ export function swatches({ title, choices, chosen, take, named = false }) {
     const value = chosen();
     choices.forEach((choice, i) => buttons[i].setAttribute('aria-pressed', String(choice.value === value)));
     const one = choices.find((choice) => choice.value === value);
+    reach(buttons[choices.indexOf(one)] ?? buttons[0]);
     showName(one ?? { name: value ?? '' });
+  }
+  // The Tab key reaches one picture, and arrow keys the others.
+  function reach(button) {
+    for (const other of buttons) other.tabIndex = other === button ? 0 : -1;
+  }
+  function onkeydown(event) {
+    const at = buttons.indexOf(event.target), across = buttons.filter((one) => one.offsetTop === buttons[0].offsetTop).length;
+    const to = buttons[{ ArrowRight: at + 1, ArrowLeft: at - 1, ArrowDown: at + across, ArrowUp: at - across, Home: 0, End: buttons.length - 1 }[event.key]];
+    if (!to) return;
+    reach(to);
+    to.focus();
+    event.preventDefault();
   }
   on('words', show);
   show();
   return element('div', { className: 'swatches', attributes: { role: 'group', 'aria-label': title } },
-    element('p', {}, element('span', { textContent: title }), ' ', current), element('div', { className: named ? 'swatch-grid named' : 'swatch-grid' }, ...buttons));
+    element('p', {}, element('span', { textContent: title }), ' ', current), element('div', { className: named ? 'swatch-grid named' : 'swatch-grid', onkeydown }, ...buttons));
 }

@@ -124,7 +124,7 @@ async function work() {
       finished();
       if (task === sharp) sharp = null;
       if (running.isStopped) stopped(task.words);
-      if (!wanted && error instanceof Ended) refuse(text('stopped'), button('drawAgain', () => draw()));
+      if (!wanted && error instanceof Ended) refuseStopped();
       else if (!wanted) refused(error);
     }
     running.close();
@@ -132,6 +132,14 @@ async function work() {
     canvas.setAttribute('aria-busy', 'false');
   }
   rested();
+}
+
+// Before the first picture of a model there is no camera that keys could move, so they reach the button.
+function refuseStopped() {
+  const again = button('drawAgain', () => draw());
+  refuse(text(state.model === shown ? 'stopped' : 'stoppedFirst'), again);
+  $('view').classList.toggle('empty', state.model !== shown);
+  if (state.model !== shown) again.focus();
 }
 
 function rested() {

@@ -9,7 +9,7 @@ MAKEFLAGS += --no-print-directory
 # looks there. The compiler knows the folder too; it prints nothing where there is none.
 folders  = --prefix=$(prefix) $$(gcc -print-multiarch 2>/dev/null | sed 's:.:--libdir=lib/&:')
 
-.PHONY: all demo web npm python site test test-more test-long lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static windows release clean help
+.PHONY: all demo web npm python site test test-more test-long test-packages lint fuzz test-gl test-debian13 bench bench-check bench-check-record docs gallery install uninstall deb static windows release clean help
 
 all: $(build)/lambent
 
@@ -23,6 +23,7 @@ help:
 	@echo 'make test       builds with gcc, and with clang and sanitizers, and runs the tests of every change (docs/testing.md)'
 	@echo 'make test-more  what continuous integration runs besides: clang, threads, the page in a browser, larger shares of tables'
 	@echo 'make test-long  the rest: whole tables, all with sanitizers, kills, 20,000 pictures, other processors under qemu, a Slurm'
+	@echo 'make test-packages  builds every package twice, installs, uses and removes it, and prints a table (part of make test-long)'
 	@echo 'make test-gl    the tests of OpenGL alone; names the driver that they ran on'
 	@echo 'make test-debian13  make demo and make test on a fresh Debian 13 root, in build-debian13/ (needs root)'
 	@echo 'make fuzz       fuzzes every reader and the drawing, a minute each (time=1200 targets="obj ply")'
@@ -92,9 +93,14 @@ test-gl:
 
 test-long:
 	@scripts/setup.sh build test
-	@scripts/setup.sh long web windows browser || true # optional: what is missing is skipped
+	@scripts/setup.sh long package web windows browser cross python fresh || true # optional: what is missing is skipped
 	@command -v npm >/dev/null || scripts/setup.sh npm || true
 	@python3 tests/run.py long
+
+test-packages: $(build)/lambent
+	@scripts/setup.sh package web long windows browser cross python fresh || true # optional: what is missing is "not run"
+	@command -v npm >/dev/null || scripts/setup.sh npm || true
+	@python3 tests/long/table.py $(build)/lambent
 
 # Exceptions stand in tests/lint/cppcheck.txt and .clang-tidy, with their reasons.
 lint: $(build)/lambent
@@ -141,7 +147,8 @@ uninstall: $(build)/build.ninja
 	@test -n '$(DESTDIR)' || $(ldconfig)
 
 deb:
-	@scripts/setup.sh build package
+	@scripts/setup.sh build package web
+	@command -v npm >/dev/null || scripts/setup.sh npm
 	@packaging/deb.sh build-deb
 
 # make static machine=aarch64 compiles for another machine, in build-static-aarch64/.

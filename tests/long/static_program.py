@@ -14,6 +14,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/long"))
+import cells  # noqa: E402
+
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"
 PICTURES = ROOT / "tests" / "pictures"
@@ -92,18 +95,22 @@ def try_machine(machine, root):
     report(f"{machine}: the notices of its libraries are beside it", all("==== " + name in notices for name in ("libspng", "zlib1g-dev", "libfreetype-dev")))
     if machine != platform.machine() and not emulator:
         report(f"{machine}: drawn by qemu # SKIP qemu-user-static is not installed", True)
+        cells.skip("static, " + machine, "qemu-user-static is not installed")
         return
     for path in filter(None, [program, emulator]):
         shutil.copy(path, root)
     inside = "" if os.geteuid() == 0 else str(root)
     before = (["chroot", str(root)] if os.geteuid() == 0 else []) + ([f"{inside}/qemu-{machine}-static"] if emulator else []) + [inside + "/lambent"]
     code, text = run(*before, "--version", cwd=root)
-    report(f"{machine}: --version lists what it contains", code == 0 and "static, with FreeType" in text and "without OpenGL" in text, text)
+    report(f"{machine}: --version lists what it contains", code == 0 and "static, with DejaVu Sans" in text and "libfreetype-2" in text and "without OpenGL" in text, text)
     for i, (ending, words) in enumerate(DRAWN):
         code, text = run(*before, *words_of(words, f"picture{i}{ending}"), cwd=root)
         other, more = run(PROGRAM, *words_of(words, f"other{i}{ending}"), cwd=root, env={**os.environ, "LAMBENT_FONT": FONT})
         same = code == other == 0 and (root / f"picture{i}{ending}").read_bytes() == (root / f"other{i}{ending}").read_bytes()
         report("%s: %s to %s: the same bytes" % (machine, " ".join(words), ending), same, text + more)
+    row = "static, " + machine.replace("_", "-")
+    cells.tell(row, "installs", "yes" if os.geteuid() == 0 else "not run: an empty root needs the rights of root")
+    cells.draw_all(row, PROGRAM, root, lambda model, picture: run(*before, model, "-q", "-s", str(cells.SIZE), "-o", picture, cwd=root)[0], ["Draco"])
     for words in REFUSED:
         code, text = run(*before, *words, "-q", cwd=root)
         report("%s: %s: refused" % (machine, " ".join(words)), code == 3 and text.count("\n") == 1 and not (root / "x.png").exists(), "exit code %d: %s" % (code, text))
@@ -125,6 +132,7 @@ def main():
     for machine in MACHINES:
         if machine != platform.machine() and not shutil.which(machine + "-linux-gnu-g++"):
             report(f"{machine} # SKIP g++-{machine}-linux-gnu is not installed", True)
+            cells.skip("static, " + machine, f"g++-{machine}-linux-gnu is not installed")
             continue
         with tempfile.TemporaryDirectory(prefix="lambent-static-") as name:
             fill(pathlib.Path(name))

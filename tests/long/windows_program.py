@@ -14,6 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "packaging"), str(ROOT / "tests" / "long")]
 import static_program  # noqa: E402
 import windows  # noqa: E402
+import cells  # noqa: E402
 from static_program import PROGRAM, report, words_of  # noqa: E402
 
 FOLDER = ROOT / "build-windows"
@@ -117,6 +118,7 @@ def try_library(root):
 
 def main():
     if windows.missing() or not os.path.exists(WINE):
+        cells.skip("Windows", "mingw-w64 or Wine is not installed")
         report("Lambent for Windows # SKIP not installed: " + " ".join(windows.missing() or ["wine64"]), True)
         print("1..1")
         return 0
@@ -137,6 +139,8 @@ def main():
             try_names(root)
             try_hash_file(root)
             try_library(root)
+            cells.tell("Windows", "installs", "yes")
+            cells.draw_all("Windows", PROGRAM, root, lambda model, picture: lambent(root, model, "-q", "-s", str(cells.SIZE), "-o", picture)[0], ["Draco"])
             for words in REFUSED:
                 code, _, text = lambent(root, *words, "-q")
                 report("%s: refused" % " ".join(words), code == 3 and text.count("\n") == 1 and not (root / "x.png").exists(), "exit code %d: %s" % (code, text))

@@ -54,7 +54,7 @@ packages=$(dpkg-query -W -f '${Package} ' '*lambent*')
 dpkg-query -L $packages | sort -u >/tmp/files
 apt-get purge -y -q $packages >/tmp/apt.log 2>&1 || { cat /tmp/apt.log; exit 1; }
 left=$(while read -r path; do if [ -f "$path" ] || [ -L "$path" ]; then echo "$path"; fi; done </tmp/files | grep -v '^/lib' || true)
-if [ -n "$left" ] || find / -xdev -name '*lambent*' -not -path '/lambent*' -not -path '/debs*' -not -path '/shared*' -not -path '/proc/*' -not -path '/tmp/*' | grep .; then
+if [ -n "$left" ] || find / -xdev -name '*lambent*' -not -path '/lambent*' -not -path '/debs*' -not -path '/shared*' -not -path '/proc/*' -not -path '/tmp/*' -not -path '/var/cache/man/*' | grep .; then
     echo "left behind: $left" >&2
     exit 1
 fi

@@ -52,8 +52,8 @@ struct best_state {
 
 static bool open_libdeflate(struct libdeflate *d, lam_error *error)
 {
-    const char *fault = library_open_functions(&d->library, LIBRARY, false, LIBRARY_NAMES(FUNCTIONS),
-                                               "lacks functions of version 1.0");
+    const char *fault =
+        library_open_functions(&d->library, LIBRARY, false, LIBRARY_NAMES(FUNCTIONS), "lacks functions of version 1.0");
     return !fault ||
            fail(error, LAM_UNSUPPORTED, "PNG: the best compression needs " LIBRARY ", which %s; " NEEDED, fault);
 }

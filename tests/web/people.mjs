@@ -83,6 +83,25 @@ async function interrupted(address, label) {
   await page.context().close();
 }
 
+// Paths of light take long, so local lighting and a picture with few paths are shown before.
+async function paths() {
+  const page = await watchedPage(await browser.newContext({ viewport: { width: 1100, height: 800 } }), reports);
+  await page.addInitScript(() => {
+    const { prototype } = CanvasRenderingContext2D, put = prototype.putImageData;
+    globalThis.shownPictures = 0;
+    prototype.putImageData = function (...given) {
+      if (this.canvas.id === 'canvas') globalThis.shownPictures++;
+      return put.apply(this, given);
+    };
+  });
+  await page.goto(origin + fragment(['sphere', '--size=120x96', '--background=white', '--bounces=2', '--paths=24']));
+  await drawn(page, 'paths');
+  const count = await page.evaluate(() => globalThis.shownPictures);
+  ok(count === 3, 'paths of light: local lighting and few paths are shown before all paths', `${count} pictures`);
+  await said(page);
+  await page.context().close();
+}
+
 // --- files
 
 async function files() {
@@ -217,7 +236,7 @@ async function screens() {
   }
 }
 
-const parts = { firstPicture, stop: () => interrupted(origin, 'one thread'), stopThreads: () => interrupted(`${origin}isolated/`, 'threads'), files, compressed, links, screens,
+const parts = { firstPicture, stop: () => interrupted(origin, 'one thread'), stopThreads: () => interrupted(`${origin}isolated/`, 'threads'), paths, files, compressed, links, screens,
   ...newcomerParts({ open, origin, models, built, said }), ...feedbackParts({ open, origin, models, built }), ...sceneParts({ open, origin, models, said }) };
 const only = process.env.LAMBENT_BROWSER?.split(',');
 for (const [name, part] of Object.entries(parts)) {

@@ -22,7 +22,25 @@ export function quickWords(words) {
   const [, width, height = width] = /^(\d+)(?:x(\d+))?$/.exec(state.values('size').at(-1) ?? (view.size ? `${view.size.width}x${view.size.height}` : '1024')) ?? [], few = words.filter((word) => !word.startsWith('--samples'));
   const scale = pace.scale(width * height);
   const sized = scale < 1 ? [...few.filter((word) => !word.startsWith('--size')), `--size=${Math.round(width * scale)}x${Math.round(height * scale)}`] : few;
-  return [...sized, '--samples=1'];
+  return [...sized, '--samples=1', '--bounces=0'];
+}
+
+// Returns the words of the pictures that are shown one after the other. Paths of light take long: local lighting and few paths come before.
+function steps({ words, quick }) {
+  if (quick) return [quickWords(words)];
+  const bounces = words.findLast((word) => /^--bounces=[1-9]/.test(word)), others = words.filter((word) => !/^--(bounces|paths|noise|stop-after)=/.test(word));
+  return bounces ? [[...others, '--bounces=0'], [...others, bounces, '--paths=8'], words] : [words];
+}
+
+// Draws the steps of a task, and shows all of them but the last, which it returns. A newer task ends it.
+async function drawSteps(task) {
+  let picture = null;
+  for (const words of steps(task)) {
+    if (picture) show(picture, { ...task, quick: true });
+    if (wanted && !task.quick) throw new Ended();
+    picture = await call('draw', { words, endable: true });
+  }
+  return picture;
 }
 
 // A drawing in progress in the worker. `done` is the finished fraction. Reading the model is the first half.
@@ -114,7 +132,7 @@ async function work() {
     try {
       if (name !== model) forgetModel(name);
       canvas.setAttribute('aria-busy', String(name !== model));
-      const picture = await call('draw', { words: task.quick ? quickWords(task.words) : task.words, endable: true });
+      const picture = await drawSteps(task);
       if (!task.quick) finished();
       show(picture, task);
       measure(task, performance.now() - began - (name === model ? 0 : picture.read_ms));

@@ -262,7 +262,7 @@ class Gltf(GltfCase):
 
 
 class Compressed(Gltf):
-    """EXT_meshopt_compression: the data is encoded with the library itself, and draws the same picture as the plain file."""
+    """KHR_meshopt_compression and EXT_meshopt_compression: the data is encoded with the library itself, and draws the same picture as the plain file."""
 
     def encode(self, library, kind, data, count, stride):
         bound = getattr(library, f"meshopt_encode{kind}Bound")
@@ -279,7 +279,7 @@ class Compressed(Gltf):
         self.assertGreater(used, 0)
         return out.raw[:used]
 
-    def file(self, damage=None, **more):
+    def file(self, damage=None, name="EXT_meshopt_compression", plain=False, bits=0xff, **more):
         try:
             library = ctypes.CDLL("libmeshoptimizer.so.2d")
         except OSError:
@@ -289,18 +289,32 @@ class Compressed(Gltf):
         data = bytearray(vertices + bytes(-len(vertices) % 4) + indices)
         at = len(vertices) + (-len(vertices) % 4)
         if damage is not None:
-            data[damage] ^= 0xff
-        views = [{"buffer": 1, "byteLength": 48, "byteStride": 12, "extensions": {"EXT_meshopt_compression": {
+            data[damage] ^= bits
+        views = [{"buffer": 1, "byteLength": 48, "byteStride": 12, "extensions": {name: {
                       "buffer": 0, "byteLength": len(vertices), "byteStride": 12, "count": 4, "mode": "ATTRIBUTES", **more}}},
-                 {"buffer": 1, "byteOffset": 48, "byteLength": 12, "extensions": {"EXT_meshopt_compression": {
+                 {"buffer": 1, "byteOffset": 48, "byteLength": 12, "extensions": {name: {
                       "buffer": 0, "byteOffset": at, "byteLength": len(indices), "byteStride": 2, "count": 6, "mode": "TRIANGLES"}}}]
         buffers = [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(bytes(data)).decode()},
-                   {"byteLength": 60, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}]
-        return self.model("packed.gltf", bufferViews=views, buffers=buffers, extensionsUsed=["EXT_meshopt_compression"],
-                          extensionsRequired=["EXT_meshopt_compression"])
+                   {"byteLength": 60, "uri": "data:;base64," + base64.b64encode(CORNERS).decode()} if plain else {"byteLength": 60, "extensions": {name: {"fallback": True}}}]
+        return self.model("packed.gltf", bufferViews=views, buffers=buffers, extensionsUsed=[name],
+                          extensionsRequired=[] if plain else [name])
 
     def test_same_picture(self):
-        self.assertEqual(self.png(self.file(), "-s", "32"), self.png(self.model(), "-s", "32"))
+        wanted = self.png(self.model(), "-s", "32")
+        for name in ("EXT_meshopt_compression", "KHR_meshopt_compression"):
+            self.assertEqual(self.png(self.file(name=name), "-s", "32"), wanted)
+            self.assertEqual(self.png(self.file(name=name, plain=True), "-s", "32"), wanted)
+
+    def test_too_old(self):
+        """Version 1 of attributes, and the colour filter: the file's uncompressed data is read, or one sentence refuses the file."""
+        self.file()  # skips the test if there is no library
+        if hasattr(ctypes.CDLL("libmeshoptimizer.so.2d"), "meshopt_decodeFilterColor"):
+            self.skipTest("this libmeshoptimizer is new enough")
+        wanted = self.png(self.model(), "-s", "32")
+        for more in ({"damage": 0, "bits": 1}, {"filter": "COLOR", "byteStride": 8, "count": 6}):
+            self.bad(3, self.file(name="KHR_meshopt_compression", **more), "-o", "a.png",
+                     says="packed.gltf: is compressed by KHR_meshopt_compression, and the installed libmeshoptimizer is too old")
+            self.assertEqual(self.png(self.file(name="KHR_meshopt_compression", plain=True, **more), "-s", "32"), wanted)
 
     def test_wrong(self):
         self.bad(2, self.file(damage=0), "-o", "a.png", says="bufferViews[0].extensions.EXT_meshopt_compression: the compressed bytes are damaged")

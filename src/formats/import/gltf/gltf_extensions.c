@@ -35,6 +35,7 @@ static const struct {
     {"KHR_materials_variants", READ},
     {"KHR_materials_volume", READ},
     {"KHR_mesh_quantization", READ},
+    {"KHR_meshopt_compression", READ},
     {"KHR_node_visibility", READ},
     {"KHR_texture_basisu", SILENT},
     {"KHR_texture_transform", READ},

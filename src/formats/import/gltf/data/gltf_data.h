@@ -63,11 +63,11 @@ void gltf_buffer_keep(struct gltf *gltf, int buffer);
 // Moves kept buffers to the scene and releases the others. Returns false if memory runs out.
 bool gltf_buffers_end(struct gltf *gltf);
 
-// --- compressed bufferViews (EXT_meshopt_compression).
+// --- compressed bufferViews (KHR_meshopt_compression).
 
-// Decodes a compressed bufferView into memory of the scene. Sets *done to true if the bufferView was decoded. If
-// meshoptimizer is not installed, sets *done to false, and the caller must use the bufferView's uncompressed bytes. A
-// bufferView without such bytes is an error. Returns false on error.
+// Decodes a compressed bufferView into memory of the scene. Sets *done to true if the bufferView was decoded. If no
+// meshoptimizer that can do this is installed, sets *done to false, and the caller must use the bufferView's
+// uncompressed bytes. A bufferView without such bytes is an error. Returns false on error.
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done);
 

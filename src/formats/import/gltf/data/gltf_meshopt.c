@@ -1,6 +1,7 @@
-// gltf_meshopt.c: decodes bufferViews that are compressed with EXT_meshopt_compression. The meshoptimizer library does
-// the decoding and is loaded on demand.
-// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression
+// gltf_meshopt.c: decodes bufferViews that are compressed with KHR_meshopt_compression or its predecessor
+// EXT_meshopt_compression. The meshoptimizer library does the decoding and is loaded on demand. What its installed
+// version cannot decode is read from the uncompressed bytes if the file has them.
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_meshopt_compression
 #include "gltf_data.h"
 
 #include "gltf_json.h"
@@ -10,15 +11,16 @@
 #include "remedy.h"
 
 enum mode { ATTRIBUTES, TRIANGLES, INDICES };
-enum filter { NO_FILTER, OCTAHEDRAL, QUATERNION, EXPONENTIAL };
+enum filter { NO_FILTER, OCTAHEDRAL, QUATERNION, EXPONENTIAL, COLOR };
 
 static const struct json_choice modes[] = {
     {"ATTRIBUTES", ATTRIBUTES}, {"TRIANGLES", TRIANGLES}, {"INDICES", INDICES}, {NULL, 0}};
-static const struct json_choice filters[] = {{"NONE", NO_FILTER},
-                                             {"OCTAHEDRAL", OCTAHEDRAL},
-                                             {"QUATERNION", QUATERNION},
-                                             {"EXPONENTIAL", EXPONENTIAL},
-                                             {NULL, 0}};
+static const struct json_choice filters[] = {{"NONE", NO_FILTER},        {"OCTAHEDRAL", OCTAHEDRAL},
+                                             {"QUATERNION", QUATERNION}, {"EXPONENTIAL", EXPONENTIAL},
+                                             {"COLOR", COLOR},           {NULL, 0}};
+
+// Debian 12's version 0.18 has neither the colour filter nor version 1 of compressed attributes.
+#define TOO_OLD "the installed libmeshoptimizer is too old"
 
 typedef int decode_fn(void *out, size_t count, size_t size, const unsigned char *bytes, size_t byte_count);
 typedef void filter_fn(void *buffer, size_t count, size_t stride);
@@ -26,7 +28,7 @@ typedef void filter_fn(void *buffer, size_t count, size_t stride);
 static const char *const decoder_names[] = {"meshopt_decodeVertexBuffer", "meshopt_decodeIndexBuffer",
                                             "meshopt_decodeIndexSequence"};
 static const char *const filter_names[] = {NULL, "meshopt_decodeFilterOct", "meshopt_decodeFilterQuat",
-                                           "meshopt_decodeFilterExp"};
+                                           "meshopt_decodeFilterExp", "meshopt_decodeFilterColor"};
 
 // A compressed view, with the members of the extension.
 struct compressed {
@@ -34,10 +36,18 @@ struct compressed {
     size_t offset, length, stride, count;
 };
 
-// Returns whether a buffer is only a placeholder, because other buffers contain all of its views in compressed form.
-static bool gltf_meshopt_is_fallback(const json_t *buffer)
+// Returns an object's extension by either name, or NULL.
+static const json_t *extension_of(const json_t *object, const char **name)
 {
-    return json_is_true(json_object_get(gltf_extension(buffer, "EXT_meshopt_compression"), "fallback"));
+    const json_t *found = gltf_extension(object, *name = "KHR_meshopt_compression");
+    return found ? found : gltf_extension(object, *name = "EXT_meshopt_compression");
+}
+
+// Returns whether a buffer is only a placeholder, because other buffers contain all of its views in compressed form.
+static bool is_fallback(const json_t *buffer)
+{
+    const char *name;
+    return json_is_true(json_object_get(extension_of(buffer, &name), "fallback"));
 }
 
 static bool check(struct gltf *gltf, const struct place *place, const struct compressed *c)
@@ -56,9 +66,9 @@ static bool check(struct gltf *gltf, const struct place *place, const struct com
     if (c->mode == TRIANGLES && c->count % 3 != 0)
         return json_fail(&gltf->json, KEY_OF(place, "count"), "found %zu, expected a multiple of 3 for triangles",
                          c->count);
-    bool fits = c->filter == NO_FILTER || (c->mode == ATTRIBUTES && (c->filter == OCTAHEDRAL   ? c->stride <= 8
-                                                                     : c->filter == QUATERNION ? c->stride == 8
-                                                                                               : true));
+    bool fits = c->filter == NO_FILTER || (c->mode == ATTRIBUTES && (c->filter == QUATERNION    ? c->stride == 8
+                                                                     : c->filter == EXPONENTIAL ? true
+                                                                                                : c->stride <= 8));
     return fits || json_fail(&gltf->json, KEY_OF(place, "filter"), "the filter %s does not support %s of %zu bytes",
                              filters[c->filter].name, modes[c->mode].name, c->stride);
 }
@@ -79,30 +89,33 @@ static bool take(struct gltf *gltf, const struct place *place, const json_t *obj
     return check(gltf, place, c);
 }
 
-// Loads the library and finds the functions for a view; gltf->meshopt stays NULL if the library is not installed.
-static bool find_functions(struct gltf *gltf, const struct compressed *c, decode_fn **decode, filter_fn **filter)
+// Loads the library and finds the functions for a view. Returns what is missing, or NULL.
+static const char *find_functions(struct gltf *gltf, const struct compressed *c, decode_fn **decode, filter_fn **filter)
 {
     static const char *const names[] = {"libmeshoptimizer.so.2d", "libmeshoptimizer.so.2", "libmeshoptimizer.so"};
     for (size_t i = 0; i < sizeof names / sizeof *names && !gltf->meshopt; i++)
         gltf->meshopt = library_open(names[i], false, NULL);
     if (!gltf->meshopt)
-        return true;
-    return (library_find(gltf->meshopt, decoder_names[c->mode], (void *)decode) &&
-            (!c->filter || library_find(gltf->meshopt, filter_names[c->filter], (void *)filter))) ||
-           fail(gltf->json.error, LAM_UNSUPPORTED, "%s: the installed meshoptimizer lacks %s", gltf->source->name,
-                decoder_names[c->mode]);
+        return "libmeshoptimizer is not installed (Debian's package libmeshoptimizer2d)";
+    bool found = library_find(gltf->meshopt, decoder_names[c->mode], (void *)decode) &&
+                 (!c->filter || library_find(gltf->meshopt, filter_names[c->filter], (void *)filter));
+    return found ? NULL : TOO_OLD;
 }
 
 static bool decode(struct gltf *gltf, const struct place *place, const struct compressed *c, decode_fn *decode_bytes,
-                   filter_fn *filter, struct gltf_view *out)
+                   filter_fn *filter, const char **missing, struct gltf_view *out)
 {
+    enum { REFUSES_VERSION = -1, VERSION_1 = 0xa1 }; // a result of the library; the first byte of the compressed data
     const uint8_t *bytes;
     if (!gltf_buffer_bytes(gltf, place, c->buffer, c->offset, c->length, &bytes))
         return false;
     uint8_t *plain = arena_array(&gltf->scene->arena, c->count, c->stride);
     if (!plain)
         return gltf_no_memory(gltf, c->count * c->stride);
-    if (decode_bytes(plain, c->count, c->stride, bytes, c->length) != 0)
+    int failed = decode_bytes(plain, c->count, c->stride, bytes, c->length);
+    if (failed == REFUSES_VERSION && c->mode == ATTRIBUTES && *bytes == VERSION_1)
+        return *missing = TOO_OLD, true;
+    if (failed)
         return json_fail(&gltf->json, place, "the compressed bytes are damaged");
     if (filter)
         filter(plain, c->count, c->stride);
@@ -113,8 +126,9 @@ static bool decode(struct gltf *gltf, const struct place *place, const struct co
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done)
 {
-    const json_t *object = gltf_extension(view, "EXT_meshopt_compression");
-    const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "EXT_meshopt_compression");
+    const char *name, *missing;
+    const json_t *object = extension_of(view, &name);
+    const struct place *here = KEY_OF(KEY_OF(place, "extensions"), name);
     struct compressed c;
     decode_fn *decode_bytes = NULL;
     filter_fn *filter = NULL;
@@ -129,18 +143,18 @@ bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const jso
     if (length != c.count * c.stride)
         return json_fail(&gltf->json, KEY_OF(place, "byteLength"), "found %zu, but %zu elements of %zu bytes are %zu",
                          length, c.count, c.stride, c.count * c.stride);
-    if (!find_functions(gltf, &c, &decode_bytes, &filter))
+    missing = find_functions(gltf, &c, &decode_bytes, &filter);
+    if (!missing && !decode(gltf, here, &c, decode_bytes, filter, &missing, out))
         return false;
-    if (!gltf->meshopt) {
+    if (missing) {
         const json_t *buffer = plain >= 0 ? gltf_list_item(gltf, "buffers", plain) : NULL;
-        bool has_plain = buffer && (json_object_get(buffer, "uri") || !gltf_meshopt_is_fallback(buffer));
+        bool has_plain = buffer && (json_object_get(buffer, "uri") || !is_fallback(buffer));
         return has_plain || fail(gltf->json.error, LAM_UNSUPPORTED,
-                                 "%s: is compressed by EXT_meshopt_compression" REMEDY(
-                                     ", and libmeshoptimizer is not installed (Debian's package libmeshoptimizer2d)",
-                                     ", which this page cannot read; use the program lambent"),
-                                 gltf->source->name);
+                                 "%s: is compressed by %s, " REMEDY(
+                                     "and %s", "which this page cannot read (%s); use the program lambent"),
+                                 gltf->source->name, name, missing);
     }
-    *done = decode(gltf, here, &c, decode_bytes, filter, out);
-    out->stride = *done && c.mode == ATTRIBUTES ? c.stride : 0;
-    return *done;
+    *done = true;
+    out->stride = c.mode == ATTRIBUTES ? c.stride : 0;
+    return true;
 }

@@ -237,7 +237,7 @@ class Models(Case):
         """A picture of another format is named as what it is."""
         inside = "data:;base64," + base64.b64encode(struct.pack("<9f3H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2)).decode()
         model = self.write("t.gltf", triangle({"byteLength": 42, "uri": inside}, "p.png"))
-        for data, name in ((b"II*\0", "a TIFF"), (b"MM\0*", "a TIFF"), (b"\xabKTX 20\xbb\r\n\x1a\n", "a KTX 2"), (b"\0\0\0\x1cftypavif", "an AVIF"),
+        for data, name in ((b"II*\0", "a TIFF"), (b"MM\0*", "a TIFF"), (b"\xabKTX 20\xbb\r\n\x1a\n", "a KTX 2"),
                            (b"\0\0\0\x18ftypheic", "a HEIC"), (b"\xff\x0a", "a JPEG XL"), (b"\0\0\0\x0cJXL \r\n\x87\n", "a JPEG XL"), (b"DDS ", "a DDS"),
                            (b"8BPS", "a Photoshop"), (b"GIF89a", "a GIF")):
             self.write("p.png", data + bytes(60))
@@ -284,7 +284,7 @@ class Outputs(Case):
     def test_unknown_ending(self):
         for name in ("x.giff", "x.png.zip", ".png/x.bmp"):
             self.bad(3, "cube.obj", "-o", name, says=name)
-        self.bad(3, "cube.obj", "-o", "x.step", says="lambent cannot write .step; use .png")
+        self.bad(3, "cube.obj", "-o", "x.step", says="x.step: lambent cannot write this format of models; write .glb")
         self.bad(3, "cube.obj", "-o", "x.apng", says="use .png, which contains all frames of an animation (APNG)")
         self.bad(3, "cube.obj", "-o", "part-v1.0", says="the extension .0 is not a picture format; expected .png")
 

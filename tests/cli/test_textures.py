@@ -268,23 +268,26 @@ class Textures(Case):
         done = self.good(self.gltf(images=[{"uri": "data:;base64,AAAA"}]), *LOOK)
         self.assertIn(b"images[0]: byte 0: not the start of", done.stderr)
 
-    def test_gltf_webp(self):
-        """The picture of EXT_texture_webp is drawn, not the fallback, if WebP can be read; escaped base64 is read as the same bytes."""
+    def test_gltf_extensions(self):
+        """The picture of EXT_texture_webp and EXT_texture_avif is drawn, not the fallback, if it can be read; escaped base64 is read as the same bytes."""
         red = write_png(8, 8, bytes(RED) * 64)
-        webp = (ROOT / "tests/pictures/webp/lossless.webp").read_bytes()
-        uris = ["data:image/png;base64," + base64.b64encode(red).decode(), "data:image/webp;base64," + base64.b64encode(webp).decode()]
-        images = [{"uri": uri} for uri in uris]
-        alone = self.gltf(images=images, texture={"source": 1})
-        done = self.good(alone, *LOOK)
-        if b"libwebp" in done.stderr:
-            self.skipTest("libwebp is not installed")
-        want = self.drawn(alone)
-        both = {"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}}
-        self.assertEqual(self.drawn(self.gltf(images=images, texture=both)), want)
-        self.assertNotEqual(want, [RED[:3]] * 4)
-        escaped = [{"uri": uri.replace("+", "%2B").replace("/", "%2f").replace("=", "%3D").replace("image%2f", "image/")} for uri in uris]
-        self.assertIn("%2", escaped[1]["uri"])
-        self.assertEqual(self.drawn(self.gltf(images=escaped, texture=both)), want)
+        for kind in ("webp", "avif"):
+            picture = (ROOT / f"tests/pictures/{kind}/lossless.{kind}").read_bytes()
+            uris = ["data:image/png;base64," + base64.b64encode(red).decode(), f"data:image/{kind};base64," + base64.b64encode(picture).decode()]
+            images = [{"uri": uri} for uri in uris]
+            alone = self.gltf(images=images, texture={"source": 1})
+            done = self.good(alone, *LOOK)
+            both = {"source": 0, "extensions": {f"EXT_texture_{kind}": {"source": 1}}}
+            if b"install the Debian package" in done.stderr:
+                self.assertEqual(self.drawn(self.gltf(images=images, texture=both)), [RED[:3]] * 4)
+                continue
+            want = self.drawn(alone)
+            self.assertEqual(self.drawn(self.gltf(images=images, texture=both)), want)
+            self.assertEqual(self.drawn(self.gltf(images=images, texture={"extensions": both["extensions"]})), want)
+            self.assertNotEqual(want, [RED[:3]] * 4)
+            escaped = [{"uri": uri.replace("+", "%2B").replace("/", "%2f").replace("=", "%3D").replace("image%2f", "image/")} for uri in uris]
+            self.assertIn("%2", escaped[1]["uri"])
+            self.assertEqual(self.drawn(self.gltf(images=escaped, texture=both)), want)
 
     def test_filters(self):
         """The filters of `--map-filter`, the probes of `--anisotropy`, and the footprint that `explain` prints, which a

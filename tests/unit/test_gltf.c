@@ -949,10 +949,10 @@ TEST(test_tolerated)
              "{\"emissiveTexture\": {\"index\": 0}}, {\"emissiveTexture\": {\"index\": 1}}], \"textures\": [{}, {}"),
          ": textures[0]: source is missing; drawn without this texture (and 1 more of this kind)"},
         {"\"mesh\": 0",
-         MATERIAL("{\"emissiveTexture\": {\"index\": 0}}], \"textures\": [{\"extensions\": {\"EXT_texture_avif\": "
+         MATERIAL("{\"emissiveTexture\": {\"index\": 0}}], \"textures\": [{\"extensions\": {\"KHR_texture_basisu\": "
                   "{\"source\": 0}}}], \"images\": [{}"),
-         ": textures[0]: its only picture is AVIF (EXT_texture_avif), which this version cannot decode; drawn without "
-         "it"},
+         ": textures[0]: its only picture is KTX 2 (KHR_texture_basisu), which this version cannot decode; drawn "
+         "without it"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct document document;

@@ -53,7 +53,7 @@ enum { CODEC_HEAD = 512 };
 
 // The formats, in the order in which Lambent probes files and lists formats. Formats without a signature are last.
 // tests/fuzz/meson.build also reads these names.
-#define CODECS(X) X(png) X(ppm) X(pfm) X(exr) X(jpeg) X(webp) X(hdr) X(bmp) X(tga)
+#define CODECS(X) X(png) X(ppm) X(pfm) X(exr) X(jpeg) X(webp) X(avif) X(hdr) X(bmp) X(tga)
 
 #define CODEC(name) extern const struct codec codec_##name;
 CODECS(CODEC)
@@ -86,6 +86,11 @@ bool picture_make(const struct picture_file *file, uint32_t width, uint32_t heig
 bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32_t height, lam_pixel_format format,
                          size_t more, lam_image *image, lam_error *error);
 
+// For libraries that decode a picture in one step, which cannot be stopped, and may crash if memory runs out: checks that
+// the picture is not too large for its file, and that `own` bytes can be allocated. Charges them to the call; the caller
+// refunds them after decoding. Fails with LAM_LIMIT.
+bool picture_step_check(const struct picture_file *file, uint32_t width, uint32_t height, size_t own, lam_error *error);
+
 // Frees a picture; the picture's bytes no longer count towards the memory limit of `call`. `call` may be NULL; an empty
 // picture is allowed.
 void picture_free(struct call_control *call, lam_image *image);
@@ -110,6 +115,9 @@ bool picture_linearize(const struct picture_file *file, lam_image *image, bool w
 
 // The comment that Lambent writes to its JPEG files.
 #define JPEG_REMARK "lambent"
+
+// Returns whether this machine can read AVIF pictures.
+bool avif_is_installed(void);
 
 // The functions that write JPEG and PNG. Other files define codec_jpeg and codec_png.
 bool jpeg_write(const lam_image *image, const lam_save_params *params, struct pool *pool, lam_bytes *out,

@@ -3,6 +3,8 @@
 #include "fail.h"
 #include "pixels.h"
 
+#include <stdlib.h>
+
 static size_t bytes_of(const lam_image *image)
 {
     return image->pixels ? (size_t)image->width * (size_t)image->height * pixel_bytes(image->format) : 0;
@@ -43,6 +45,25 @@ bool picture_make_larger(const struct picture_file *file, uint32_t width, uint32
     if (file->call)
         call_refund(file->call, bytes);
     return false;
+}
+
+bool picture_step_check(const struct picture_file *file, uint32_t width, uint32_t height, size_t own, lam_error *error)
+{
+    // Accepted even in the smallest file, because 4096×4096 pixels of one colour need only a few bytes.
+    enum { PLAIN_PIXELS = 1 << 24, TABLES = 4 << 20 };
+    uint64_t pixels = (uint64_t)width * height, more = call_expansion_limit(file->call);
+    uint64_t most = PLAIN_PIXELS + (more < UINT32_MAX ? file->size * more : UINT32_MAX);
+    if (pixels > most)
+        return fail(error, LAM_LIMIT,
+                    "%s: %u×%u pixels, expected at most %llu for a file of %zu bytes (lam_control.expansion_limit)",
+                    file->name, width, height, (unsigned long long)most, file->size);
+    if (file->call && !call_charge(file->call, own))
+        return call_memory_error(file->call, own, error);
+    void *volatile memory = malloc(own + TABLES); // volatile, so that the unused memory is really allocated
+    free(memory);
+    if (!memory && file->call)
+        call_refund(file->call, own);
+    return memory || fail_memory(error, own + TABLES);
 }
 
 void picture_free(struct call_control *call, lam_image *image)

@@ -41,6 +41,7 @@ static const struct kind {
     {{"a PNG picture", NULL}, 0, 8, "\x89PNG\r\n\x1a\n", NULL},
     {{"a JPEG picture", NULL}, 0, 3, "\xff\xd8\xff", NULL},
     {{"a WebP picture", NULL}, 8, 4, "WEBP", NULL},
+    {{"an AVIF picture", NULL}, 4, 7, "ftypavi", NULL},
 #define ROW(offset, length, magic, name) {{name, NULL}, offset, length, magic, NULL}
     UNREAD_PICTURES(ROW),
 #undef ROW

@@ -16,8 +16,6 @@ enum {
     RIFF_HEADER = 12,
     CHUNK_BYTES = 1 << 14, // bytes per step; fewer if these bytes contain more than CHUNK_PIXELS pixels on average
     CHUNK_PIXELS = 1 << 22,
-    PLAIN_PIXELS = 1 << 24, // pixels that are accepted even in the smallest file, because 4096×4096 pixels of one
-                            // colour need only a few bytes
 };
 
 static bool webp_probe(const uint8_t *bytes, size_t size)
@@ -86,18 +84,6 @@ static bool decode(const struct webp_library *webp, const struct picture_file *f
     return runs && (status == VP8_STATUS_OK || fail_status(file, status, error));
 }
 
-// libwebp 1.2 may dereference a null pointer if an allocation fails. Therefore the largest amount of memory that
-// libwebp may need, including tables, is first allocated and freed.
-static bool has_memory(size_t own, lam_error *error)
-{
-    const size_t bytes = own + (4 << 20);
-    void *volatile memory = malloc(bytes); // volatile, so that the unused memory is really allocated
-    if (!memory)
-        return fail_memory(error, bytes);
-    free(memory);
-    return true;
-}
-
 static bool read_with(const struct webp_library *webp, const struct picture_file *file, lam_image *image,
                       lam_error *error)
 {
@@ -111,24 +97,18 @@ static bool read_with(const struct webp_library *webp, const struct picture_file
     if (end > file->size)
         return fail(error, LAM_CANNOT_READ, "%s: ends at byte %zu, but its WebP header says byte %llu", file->name,
                     file->size, (unsigned long long)end);
-    // Pixels that need no bytes in the file are decoded in one step, which cannot be stopped.
-    uint64_t pixels = (uint64_t)features.width * (uint64_t)features.height;
-    uint64_t more = call_expansion_limit(file->call);
-    uint64_t most = PLAIN_PIXELS + (more < UINT32_MAX ? file->size * more : UINT32_MAX);
-    if (pixels > most)
-        return fail(
-            error, LAM_LIMIT,
-            "%s: %d×%d pixels, expected at most %llu for a WebP file of %zu bytes (lam_control.expansion_limit)",
-            file->name, features.width, features.height, (unsigned long long)most, file->size);
+    // libwebp decodes all pixels of a lossless picture, or the alpha of a lossy picture, in one step, with memory for
+    // these pixels. Version 1.2 may dereference a null pointer if an allocation fails.
+    enum { LOSSLESS = 2 };
+    size_t own = (size_t)features.width * (size_t)features.height *
+                 (features.format == LOSSLESS ? 4
+                  : features.has_alpha        ? 2
+                                              : 0);
     if (!picture_make(file, (uint32_t)features.width, (uint32_t)features.height, LAM_RGBA8, image, error))
         return false;
-    // libwebp decodes all pixels of a lossless picture, or the alpha of a lossy picture, in one step. `own` is the
-    // memory that libwebp needs for these pixels.
-    enum { LOSSLESS = 2 };
-    size_t own = (size_t)pixels * (features.format == LOSSLESS ? 4 : features.has_alpha ? 2 : 0);
-    bool ok = !file->call || call_charge(file->call, own) || call_memory_error(file->call, own, error);
+    bool ok = picture_step_check(file, (uint32_t)features.width, (uint32_t)features.height, own, error);
     if (ok) {
-        ok = has_memory(own, error) && decode(webp, file, image, error);
+        ok = decode(webp, file, image, error);
         if (file->call)
             call_refund(file->call, own);
     }

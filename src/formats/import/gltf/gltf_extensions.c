@@ -18,7 +18,8 @@ static const struct {
 } known[] = {
     {"EXT_mesh_gpu_instancing", READ},
     {"EXT_meshopt_compression", READ},
-    {"EXT_texture_avif", SILENT}, // a texture without a picture in another format is omitted with a warning
+    {"EXT_texture_avif",
+     READ}, // without libavif, a texture without a picture in another format is omitted with a warning
     {"EXT_texture_webp", READ},
     {"KHR_draco_mesh_compression", READ},
     {"KHR_lights_punctual", READ},

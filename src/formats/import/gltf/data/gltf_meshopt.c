@@ -1,6 +1,6 @@
 // gltf_meshopt.c: decodes bufferViews that are compressed with KHR_meshopt_compression or its predecessor
-// EXT_meshopt_compression. The meshoptimizer library does the decoding and is loaded on demand. What its installed
-// version cannot decode is read from the uncompressed bytes if the file has them.
+// EXT_meshopt_compression. The meshoptimizer library does the decoding and is loaded on demand. If its installed version
+// is too old for a bufferView, Lambent reads the uncompressed bytes if the file has them.
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_meshopt_compression
 #include "gltf_data.h"
 
@@ -89,7 +89,7 @@ static bool take(struct gltf *gltf, const struct place *place, const json_t *obj
     return check(gltf, place, c);
 }
 
-// Loads the library and finds the functions for a view. Returns what is missing, or NULL.
+// Loads the library and finds the functions for a view. Returns the reason if that fails, otherwise NULL.
 static const char *find_functions(struct gltf *gltf, const struct compressed *c, decode_fn **decode, filter_fn **filter)
 {
     static const char *const names[] = {"libmeshoptimizer.so.2d", "libmeshoptimizer.so.2", "libmeshoptimizer.so"};

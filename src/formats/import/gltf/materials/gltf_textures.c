@@ -5,6 +5,7 @@
 #include "gltf_data.h"
 #include "gltf_json.h"
 
+#include "codec.h"
 #include "fail.h"
 #include "linear.h"
 #include "shown_name.h"
@@ -90,15 +91,19 @@ static void take_sampler(struct gltf *gltf, int index, lam_texture_map *map)
 
 // --- pictures
 
-// Returns the image of a texture. If WebP can be decoded, or if there is no fallback image, this is the image of
-// EXT_texture_webp; otherwise, it is the fallback image. Returns −1 if there is none.
+// Returns the image of a texture. If AVIF or WebP can be decoded, this is the image of EXT_texture_avif or
+// EXT_texture_webp; otherwise, it is the fallback image, or without one the WebP image. Returns −1 if there is none.
 static int image_of(struct gltf *gltf, int texture)
 {
     const struct place *place = ELEMENT_OF(KEY_OF(NULL, "textures"), (size_t)texture);
     const json_t *object = gltf_list_item(gltf, "textures", texture);
     int image = gltf_take_link(gltf, place, object, "source", "images");
+    int avif_image = gltf_take_link(gltf, KEY_OF(KEY_OF(place, "extensions"), "EXT_texture_avif"),
+                                    gltf_extension(object, "EXT_texture_avif"), "source", "images");
     int webp_image = gltf_take_link(gltf, KEY_OF(KEY_OF(place, "extensions"), "EXT_texture_webp"),
                                     gltf_extension(object, "EXT_texture_webp"), "source", "images");
+    if (avif_image >= 0 && avif_is_installed())
+        return avif_image;
     if (webp_image >= 0 && (image < 0 || webp_is_installed()))
         return webp_image;
     const char *format = gltf_extension(object, "KHR_texture_basisu") ? "KTX 2 (KHR_texture_basisu)"

@@ -279,17 +279,17 @@ class Compressed(Gltf):
         self.assertGreater(used, 0)
         return out.raw[:used]
 
-    def file(self, damage=None, name="EXT_meshopt_compression", plain=False, bits=0xff, **more):
+    def file(self, damage=None, name="EXT_meshopt_compression", plain=False, packed=None, **more):
         try:
             library = ctypes.CDLL("libmeshoptimizer.so.2d")
         except OSError:
             self.skipTest("libmeshoptimizer is not installed")
-        vertices = self.encode(library, "VertexBuffer", CORNERS[:48], 4, 12)
+        vertices = packed or self.encode(library, "VertexBuffer", CORNERS[:48], 4, 12)
         indices = self.encode(library, "IndexBuffer", CORNERS[48:], 6, 2)
         data = bytearray(vertices + bytes(-len(vertices) % 4) + indices)
         at = len(vertices) + (-len(vertices) % 4)
         if damage is not None:
-            data[damage] ^= bits
+            data[damage] ^= 0xff
         views = [{"buffer": 1, "byteLength": 48, "byteStride": 12, "extensions": {name: {
                       "buffer": 0, "byteLength": len(vertices), "byteStride": 12, "count": 4, "mode": "ATTRIBUTES", **more}}},
                  {"buffer": 1, "byteOffset": 48, "byteLength": 12, "extensions": {name: {
@@ -305,16 +305,31 @@ class Compressed(Gltf):
             self.assertEqual(self.png(self.file(name=name), "-s", "32"), wanted)
             self.assertEqual(self.png(self.file(name=name, plain=True), "-s", "32"), wanted)
 
-    def test_too_old(self):
-        """Version 1 of attributes, and the colour filter: the file's uncompressed data is read, or one sentence refuses the file."""
-        self.file()  # skips the test if there is no library
-        if hasattr(ctypes.CDLL("libmeshoptimizer.so.2d"), "meshopt_decodeFilterColor"):
-            self.skipTest("this libmeshoptimizer is new enough")
+    def test_version_1(self):
+        """Version 1 of attributes, by the encoder of meshoptimizer 1.3 (npm), also if libmeshoptimizer cannot decode it."""
+        packed = bytes.fromhex("a1eaeaaa00ff00ff0000ff00000000000000000000000080bf000080bf00000000000000")
         wanted = self.png(self.model(), "-s", "32")
-        for more in ({"damage": 0, "bits": 1}, {"filter": "COLOR", "byteStride": 8, "count": 6}):
-            self.bad(3, self.file(name="KHR_meshopt_compression", **more), "-o", "a.png",
-                     says="packed.gltf: is compressed by KHR_meshopt_compression, and the installed libmeshoptimizer is too old")
-            self.assertEqual(self.png(self.file(name="KHR_meshopt_compression", plain=True, **more), "-s", "32"), wanted)
+        self.assertEqual(self.png(self.file(packed=packed), "-s", "32"), wanted)
+        # The filter COLOR, with the numbers of meshoptimizer's decoder: red, green, blue and white corners.
+        for stride, component, packed_colors, colors in (
+                (4, 5121, "a1bf007e02fe00fdfdfe0083fd0000000000000000000000000000000000000000407fc1ff00", "fe0100ff00fe00ff0180ffffffffffff"),
+                (8, 5123, "a1ffaf000102010006020e00020201000d0f100003020000160d0000000000000000000000000000000004ff0701fcff0f0000", "efff10000000ffff0000efff0000ffff10000880ffffffffffffffffffffffff")):
+            meshes = [{"primitives": [{"attributes": {"POSITION": 0, "COLOR_0": 2}, "indices": 1}]}]
+            accessors = [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}, {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                         {"bufferView": 2, "componentType": component, "normalized": True, "count": 4, "type": "VEC4"}]
+            pictures = []
+            for data in (CORNERS + bytes.fromhex(colors), CORNERS + bytes.fromhex(packed_colors)):
+                length = len(data) - len(CORNERS)
+                views = [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}, {"buffer": 0, "byteOffset": 60, "byteLength": 4 * stride}]
+                if length != 4 * stride:
+                    views[2] = {"buffer": 1, "byteLength": 4 * stride, "extensions": {"KHR_meshopt_compression": {
+                        "buffer": 0, "byteOffset": 60, "byteLength": length, "byteStride": stride, "count": 4, "mode": "ATTRIBUTES", "filter": "COLOR"}}}
+                buffers = [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}, {"byteLength": 4 * stride}]
+                pictures.append(self.png(self.model(nodes=[{"mesh": 0}], scenes=[{"nodes": [0]}], meshes=meshes, accessors=accessors, bufferViews=views, buffers=buffers), "-s", "32"))
+            self.assertEqual(*pictures)
+            self.assertNotEqual(pictures[0], wanted)
+        for size in range(1, len(packed)):
+            self.bad(2, self.file(packed=packed[:size]), "-o", "a.png", says="the compressed bytes are damaged")
 
     def test_wrong(self):
         self.bad(2, self.file(damage=0), "-o", "a.png", says="bufferViews[0].extensions.EXT_meshopt_compression: the compressed bytes are damaged")

@@ -65,8 +65,8 @@ bool gltf_buffers_end(struct gltf *gltf);
 
 // --- compressed bufferViews (KHR_meshopt_compression).
 
-// Decodes a compressed bufferView into memory of the scene. Sets *done to true if the bufferView was decoded. If no
-// meshoptimizer that can do this is installed, sets *done to false, and the caller must use the bufferView's
+// Decodes a compressed bufferView into memory of the scene. Sets *done to true if the bufferView was decoded. If
+// meshoptimizer is needed and not installed, sets *done to false, and the caller must use the bufferView's
 // uncompressed bytes. A bufferView without such bytes is an error. Returns false on error.
 bool gltf_meshopt_decode(struct gltf *gltf, const struct place *place, const json_t *view, struct gltf_view *out,
                          bool *done);

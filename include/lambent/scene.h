@@ -140,7 +140,10 @@ typedef struct lam_load_params {
     // that leads out of that folder, such as "../textures/wood.png", is reduced to its last component.
     const char *const *allowed_paths;
     int allowed_path_count; // number of allowed_paths
-    LAM_RESERVED(8);
+    // STEP, IGES and BREP: the largest distance between the triangles and the exact surface, as a fraction of the
+    // model's diagonal, 1e-6..0.1. 0: 1/4000, a quarter of a pixel in a picture of 1024×1024 pixels.
+    double deflection;
+    LAM_RESERVED(7);
 } lam_load_params;
 
 // Loads a model file into a new scene: its meshes, materials and lights, and an object for each mesh. If everything is

@@ -19,6 +19,7 @@ static const struct {
     {"lam_control.expansion_limit", "--expansion-limit"},
     {"lam_control.object_limit", "--object-limit"},
     {"lam_control.layer_limit", "--layer-limit"},
+    {"lam_load_params.deflection", "--deflection"},
     {"lam_load_params.lenient", "--lenient"},
     {"lam_load_params.allowed_paths", "--allow-path FOLDER"},
     {"lam_load_params.models_anywhere", "--files-inside"},

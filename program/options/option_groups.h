@@ -67,6 +67,7 @@ struct picture_options {
 struct model_options {
     const char *scene, *variant, *animation; // as typed; NULL means the file's default
     double time_s;                           // valid if `has_time` is set
+    double deflection;                       // lam_load_params.deflection; 0: the default
     bool has_time, lenient;
     struct texts sections; // as typed, checked
     int arrange;           // 0: a row, 1: a grid, 2: as the files place the models

@@ -446,6 +446,14 @@ struct option option_table[OPTIONS_MAX] = {
      "extension. With this option, Lambent also omits damaged primitives of glTF files, reads later versions of glTF, "
      "and accepts undeclared XML prefixes in 3MF files.",
      .store = store_switch, .others = "force ignore-extensions permissive", FIELD(model.lenient)},
+    {"deflection", 0, GROUP_MODEL, "FRACTION", "0.00025",
+     "The largest distance of triangles from the exact surface of a STEP, IGES or BREP model, relative to its "
+     "diagonal.",
+     "The default is a quarter of a pixel in a picture of 1024x1024 pixels that shows the whole model. A smaller "
+     "number "
+     "gives rounder outlines in larger pictures and close views, and needs more time and triangles.",
+     .store = store_number, .others = "tolerance chordal-deviation tessellation", FIELD(model.deflection), .min = 1e-6,
+     .max = 0.1, .loads = true},
 
     {"view", 0, GROUP_VIEW, "SIDE", "three-quarter",
      "The side from which to view the model, or a list of sides: front, back, left, right, top, bottom, iso or "

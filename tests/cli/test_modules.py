@@ -289,7 +289,7 @@ class Assimp(Modules):
 def true_edges(name):
     """The edges of the shape that lambent-import marks: chains of sides between points at which not just two sides meet."""
     data = (SHAPES / name).read_bytes()
-    request = struct.pack("<I16s16sIQQQI4x", 2, b"occt", name.split(".")[-1].encode(), 60, 1 << 30, len(data), 1 << 30, 0)
+    request = struct.pack("<I16s16sIQQQdI4x", 2, b"occt", name.split(".")[-1].encode(), 60, 1 << 30, len(data), 1 << 30, 0.001, 0)
     process = subprocess.Popen([BUILD / "lambent-import"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     process.stdin.write(request + data)
     process.stdin.flush()
@@ -350,6 +350,14 @@ class OpenCascade(Modules):
                     for found, wanted in zip(colors, ((0.01, 0.0331, 0.7874), (0.2140,) * 3, (0.6038, 0.1329, 0.0331))):
                         for a, b in zip(found, wanted):
                             self.assertAlmostEqual(a, b, delta=0.002)
+
+    def test_deflection(self):
+        path = self.file("stand.step", self.STAND["step"])
+        counts = [json.loads(self.good(path, "-s", 32, "--json", "-o", "a.png", *more).stdout)["model"]["triangles"]
+                  for more in (["--deflection", "0.01"], [], ["--deflection", "0.00025"], ["--deflection", "1e-5"])]
+        self.assertTrue(counts[0] < counts[1] == counts[2] < counts[3], counts)
+        self.bad(1, path, "--deflection", 0.5, says="--deflection")
+        self.assertIn(b"'--deflection' applies only to STEP", self.good("cube.obj", "--deflection", 0.01, "-s", 16, "-o", "a.png").stderr)
 
     def test_names(self):
         self.file("stand.step", self.STAND["step"])

@@ -171,6 +171,7 @@ static lam_scene *load_one(const struct job *job, const char *name, bool only, c
                               .scene = o->model.scene,
                               .variant = o->model.variant,
                               .lenient = o->model.lenient,
+                              .deflection = o->model.deflection,
                               .animation = o->model.animation  ? o->model.animation
                                            : o->model.has_time ? "0"
                                                                : NULL,
@@ -292,5 +293,7 @@ bool job_load(struct job *job, struct progress *progress, lam_error *error)
                                           "to glTF files");
     if (o->model.lenient && !is_gltf && strcmp(lam_scene_format(job->scene), "3mf") != 0)
         lam_scene_add_warning(job->scene, "option '--lenient' applies only to glTF and 3MF files");
+    if (o->model.deflection > 0 && !strstr("step iges brep", lam_scene_format(job->scene)))
+        lam_scene_add_warning(job->scene, "option '--deflection' applies only to STEP, IGES and BREP files");
     return true;
 }

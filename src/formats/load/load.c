@@ -24,6 +24,9 @@ static bool check_params(const lam_load_params *params, const char *name, lam_er
         return fail(error, LAM_BAD_ARGUMENT, "%s: crease_angle_rad is %g, expected 0 to pi", name, crease);
     if (!(params->time_s - params->time_s == 0))
         return fail(error, LAM_BAD_ARGUMENT, "%s: time_s is not finite", name);
+    double deflection = params->deflection;
+    if (deflection != 0 && !(deflection >= 1e-6 && deflection <= 0.1))
+        return fail(error, LAM_BAD_ARGUMENT, "%s: deflection is %g, expected 1e-6 to 0.1", name, deflection);
     if (params->threads < 0 || params->threads > 1024)
         return fail(error, LAM_BAD_ARGUMENT, "%s: threads is %d, expected 0 to 1024", name, params->threads);
     if ((unsigned)params->up >= LAM_UP_COUNT || (unsigned)params->color > LAM_COLOR_RAW ||

@@ -40,6 +40,7 @@ struct import_request {
     uint64_t memory;               // limit in bytes, beside the memory of the libraries
     uint64_t size;                 // bytes of the file that follow
     uint64_t triangles;            // more are refused: a module may stop making them
+    double deflection;             // lam_load_params.deflection; never 0
     uint32_t raw;                  // colours are linear already
 };
 

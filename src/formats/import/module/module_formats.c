@@ -82,6 +82,7 @@ static bool module_load(struct import_source *source, struct lam_scene *scene, l
         return false;
     double seconds = source->call->control.time_limit_s;
     request.seconds = seconds > 0 && seconds < 3600 ? (uint32_t)seconds + 1 : 3600;
+    request.deflection = source->params->deflection > 0 ? source->params->deflection : 1.0 / 4000;
     request.triangles = call_triangle_limit(source->call);
     request.memory = call_memory_left(source->call);
     request.size = source->size;

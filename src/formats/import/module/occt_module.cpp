@@ -34,6 +34,7 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <sstream>
@@ -42,10 +43,6 @@ namespace
 {
 
 using namespace flat; // NOLINT: the module is this file
-
-// Triangles deviate from the surface by at most this share of the model's diagonal, a quarter of a pixel in a picture
-// of 512², and neighbours along a curve meet at no more than this angle.
-constexpr double DEFLECTION = 1.0 / 2000, ANGLE_RAD = 0.35;
 
 struct surface {
     std::vector<float> positions, normals;
@@ -63,8 +60,8 @@ class builder
 {
   public:
     // `unit` is the number of millimetres in a unit of the file: OpenCASCADE converts all lengths to millimetres.
-    builder(const Handle(TDocStd_Document) & from, flat::scene &to, uint64_t limit, double unit)
-        : out(to), colors(XCAFDoc_DocumentTool::ColorTool(from->Main())), most(limit), scale(1 / unit)
+    builder(const Handle(TDocStd_Document) & from, flat::scene &to, const import_request &request, double unit)
+        : out(to), colors(XCAFDoc_DocumentTool::ColorTool(from->Main())), most(request.triangles), scale(1 / unit)
     {
         TDF_LabelSequence shapes;
         Bnd_Box box;
@@ -75,8 +72,9 @@ class builder
                 BRepBndLib::Add(shape, box);
             solid |= TopExp_Explorer(shape, TopAbs_FACE).More();
         }
-        how.Deflection = box.IsVoid() ? 1 : DEFLECTION * std::sqrt(box.SquareExtent());
-        how.Angle = ANGLE_RAD;
+        how.Deflection = box.IsVoid() ? 1 : request.deflection * std::sqrt(box.SquareExtent());
+        // Neighbours along a curve meet at no more than 20°, more or less if the curves deviate more or less.
+        how.Angle = std::min(std::max(0.35 * std::sqrt(4000 * request.deflection), 0.05), 1.0);
         how.MeshAlgo = IMeshTools_MeshAlgoType_Delabella; // two to three times as fast as the default
         list children;
         for (const TDF_Label &label : shapes)
@@ -356,7 +354,7 @@ int read_shapes(const import_request &request, const uint8_t *bytes, flat::scene
         return IMPORT_DAMAGED;
     }
     out.unit_m = unit / 1000;
-    const builder made(document, out, request.triangles, unit > 0 ? unit : 1);
+    const builder made(document, out, request, unit > 0 ? unit : 1);
     return out.meshes.empty() && *note ? IMPORT_DAMAGED : IMPORT_READ;
 }
 

@@ -1,4 +1,5 @@
 # test_release.py: the version number, and the notes of `make release`.
+import hashlib
 import importlib.util
 import pathlib
 import re
@@ -23,6 +24,36 @@ class Release(Case):
         self.assertEqual((".".join(numbers), re.search(r'LAM_VERSION_TEXT +"(.*)"', header)[1]), (version, version))
         self.assertEqual(self.good("--version").stdout.decode().splitlines()[0], "lambent " + version)
         self.assertTrue(release.section())
+
+    def test_archive(self):
+        """An unpacked source archive, which has no .git, knows the commit's time, and copies itself without what was built in it."""
+        if not (ROOT / ".git").exists():
+            self.skipTest("no clone")
+        first, second = self.folder / "first", self.folder / "second"
+        release.project.tree(first)
+        (first / "build-deb").mkdir()
+        (first / "build-deb" / "old").touch()
+        subprocess.run([first / "scripts/project.py", "tree", second], check=True)
+        self.assertFalse((second / "build-deb").exists())
+        for place in (first, second):
+            self.assertFalse((place / ".git").exists())
+            self.assertEqual([subprocess.check_output([place / "scripts/project.py", fact], text=True).strip() for fact in ("version", "tag", "time")],
+                             [release.version(), "v" + release.version(), str(release.project.time())])
+        self.assertTrue((second / "web/build.py").exists() and (second / "packaging/debian/rules").exists())
+
+    def test_materials(self):
+        """The bill of materials lists each file with its hash, and each source package whose code is in it."""
+        dist, web = self.folder / "dist", self.folder / "web"
+        for folder in (dist, web / "source"):
+            folder.mkdir(parents=True)
+        (dist / "lambent-page.zip").write_bytes(b"page")
+        (dist / "NOTES.md").write_bytes(b"notes")
+        (web / "source" / "zlib_1.2.13.dfsg-1.dsc").touch()
+        bill = release.materials(dist, {"lambent-page.zip": (web, [])})
+        zlib = "pkg:deb/debian/zlib@1.2.13.dfsg-1?arch=source"
+        self.assertEqual([part["bom-ref"] for part in bill["components"]], ["NOTES.md", "lambent-page.zip", zlib])
+        self.assertEqual(bill["components"][1]["hashes"][0]["content"], hashlib.sha256(b"page").hexdigest())
+        self.assertEqual({row["ref"]: row["dependsOn"] for row in bill["dependencies"]}, {"NOTES.md": [], "lambent-page.zip": [zlib]})
 
     @unittest.skipUnless(shutil.which("nm"), "no nm")
     def test_symbols(self):

@@ -78,6 +78,8 @@ def try_container(root, page):
         models.mkdir()
         pictures.mkdir()
         cells.fill(PROGRAM, models)
+        (models / "ply").mkdir()
+        (models / "cube.ply").rename(models / "ply/cube.ply") # or its picture would have the name of the STL file's
         pod = run(*buildah, "from", "lambent-full")[1].strip()
         for index in range(int(re.search(r"completions: (\d+)", text)[1])):
             steps.append(run(*buildah, "run", "--isolation", "chroot", "--env", "JOB_COMPLETION_INDEX=%d" % index, "-v", "%s:/models:ro" % models, "-v", "%s:/pictures" % pictures, pod, "--", *words))

@@ -83,7 +83,7 @@ def try_container(root, page):
         pod = run(*buildah, "from", "lambent-full")[1].strip()
         for index in range(int(re.search(r"completions: (\d+)", text)[1])):
             steps.append(run(*buildah, "run", "--isolation", "chroot", "--env", "JOB_COMPLETION_INDEX=%d" % index, "-v", "%s:/models:ro" % models, "-v", "%s:/pictures" % pictures, pod, "--", *words))
-        drawn = {path.name for path in pictures.rglob("*.png")}
+        drawn = list(pictures.rglob("*.png"))
     for name in (pod, base):
         run(*buildah, "rm", name)
     run(*buildah, "rmi", "lambent-full", "lambent-base")

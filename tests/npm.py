@@ -15,8 +15,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "web"), str(ROOT / "tests")]
+sys.path[:0] = [str(ROOT / "web"), str(ROOT / "tests"), str(ROOT / "tests/long")]
 import build  # noqa: E402
+import cells  # noqa: E402
 import npm as package  # noqa: E402
 from web import Results  # noqa: E402
 
@@ -79,6 +80,28 @@ def try_node(results, folder, modules):
         results.ok((code, text) == (0, "16\n"), "the bundle runs without the package", text)
 
 
+# Draws a model with the files beside it, and writes the picture.
+DRAW = """import { open } from 'lambent';
+import { readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
+const [model, picture] = process.argv.slice(-2), lambent = await open(undefined, { decoders: true });
+for (const name of readdirSync('.')) if (statSync(name).isFile()) lambent.files.set('/' + name, readFileSync(name));
+writeFileSync(picture, lambent.draw('/' + model, { size: %d }, { as: 'png' }));
+""" % cells.SIZE
+
+
+def try_cells(results, program, folder, installed):
+    """The cells of tests/long/table.py."""
+    models = folder / "models"
+    models.mkdir()
+    wrong = cells.draw_all("npm", program, models, lambda model, picture: run("node", "--input-type=module", "-e", DRAW, "--", model, picture, cwd=models)[0])
+    results.ok(not wrong, "each format has the program's bytes", ", ".join(wrong))
+    cells.tell("npm", "installs", "yes" if installed else "no")
+    code, text = run("npm", "uninstall", "--no-audit", "--no-fund", "lambent", cwd=folder)
+    left = [str(path) for path in (folder / "node_modules").rglob("*") if path.is_file() and not path.name.startswith(".")]
+    results.ok(code == 0 and not left, "npm removes all of it", text + "\n".join(left))
+    cells.tell("npm", "removed", "yes" if code == 0 and not left else "no")
+
+
 def try_types(results, folder, modules):
     tsc = modules and os.path.join(modules, "typescript", "bin", "tsc")
     if not tsc or not os.path.exists(tsc):
@@ -122,6 +145,7 @@ def try_pages(results, folder, modules, tools):
 def main():
     program, results = str(pathlib.Path(sys.argv[1]).resolve()), Results()
     if build.missing() or not shutil.which("npm"):
+        cells.skip("npm", "npm or a package of the group web is not installed", ["removed"])
         print("1..0 # SKIP not installed: " + " ".join(build.missing() + ["npm"] * (not shutil.which("npm"))))
         return 0
     code, text = run(sys.executable, ROOT / "web" / "build.py", OUT)
@@ -139,11 +163,13 @@ def main():
         (folder / "package.json").write_text('{"type": "module", "private": true}')
         code, text = run("npm", "install", "--offline", "--no-audit", "--no-fund", packed, cwd=folder)
         results.ok(code == 0, "npm install of the packed file", text)
+        installed = code == 0
         make_inputs(program, folder)
         try_node(results, folder, modules)
         tools = build.packages(str(OUT / "npm-tools"), str(HERE / "npm-tools"))
         try_types(results, folder, tools)
         try_pages(results, folder, modules, tools)
+        try_cells(results, program, folder, installed)
     print("1..%d" % results.count)
     return results.failed > 0
 

@@ -13,8 +13,9 @@ from urllib.parse import unquote
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 OUT = os.path.join(ROOT, "build-web")
-sys.path[:0] = [os.path.join(ROOT, name) for name in ("web", "tests", "scripts")]
+sys.path[:0] = [os.path.join(ROOT, name) for name in ("web", "tests", "tests/long", "scripts")]
 import build  # noqa: E402
+import cells  # noqa: E402
 import make_site  # noqa: E402
 from web import Results  # noqa: E402
 
@@ -90,6 +91,8 @@ def main():
     program = os.path.abspath(sys.argv[1])
     missing = build.missing() + ([] if shutil.which("cmark-gfm") else ["cmark-gfm"])
     if missing:
+        for column in ("installs", "page"):
+            cells.tell("site", column, "not run: %s is not installed" % missing[0])
         print("ok 1 - site # SKIP not installed: %s\n1..1" % " ".join(missing))
         return 0
     done = subprocess.run([sys.executable, os.path.join(ROOT, "web", "build.py"), OUT], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -101,7 +104,9 @@ def main():
         make_site.make(program, folder, os.path.join(OUT, "lambent.html"))
         texts, words = check_links(results, folder)
         check_figures(results, folder, texts)
+        cells.tell("site", "installs", "no" if results.failed else "yes")
         check_lab(results, folder, words)
+        cells.tell("site", "page", "no" if results.failed else "yes")
     print("1..%d" % results.count)
     return 1 if results.failed else 0
 

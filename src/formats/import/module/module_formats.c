@@ -115,5 +115,6 @@ static bool module_load(struct import_source *source, struct lam_scene *scene, l
 
 const struct importer module_importers[] = {{.name = NULL}};
 bool module_is_installed(const struct importer *importer) { return !importer; }
+int lam_import_start(void) { return -1; }
 
 #endif

@@ -150,8 +150,8 @@ class Bounces(Case):
                 self.assertLessEqual(abs(sum(b["light"][c] for b in bounces) - pixel), 8 * error + 1e-5, (x, y, c))
             on_ceiling = y == 2 # which the lamp does not light
             self.assertEqual(bounces[1]["light"][0] < bounces[2]["light"][0], on_ceiling, (x, y))
-        text = self.good("explain", words[0], "6,16", *words[1:-1], 16).stdout
-        for part in ("are those of local lighting, without --bounces", "light between surfaces: 16 paths", "emission", "standard error"):
+        text = self.good("explain", words[0], "6,16", *words[1:-1], 16).stdout.decode()
+        for part in ("belong to local lighting, without --bounces", "light between surfaces: 16 paths", "emission", "standard error"):
             self.assertIn(part, text)
 
     def test_hostile_scenes(self):

@@ -115,7 +115,7 @@ static void write_means(const struct passes *p, int half, lam_image *out)
     }
 }
 
-// Sets the report, which contains the counts of all passes and the times of the last one. `times` are those of all.
+// Sets the report, which contains the counts of all passes and the times of the last one. `times` are the times of all passes.
 static void report_passes(const struct passes *p, int passes, const double times[4])
 {
     lam_frame_report *report = &p->device->report;

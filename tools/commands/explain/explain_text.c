@@ -641,7 +641,7 @@ void explain_text(const lam_explanation *e, const struct job *job)
     if (!e->fragment_count)
         printf("\nOnly the background is visible here.\n");
     if (e->bounce_count)
-        printf("\nThe terms, the pixel and its bytes below are those of local lighting, without --bounces.\n");
+        printf("\nThe terms, the pixel and its bytes below belong to local lighting, without --bounces.\n");
     for (int i = 0; i < e->fragment_count; i++)
         print_fragment(e, &e->fragments[i]);
     print_pixel(e);

@@ -7,7 +7,7 @@
 enum {
     TILE_SHIFT = 6,
     TILE = 1 << TILE_SHIFT, // pixels per side (FRAME_TILE)
-    SUBPIXEL = 256, // steps per pixel to which vertices are snapped
+    SUBPIXEL = 256,         // steps per pixel to which vertices are snapped
     SUBPIXEL_SHIFT = 8,
     LANES_MAX = 16,
     // the maximum number of translucent fragments that a thread stores, and therefore the maximum number in one pixel

@@ -115,7 +115,7 @@ static const struct sheet sheets[] = {
                      .title = "Approximations of light",
                      .columns = 3,
                      .count = 6,
-                     .cells = {{"Local lighting", {"--ao", "off"}},
+                     .cells = {{"Local lighting", {"--ground", "off", "--ao", "off"}},
                                {"With shadows", {"--shadows", "--ao", "off"}},
                                {"With shadows and occlusion", {"--shadows", "--ao", "rays"}},
                                {"One bounce: direct light", {"--bounces", "1"}},

@@ -162,6 +162,9 @@ class Bounces(Case):
             values = self.draw(objects, {"m": material}, ([0.05, 0.1, 0.9], [0.3, 0.2, -0.1], 60), "--bounces", 200, "--paths", 4, size=16,
                                lights=[{"type": "point", "position": [0.4, 0.4, 0.8]}])
             self.assertTrue(all(0 <= v < 1.1e30 for v in values), name)
+        lamps = [{"type": "point", "position": [i % 50 - 25, 9, i // 50 - 25], "color": [1e-4] * 3} for i in range(100000)]
+        values = self.draw([{"shape": "sphere", "material": "m"}], {"m": matt(0.5)}, ([0, 0, 5], BLACK, 10), "--bounces", 2, "--paths", 4, size=8, lights=lamps)
+        self.assertTrue(all(0 < v < 10 for v in values), "many lights")
         self.bad(4, "scene.json", "--bounces", 1000, "--paths", 65536, "-s", 512, "--time-limit", 0.3, "-o", "late.png", says=("time limit",))
 
     def test_sheet(self):

@@ -125,6 +125,8 @@ static bool shows_emission(lam_output output)
 static bool count_shaded(const struct group *g, uint64_t count)
 {
     uint64_t lights = (uint64_t)(g->lights ? g->lights->count : g->frame->light_count);
+    if (g->shade->paths && lights > 1)
+        lights = 1; // paths choose one light at a time
     bool evaluated = g->reflection != LAM_REFLECTION_NONE && lam_output_is_light(g->frame->settings.output);
     uint64_t both = evaluated ? count * lights : 0;
     g->shading->points_lit += count;

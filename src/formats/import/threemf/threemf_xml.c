@@ -30,6 +30,9 @@
 struct expat_library {
     void *handle;
     FUNCTIONS(LIBRARY_MEMBER)
+    // NULL before expat 2.6. Newer versions otherwise wait for more bytes before they scan an incomplete element again, so
+    // that check_token would find elements too long.
+    XML_Bool (*set_deferral)(XML_Parser parser, XML_Bool enabled);
 };
 
 enum { DEPTH_MAX = 256, TOKEN_BYTES = 1 << 20, SPACES_MAX = 256 };
@@ -292,6 +295,8 @@ bool threemf_xml_open(struct threemf *file)
     const char *fault =
         library_open_functions(&expat->handle, LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), "lacks functions of expat 2");
     file->expat = fault ? NULL : expat;
+    if (!fault && !library_find(expat->handle, "XML_SetReparseDeferralEnabled", &expat->set_deferral))
+        expat->set_deferral = NULL;
     return !fault ||
            fail(file->error, LAM_UNSUPPORTED,
                 "%s: reading 3MF needs " LIBRARY ", which %s (Debian's package libexpat1)", file->source->name, fault);
@@ -340,6 +345,8 @@ bool threemf_xml_parse(struct threemf_xml *xml)
     bool ok = parser.expat || threemf_no_memory(xml->file, sizeof parser);
     if (ok) {
         library->XML_SetUserData(parser.expat, xml);
+        if (library->set_deferral)
+            library->set_deferral(parser.expat, XML_FALSE);
         library->XML_SetElementHandler(parser.expat, begin_element, end_element);
         library->XML_SetCharacterDataHandler(parser.expat, take_text);
         library->XML_SetStartDoctypeDeclHandler(parser.expat, refuse_document_type);

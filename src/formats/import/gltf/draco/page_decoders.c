@@ -92,6 +92,7 @@ static const struct {
     EXPAT(XML_ErrorString),
     EXPAT(XML_GetCurrentLineNumber),
     EXPAT(XML_GetCurrentByteIndex),
+    EXPAT(XML_SetReparseDeferralEnabled),
     {"lambent_draco_functions", (void (*)(void))draco_functions},
     {"meshopt_decodeVertexBuffer", (void (*)(void))vertices},
     {"meshopt_decodeIndexBuffer", (void (*)(void))triangle_indices},

@@ -52,11 +52,11 @@ def generated(kind):
     return subprocess.run([PROGRAM, "generate", kind], stdout=subprocess.PIPE, check=True).stdout.decode()
 
 
-def option(name):
-    """The default of an option in the table of options, which test_defaults_of_options tries."""
+def option(name, row=0):
+    """The default of an option in the table of options, which test_defaults_of_options tries. `row` counts options of the same name."""
     def look_up():
-        found = re.search(r"(?m)^\| `(?:-\w`, `)?--%s[ `][^|]*(?:\\\|[^|]*)*\| ([^|]*?) \|" % name, generated("markdown"))
-        return found and number(re.match(NUMBER, found.group(1)).group())
+        found = re.findall(r"(?m)^\| `(?:-\w`, `)?--%s[ `][^|]*(?:\\\|[^|]*)*\| ([^|]*?) \|" % name, generated("markdown"))
+        return number(re.match(NUMBER, found[row]).group()) if found else None
     return Source("the default of --" + name, look_up)
 
 
@@ -71,7 +71,7 @@ def counted(what, count):
 
 
 LAYERS = constant("src/core/cpu/raster/tile.h", "LAYERS_MAX")
-TILE = constant("src/core/cpu/raster/tile.h", "TILE")
+TILE = constant("src/core/frame/frame.h", "FRAME_TILE")
 FEW_LIGHTS = constant("src/core/cpu/lights/light_bounds.h", "LIGHTS_ALL_SUMMED")
 FOVY = code("src/core/scene/camera.c", r"fovy_rad = (\d+) \* \(PI / 180\)")
 FILL = constant("src/core/scene/camera_fit.c", "FILL")
@@ -140,7 +140,7 @@ ROWS = [
     ("docs/formats.md", "on any axis is more than {} times its size", constant("src/core/geometry/origin.h", "ORIGIN_RATIO")),
     ("docs/formats.md", "| `Ns` | shininess, 0 to {}; by default {}. With exactly 0,", code("src/formats/import/obj/mtl.c", r"field->max : (\w+)f"), field("shininess")),
     ("docs/check.md", "at most one pixel in {} differs by more than `--tolerance` ({} steps of 1/255)", PIXELS_OVER_CHECK, TOLERANCE),
-    ("docs/check.md", "the shader exceeded `--stop-after` ({} seconds)", option("stop-after")),
+    ("docs/check.md", "the shader exceeded `--stop-after` ({} seconds)", option("stop-after", 1)), # the first option of this name belongs to pictures
     ("docs/lighting.md", "about {} hundred lines", counted("the hundreds of lines of lobes.h, lights.h and sum.h", lambda: round(sum(
         len((ROOT / "src/core/lighting" / name).read_text().splitlines()) for name in ("lobes.h", "lights.h", "sum.h")) / 100))),
     ("tools/help/topics.c", "`--tolerance` (default {}) applies to each channel of a pixel. At most one pixel in {} may exceed",
@@ -214,7 +214,7 @@ CONTEXT = {
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),
     "hidden-lines": (["--wireframe"], "show"), "surfaces": ([], "off"),
-    "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "cavity": ([], "off"), "brighten": (["dark.obj"], "off"), "specular-aa": (["--material", "#ffc356,metallic=1,roughness=0.3"], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
+    "deflection": ([], None), "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "cavity": ([], "off"), "brighten": (["dark.obj"], "off"), "specular-aa": (["--material", "#ffc356,metallic=1,roughness=0.3"], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
     "environment-rotation": (["--reflection-map", "studio", "--reflectivity", "0.5"], "90"),
 }
 

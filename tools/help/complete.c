@@ -84,7 +84,7 @@ static void complete_topics(const struct typed_word *typed)
         if (!is_topic(c->name))
             complete_offer(typed, c->name, "", c->summary);
     for (const struct option *o = option_table; o->name; o++)
-        if (!o->now && !is_topic(o->name) && !find_command(o->name))
+        if (!o->now && !is_topic(o->name) && !find_command(o->name) && option_find(o->name) == o)
             complete_offer(typed, o->name, "", o->summary);
 }
 

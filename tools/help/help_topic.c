@@ -167,10 +167,14 @@ int run_help(int operand_count, char **operands, const struct options *options)
     } else if (command) {
         print_help(command);
     } else if (option) {
-        help_option(option, command_table, true);
-        for (const struct topic *t = topics; t->name; t++)
-            if (t->groups & 1ull << option->group)
-                printf("\nMore: lambent help %s\n", t->name);
+        for (const struct option *o = option_table; o->name;
+             o++) // a name may mean different options of different commands
+            if (o == option || strcmp(o->name, option->name) == 0) {
+                help_option(o, command_table, true);
+                for (const struct topic *t = topics; t->name; t++)
+                    if (t->groups & 1ull << o->group)
+                        printf("\nMore: lambent help %s\n", t->name);
+            }
     } else if (query && strcmp(query, "all") == 0) {
         print_help(command_table);
     } else {

@@ -79,6 +79,8 @@ static void triangle_task(void *user, size_t index, int thread)
     cpu->bins[thread].work = 0;
 }
 
+_Static_assert((int)TILE == (int)FRAME_TILE, "frame.finished_tiles has an element for each tile");
+
 // Returns the tile that contains a pixel, given by its column and row.
 static size_t tile_of(const struct cpu_frame *cpu, const int *pixel)
 {

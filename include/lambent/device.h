@@ -247,9 +247,10 @@ typedef enum lam_specular_aa {
 
 // A filter against the noise of path tracing (lam_draw_params.bounces). It needs two paths or more.
 typedef enum lam_denoise {
-    LAM_DENOISE_AUTO = 0, // ON from 2 bounces on, below 1024 paths, without lam_draw_params.noise
-    LAM_DENOISE_OFF,      // the mean of the paths, which is right on average
-    LAM_DENOISE_ON,       // the filtered mean
+    // ON from 2 bounces on, below 1024 paths, without lam_draw_params.noise.
+    LAM_DENOISE_AUTO = 0,
+    LAM_DENOISE_OFF, // the mean of the paths, which is right on average
+    LAM_DENOISE_ON,  // the filtered mean
     LAM_DENOISE_COUNT
 } lam_denoise;
 

@@ -293,6 +293,7 @@ typedef struct lam_explained_fragment {
 typedef struct lam_explained_bounce {
     lam_rgb light; // the mean of the paths
     lam_rgb error; // the standard error of `light`
+    LAM_RESERVED(2);
 } lam_explained_bounce;
 
 // One pixel of a picture.
@@ -333,11 +334,12 @@ typedef struct lam_explanation {
     // A part of `sum` that belongs to no fragment: the picture behind rough or thick glass, which is blurred or
     // refracted, and the glass's tint of the background.
     lam_rgb behind;
-    // With lam_draw_params.bounces, the fragments and all other members describe local lighting, and these members the
-    // light of the picture's paths before the filter: emission, and light after 1 to `bounces` reflections. The sum of
-    // all is the light of the pixel.
-    int bounce_paths; // the paths; fewer than in the picture if 16 does not divide them
+    // With lam_draw_params.bounces, the fragments and all members above describe local lighting. The following members
+    // describe the light of the picture's paths before the filter.
+    // The number of paths; fewer than in the picture if 16 does not divide it.
+    int bounce_paths;
     int bounce_count; // 1 + bounces; 0: local lighting
+    // Emission, and the light after 1 to `bounces` reflections. The sum of all is the light of the pixel.
     const lam_explained_bounce *bounces;
     LAM_RESERVED(2);
 } lam_explanation;

@@ -1,4 +1,5 @@
-// options.c: parses a command line with the table of options.
+// options.c: parses a command line with the table of options. It is longer than 600 lines because each way of writing an option, and
+// the sentence about each mistake in it, is one short function.
 #include "options.h"
 
 #include <ctype.h>

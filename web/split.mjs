@@ -15,11 +15,11 @@ WebAssembly.Instance = function (...given) {
 const lambent = new Lambent(new WebAssembly.Module(readFileSync(counting)));
 lambent.limitMemory(1e9);
 lambent.options();
-// The first picture, and the same model from another side with all samples and with one sample.
+// The first picture, and the same model from another side with all samples and as during a gesture (quickWords in page/picture/drawing.js).
 for (const size of ['320x344', '944x656', '472x328']) {
   const words = [...START, `--size=${size}`], { camera, sphere } = lambent.draw(words);
   const turned = cameraText(orbit(around(camera, sphere, 1.4), 0.3, 0.2, camera.pole, sphere.centre));
-  for (const samples of [[], ['--samples=1']]) lambent.draw([...words, `--camera=${turned}`, ...samples]);
+  for (const samples of [[], ['--samples=1', '--bounces=0']]) lambent.draw([...words, `--camera=${turned}`, ...samples]);
 }
 const { memory, __write_profile } = instance.exports, size = __write_profile(0, 0), at = memory.buffer.byteLength;
 memory.grow(Math.ceil(size / 65536));

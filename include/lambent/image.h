@@ -79,7 +79,10 @@ typedef struct lam_save_params {
     // Stores one number for each pixel, the first (red): PFM and EXR (32 bits, channel Z) with one channel; a PNG, which
     // is then made from floats, as 16-bit grey with the number rounded and limited to 0…65535. Other formats ignore it.
     bool single;
-    LAM_RESERVED(6);
+    // A text about the picture, at most 200 printable characters of ASCII, which PNG files store as their comment; other
+    // formats ignore it. Owned by the caller. NULL: none.
+    const char *comment;
+    LAM_RESERVED(5);
 } lam_save_params;
 
 // A block of bytes that the caller frees with lam_bytes_free.

@@ -134,6 +134,9 @@ class Bounces(Case):
         stopped, picture = image("--stop-after", 0.5)
         self.assertEqual(picture, image("--paths", int(stopped["paths"]))[1])
         self.assertEqual(stopped["paths"] % 16, 0)
+        comment = b"tEXtComment\0%d paths of light, estimated noise %.3g of 255" % (stopped["paths"], stopped["noise"])
+        self.assertIn(comment, picture)
+        self.assertNotIn(b"tEXtComment", image("--bounces", 0)[1])
 
     def test_explain(self):
         """The light after each number of reflections adds up to the picture's pixel, within its standard error."""
@@ -168,9 +171,26 @@ class Bounces(Case):
         self.bad(4, "scene.json", "--bounces", 1000, "--paths", 65536, "-s", 512, "--time-limit", 0.3, "-o", "late.png", says=("time limit",))
 
     def test_sheet(self):
-        self.good("compare", "torus-knot", "--sheet", "truth", "-s", 24, "--paths", 2, "-q", "-o", "sheet.png")
-        cells = self.good("compare", "torus-knot", "--sheet", "truth", "-s", 24, "--paths", 2, "-q", "-o", "-", "--no-captions").stdout
-        self.assertTrue(cells.startswith(b"\x89PNG"))
+        """The cell after the last picture is twice the difference between the third and the last."""
+        words = ("compare", "torus-knot", "--sheet", "truth", "-s", 24, "--paths", 2, "--no-captions")
+        done = self.good(*words, "-o", "sheet.ppm", "--compress", "fast")
+        self.assertNotIn(b"warning", done.stderr)
+        data, wide = (self.folder / "sheet.ppm").read_bytes(), 4 * 26 + 2
+
+        def cell(i):
+            x, y = 2 + i % 4 * 26, 2 + i // 4 * 26
+            rows = data[-3 * wide * (2 * 26 + 2):]
+            return [v for row in range(y, y + 24) for v in rows[3 * (row * wide + x):3 * (row * wide + x + 24)]]
+        local, paths, apart = cell(2), cell(5), cell(6)
+        self.assertEqual(apart, [min(255, 2 * abs(a - b)) for a, b in zip(local, paths)])
+        self.assertGreater(max(apart), 100)
+
+    def test_warnings(self):
+        """Options of paths say that they need --bounces, unless a picture without bounces is asked for."""
+        for words in (("--paths", 8), ("--noise", 3), ("--stop-after", 1), ("--denoise", "on")):
+            done = self.good("cube", "-s", 16, *words, "-o", "a.png")
+            self.assertIn("option '%s' has no effect without --bounces" % words[0], done.stderr.decode())
+            self.assertNotIn(b"warning", self.good("cube", "-s", 16, *words, "--bounces", 0, "-o", "a.png").stderr)
 
     def test_refusals(self):
         self.bad(1, "sphere", "--bounces", 1, "--shading", "gouraud", "-o", "a.png", says=("bounces needs Phong shading",))

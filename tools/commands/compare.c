@@ -49,8 +49,8 @@ struct compare {
     struct page page;
     struct drawing drawing;
     int done;                              // the number of pictures drawn so far
-    lam_image right;                       // the first picture of a sheet of mistakes
-    lam_difference differences[CELLS_MAX]; // differences from `right`
+    lam_image other;                       // the picture that others are compared with
+    lam_difference differences[CELLS_MAX]; // differences from `other`
     bool exposure_fitted;                  // the exposure was fitted to the first picture, and is used for all pictures
     double exposure;
     const char *defaults[2 * SHEET_DEFAULTS_MAX]; // arguments that the sheet adds to every picture
@@ -383,6 +383,29 @@ static bool draw_oblique_beam(struct compare *c, lam_error *error)
     return ok;
 }
 
+// Draws the absolute difference between two pictures after the last one, with its mean over the channels.
+static bool draw_difference(struct compare *c, const lam_image *last, lam_error *error)
+{
+    enum { GAIN = 2 };
+    const struct point corner = cell_corner(c, c->sheet.count);
+    const double u = c->page.unit, middle = corner.x + c->page.cell_width / 2.0, top = corner.y + c->page.cell_height;
+    lam_image image = {0};
+    lam_difference difference;
+    char mean[96];
+    bool ok = lam_image_compare(&c->other, last, &difference, error) &&
+              lam_image_difference(&c->other, last, GAIN, &image, error) &&
+              draw_image(&c->drawing, &image, (int)corner.x, (int)corner.y, "Difference", error);
+    lam_image_free(&image);
+    if (!ok || c->options->captions.no_captions)
+        return ok;
+    snprintf(mean, sizeof mean, "from picture %d, %d times; the mean is %.1f of 255", c->sheet.apart, GAIN,
+             255 * difference.mean);
+    draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, c->page.cell_width, INK,
+                 "Difference of the last picture");
+    draw_words(c, (struct point){middle, top + 55 * u}, c->page.cell_width, mean);
+    return true;
+}
+
 static bool lay_out(struct compare *c, const char *path, lam_error *error)
 {
     const struct options *o = c->options;
@@ -393,7 +416,7 @@ static bool lay_out(struct compare *c, const char *path, lam_error *error)
     p->gap = (int)(24 * p->unit) + 1;
     p->head = o->captions.no_captions ? 0 : (int)((c->default_count ? 100 : 60) * p->unit);
     p->foot = o->captions.no_captions ? 0 : (int)(82 * p->unit);
-    p->rows = (c->sheet.count + c->sheet.beam + c->sheet.columns - 1) / c->sheet.columns;
+    p->rows = (c->sheet.count + c->sheet.beam + !!c->sheet.apart + c->sheet.columns - 1) / c->sheet.columns;
     p->inset = c->sheet.inset ? p->cell_height / (2 * ENLARGED) * ENLARGED + p->gap / 2 : 0;
     int64_t width = (int64_t)c->sheet.columns * (p->cell_width + p->gap) + p->gap;
     int64_t height = (int64_t)p->rows * (p->cell_height + p->inset + p->foot + p->gap) + p->head + p->gap;
@@ -473,11 +496,13 @@ static bool draw_sheet(struct compare *c, lam_error *error)
         if (!draw_cell(c, cell, 1, NULL, NULL, &image, error))
             return false;
         bool ok = draw_image(&c->drawing, &image, left, top, caption_of(c, cell), error);
-        if (ok && c->sheet.mistakes && i == 0) {
-            c->right = image;
+        if (ok && (c->sheet.mistakes ? i == 0 : i + 1 == c->sheet.apart)) {
+            c->other = image;
         } else {
             if (ok && c->sheet.mistakes)
-                ok = lam_image_compare(&image, &c->right, &c->differences[i], error);
+                ok = lam_image_compare(&image, &c->other, &c->differences[i], error);
+            if (ok && c->sheet.apart && i + 1 == c->sheet.count)
+                ok = draw_difference(c, &image, error);
             lam_image_free(&image);
         }
         if (!ok)
@@ -645,7 +670,7 @@ int run_compare(int operand_count, char **operands, const struct options *option
             say_plain("%s  %dx%d  %d pictures\n", strcmp(path, "-") == 0 ? "standard output" : path, c.drawing.width,
                       c.drawing.height, c.sheet.count);
         lam_device_free(c.device);
-        lam_image_free(&c.right);
+        lam_image_free(&c.other);
         drawing_free(&c.drawing);
     }
     free(path);

@@ -98,6 +98,18 @@ static int by_total(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+// Warns about an option for paths of light if no picture of the command line has any.
+static void warn_paths(struct job *job)
+{
+    static const char *const names[] = {"paths", "noise", "stop-after", "denoise"};
+    char text[96];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!job->draw.bounces && !option_given(job->options, "bounces") && option_given(job->options, names[i])) {
+            snprintf(text, sizeof text, "option '--%s' has no effect without --bounces", names[i]);
+            lam_scene_add_warning(job->scene, text);
+        }
+}
+
 bool job_draw_frames(struct job *job, double from, double span, int count, lam_frame_report *reports,
                      struct progress *progress, lam_error *error)
 {
@@ -108,6 +120,7 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
         !fit_exposure(job, &job->draw, o->picture.width, o->picture.height, error))
         return false;
     job_note_glass(job, &job->draw);
+    warn_paths(job);
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {
         lam_control control;
@@ -128,6 +141,9 @@ void job_time_frames(struct job *job, lam_frame_report *reports, int count)
     job->times.frame_min = reports[0].total_ms;
     job->times.frame_max = reports[count - 1].total_ms;
     job->times.frames = count;
+    if (job->times.frame.paths > 0)
+        snprintf(job->comment, sizeof job->comment, "%.10g paths of light, estimated noise %.3g of 255",
+                 job->times.frame.paths, job->times.frame.noise);
 }
 
 // Draws as many frames as --repeat requests.
@@ -181,6 +197,7 @@ lam_save_params job_save_params(const struct job *job, const lam_control *contro
                              .quality = o->picture.quality,
                              .durable = o->picture.durable,
                              .single = stores_numbers(job),
+                             .comment = *job->comment ? job->comment : NULL,
                              .raw = o->picture.color_mode == LAM_COLOR_RAW ||
                                     !is_color(show_option_what(o->picture.show))};
 }

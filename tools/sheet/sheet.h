@@ -26,8 +26,9 @@ struct sheet {
     const char *name;
     char title[160];
     int columns;
-    bool inset;  // frames and enlarges the brightest highlight
-    bool beam;   // the last cell shows the area that an oblique beam covers (draw_beam)
+    bool inset; // frames and enlarges the brightest highlight
+    bool beam;  // the last cell shows the area that an oblique beam covers (draw_beam)
+    int apart; // a further cell shows the difference between the picture with this number (from 1) and the last; 0: none
     bool across; // a row of variants: `words` of each picture contains pairs of an option and a value
     // The first picture is correct; the shaders of the other pictures contain mistakes. With `all`, mistakes that the
     // scene cannot show are omitted.

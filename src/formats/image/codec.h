@@ -113,6 +113,8 @@ bool picture_decode_linear(const struct picture_file *file, lam_color_mode color
 bool picture_linearize(const struct picture_file *file, lam_image *image, bool wide, lam_color_mode color,
                        lam_error *error);
 
+enum { SAVE_COMMENT_MAX = 200 }; // bytes of lam_save_params.comment
+
 // The comment that Lambent writes to its JPEG files.
 #define JPEG_REMARK "lambent"
 

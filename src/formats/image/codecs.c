@@ -129,6 +129,11 @@ bool save_params_check(const lam_save_params *params, lam_error *error)
     if (params->quality < 0 || params->quality > 100)
         return fail(error, LAM_BAD_ARGUMENT, "quality: %lld, expected 1 to 100, or 0 for the format's own",
                     (long long)params->quality);
+    size_t length = 0;
+    for (; params->comment && params->comment[length]; length++)
+        if (length == SAVE_COMMENT_MAX || params->comment[length] < ' ' || params->comment[length] > '~')
+            return fail(error, LAM_BAD_ARGUMENT, "comment: expected at most %d printable characters of ASCII",
+                        SAVE_COMMENT_MAX);
     return true;
 }
 

@@ -16,7 +16,7 @@ enum {
     BATCH_STRIPS = 256, // strips per batch; a batch reserves memory for the worst case
     CHUNK_BYTES = 12,   // a chunk's length, type and CRC
     ZLIB_HEADER = 2,    // bytes in the chunk of the first strip
-    HEAD_BYTES = 128,   // the maximum size of the header
+    HEAD_BYTES = 384,   // the maximum size of the header
     TAIL_BYTES = 6 + 2 * CHUNK_BYTES,
 };
 
@@ -129,12 +129,13 @@ static void encode_strip(void *user, size_t index, int thread)
         done->size = png_close_chunk(&writer->crc, "IDAT", out, header + size);
 }
 
-static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
+static size_t put_head(const struct png_writer *writer, const lam_save_params *params, uint8_t *out)
 {
     static const uint8_t signature[8] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
     static const uint8_t color_types[5] = {0, 0, 4, 2, 6}; // indexed by bytes_per_pixel
     static const uint8_t intent = 0;                       // perceptual
     static const char software[] = "Software\0lambent";
+    char comment[sizeof "Comment" + SAVE_COMMENT_MAX] = "Comment";
     uint8_t header[13] = {0}, *at = out;
     memcpy(at, signature, sizeof signature);
     at += sizeof signature;
@@ -143,9 +144,14 @@ static size_t put_head(const struct png_writer *writer, bool raw, uint8_t *out)
     header[8] = writer->wide ? 16 : 8; // bits
     header[9] = writer->wide ? 0 : color_types[writer->encoding.bytes_per_pixel];
     at += put_chunk(&writer->crc, "IHDR", header, sizeof header, at);
-    if (!raw)
+    if (!params->raw)
         at += put_chunk(&writer->crc, "sRGB", &intent, 1, at);
     at += put_chunk(&writer->crc, "tEXt", software, sizeof software - 1, at);
+    if (params->comment) {
+        const size_t length = strlen(params->comment);
+        memcpy(comment + sizeof "Comment", params->comment, length);
+        at += put_chunk(&writer->crc, "tEXt", comment, sizeof "Comment" + length, at);
+    }
     return (size_t)(at - out);
 }
 
@@ -178,7 +184,8 @@ static bool encode_batch(struct png_writer *writer, int count, struct pool *pool
     return true;
 }
 
-static bool encode_strips(struct png_writer *writer, bool raw, struct pool *pool, lam_bytes *out, lam_error *error)
+static bool encode_strips(struct png_writer *writer, const lam_save_params *params, struct pool *pool, lam_bytes *out,
+                          lam_error *error)
 {
     const int strips = writer->encoding.strips;
     uint8_t *bytes = NULL;
@@ -195,7 +202,7 @@ static bool encode_strips(struct png_writer *writer, bool raw, struct pool *pool
         }
         bytes = larger;
         if (size == 0)
-            size = put_head(writer, raw, bytes);
+            size = put_head(writer, params, bytes);
         ok = encode_batch(writer, count, pool, bytes, &size, &adler, error);
     }
     if (!ok) {
@@ -240,8 +247,7 @@ static bool write_png(const lam_image *image, const lam_save_params *params, str
         fail_memory(error, (size_t)batch * sizeof *writer.done + height * sizeof *encoding->spans + row_bytes);
     *channels = writer.channels;
     encoding->bytes_per_pixel = (writer.channels & PNG_COLORED ? 3 : 1) + (writer.channels & PNG_TRANSLUCENT ? 1 : 0);
-    ok = ok && writer.method->start(encoding, pool, &arena, error) &&
-         encode_strips(&writer, params->raw, pool, out, error);
+    ok = ok && writer.method->start(encoding, pool, &arena, error) && encode_strips(&writer, params, pool, out, error);
     if (writer.method->end)
         writer.method->end(encoding);
     arena_free(&arena);

@@ -1,6 +1,7 @@
 """store.py: a real object store for the tests: OpenStack Swift with its S3 interface, on loopback, with its rings and data in a folder; and a proxy
 in front of it that delays, throttles, answers 503, cuts and corrupts, or answers as a hostile store would. Needs root and Debian's packages."""
 import asyncio
+import collections
 import os
 import pathlib
 import random
@@ -103,7 +104,8 @@ class Proxy:
 
     def __init__(self, upstream, delay=0.0, rate=0, fail=0.0, cut=0.0, corrupt=0.0, hostile=None, host="127.0.0.1"):
         self.upstream, self.delay, self.rate, self.fail, self.cut, self.corrupt, self.hostile = upstream, delay, rate, fail, cut, corrupt, hostile
-        self.rng, self.requests, self.free_at, self.peak = random.Random(7), [], 0.0, 0
+        self.rng, self.requests, self.free_at, self.put_bytes = random.Random(7), [], 0.0, collections.Counter()  # of each path
+        self.began = self.ended = 0.0  # of bodies
         self.loop, ready = asyncio.new_event_loop(), threading.Event()
 
         def serve():
@@ -126,7 +128,13 @@ class Proxy:
     def lot(self, share):
         return share and self.rng.random() < share
 
+    def lasted(self):
+        """The seconds from the first byte to the last."""
+        return self.ended - self.began
+
     async def pace(self, count):
+        if count:
+            self.began, self.ended = self.began or time.monotonic(), time.monotonic()
         if self.rate:
             now = self.loop.time()
             self.free_at = max(now, self.free_at) + count / self.rate
@@ -145,6 +153,7 @@ class Proxy:
                 body = await reader.readexactly(int(fields.get(b"content-length", 0)))
                 await asyncio.sleep(self.delay)
                 await self.pace(len(body))
+                self.put_bytes[path.decode()] += len(body)
                 answer = self.hostile and self.hostile(method.decode(), path.decode())
                 if answer:
                     writer.write(answer)

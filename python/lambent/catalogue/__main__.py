@@ -160,7 +160,7 @@ def run(given, theirs):
     if given.dask:
         import distributed
     client = distributed.Client(given.dask) if given.dask else None
-    results = on_dask(client, rows, made.count(), **settings) if client else draw_each(rows, **settings)
+    results = on_dask(client, rows, **settings) if client else draw_each(rows, **settings)
     try:
         for result in results:
             report.add(result)

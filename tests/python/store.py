@@ -104,8 +104,8 @@ class Proxy:
 
     def __init__(self, upstream, delay=0.0, rate=0, fail=0.0, cut=0.0, corrupt=0.0, hostile=None, host="127.0.0.1"):
         self.upstream, self.delay, self.rate, self.fail, self.cut, self.corrupt, self.hostile = upstream, delay, rate, fail, cut, corrupt, hostile
-        self.rng, self.requests, self.free_at, self.put_bytes = random.Random(7), [], 0.0, collections.Counter()  # of each path
-        self.began = self.ended = 0.0  # of bodies
+        self.rng, self.requests, self.free_at, self.put_bytes = random.Random(7), [], 0.0, collections.Counter()  # bytes that arrive at each path
+        self.began, self.ended, self.tasks = 0.0, 0.0, set()  # the times of bodies
         self.loop, ready = asyncio.new_event_loop(), threading.Event()
 
         def serve():
@@ -142,6 +142,7 @@ class Proxy:
 
     async def connection(self, reader, writer):
         upstream = None
+        self.tasks.add(asyncio.current_task())  # the loop alone does not keep them
         try:
             while head := await reader.readuntil(b"\r\n\r\n"):
                 method, path = head.split(b" ", 2)[:2]
@@ -153,7 +154,6 @@ class Proxy:
                 body = await reader.readexactly(int(fields.get(b"content-length", 0)))
                 await asyncio.sleep(self.delay)
                 await self.pace(len(body))
-                self.put_bytes[path.decode()] += len(body)
                 answer = self.hostile and self.hostile(method.decode(), path.decode())
                 if answer:
                     writer.write(answer)
@@ -168,12 +168,14 @@ class Proxy:
                     body = body[:len(body) // 2] + bytes([body[len(body) // 2] ^ 1]) + body[len(body) // 2 + 1:]
                 if not upstream:
                     upstream = await asyncio.open_connection(*self.upstream.removeprefix("http://").split(":"), limit=1 << 20)
+                self.put_bytes[path.decode()] += len(body)
                 upstream[1].write(head + body)
                 if not await self.answer(upstream[0], writer, method, b"list-type" in path):
                     break
         except (asyncio.IncompleteReadError, ConnectionError, asyncio.CancelledError):
             pass
         finally:
+            self.tasks.discard(asyncio.current_task())
             writer.close()
             if upstream:
                 upstream[1].close()

@@ -228,6 +228,28 @@ class Folders(Case):
         lines = [json.loads(line) for path in pathlib.Path("thumbs/lambent.journal").iterdir() for line in path.read_text().splitlines()]
         self.assertEqual(len({line["output"] for line in lines if "output" in line}), len([line for line in lines if "output" in line]))
 
+    def test_parts_fit_the_pace_of_their_workers(self):
+        """Two workers of 10 and 2.5 pictures a second end together, and each row is in one part."""
+        rows = [{"model": str(index), "outputs": [str(index)]} for index in range(1000)]
+        parts, threads, pace = engine.Parts(rows), {"fast": 1, "slow": 1}, {"fast": 0.1, "slow": 0.4}
+        free, given = {"fast": 0.0, "slow": 0.0}, {"fast": [], "slow": []}
+        while not parts.over or parts.waiting:
+            worker = min(free, key=free.get)
+            part, late = parts.take(worker, threads)
+            self.assertGreater(late, time.monotonic())
+            parts.learn(worker, part, len(part) * pace[worker])
+            free[worker] += len(part) * pace[worker]
+            given[worker].append(part)
+        self.assertEqual(sorted(int(row["model"]) for some in given.values() for part in some for row in part), list(range(1000)))
+        self.assertEqual([len(given[worker][0]) for worker in given], [8, 20])  # two seconds by a guess, then by the pace of the slowest that is known
+        self.assertTrue({99, 100} & set(map(len, given["fast"])))
+        self.assertTrue({24, 25} & set(map(len, given["slow"])))
+        self.assertLess(max(free.values()) / (1000 / 12.5), 1.03)
+        endless = engine.Parts(({"model": "m", "outputs": ["o"]} for _ in iter(int, 1)))
+        endless.each["fast"] = 1e-9  # rows that cost nothing do not fill the memory
+        endless.take("fast", threads)
+        self.assertLessEqual(len(endless.waiting), engine.AHEAD * len(threads))
+
     def test_the_costs_of_the_page(self):
         """docs/scale.md: $0.40 for 10^6 reads, $5 for 10^6 writes, $0.023 for a GiB and month, and the times and sizes of the page's other tables."""
         rows = re.findall(r"(?m)^\| 10(.) \| \$([\d.,]+) \| \$([\d.,]+) \| \$([\d.,]+) \| \$([\d.,]+) \| \$([\d.,]+) \|$", (ROOT / "docs/scale.md").read_text())
@@ -378,7 +400,7 @@ class Stores(StoreCase):
             self.assertEqual(len(outputs), len(set(outputs)))
         sent = sum(size for path, size in proxy.put_bytes.items() if "lambent.journal" in path)
         size = sum(map(len, self.stored("thumbs/", "journal").values()))
-        print("# journal: %d bytes sent, %d bytes at the end: %.2f" % (sent, size, sent / size), flush=True)
+        print("# journal: %d bytes written, %d bytes at the end: %.2f" % (sent, size, sent / size), flush=True)
         self.assertLessEqual(sent, 2 * size)
         self.assertIn("0 of %d" % len(expected), self.catalogue(self.models, "-o", self.to, "-s", "64", "--resume", **self.env)[1])
 
@@ -562,6 +584,31 @@ class Stores(StoreCase):
                 lines = [line for data in self.stored("thumbs%d/" % kills, "journal").values() for line in data.splitlines() if b'"output"' in line]
                 self.assertEqual(len(lines), len(expected))
                 self.hold(self.assertLessEqual, seconds / ideal, 1.15)
+
+    @unittest.skipUnless(LONG, "in make test-long")
+    def test_a_lost_host_does_not_hold_up_dask(self):
+        """The cable of one of three hosts is cut, so its workers neither answer nor end."""
+        try:
+            import distributed
+        except ImportError:
+            self.skipTest("python3-distributed is not installed")
+        if hosts.why_not():
+            self.skipTest(hosts.why_not())
+        models = make_models("models", 120)
+        self.upload(models)
+        expected = self.expected(models, "-s", "16")
+        address, net = self.scheduler([1] * 6)
+        with distributed.Client(address) as client:
+            client.wait_for_workers(6)
+        start = time.monotonic()
+        run = subprocess.Popen(command_line(self.models, "-o", self.to, "-s", "16", "--dask", address), env={**os.environ, **self.env})
+        time.sleep(12)
+        net.cut(2)
+        self.assertEqual(run.wait(), 0)
+        print("# dask: %d pictures, a third of the workers lost after 12 s: %.1f s" % (len(expected), time.monotonic() - start), flush=True)
+        self.assertEqual(self.stored(), expected)
+        found, _ = self.check_journal(expected)
+        self.assertEqual({len(rows) for rows in found.values()}, {1})
 
 
 if __name__ == "__main__":

@@ -405,10 +405,11 @@ class Stores(StoreCase):
         self.assertIn("0 of %d" % len(expected), self.catalogue(self.models, "-o", self.to, "-s", "64", "--resume", **self.env)[1])
 
     def solids(self, sizes):
-        """STL files of these sizes in bytes, with triangles at random in a cube."""
+        """STL files of these sizes in bytes, with small triangles at random in a cube."""
         pathlib.Path("solids").mkdir()
         rng = random.Random(4)
-        points = [struct.pack("<12fH", *[rng.random() for _ in range(12)], 0) for _ in range(2000)]
+        centres = [[rng.random() for _ in range(3)] for _ in range(2000)]
+        points = [struct.pack("<12fH", 0, 0, 0, *[value + 0.02 * rng.random() for _ in range(3) for value in centre], 0) for centre in centres]
         for index, size in enumerate(sizes):
             count = size // 50
             pathlib.Path("solids/m%04d.stl" % index).write_bytes(b" " * 80 + struct.pack("<I", count) + b"".join(points[(index + i) % 2000] for i in range(count)))

@@ -257,7 +257,7 @@ class Folders(Case):
         for power, *found in rows:
             n = 10 ** "⁰¹²³⁴⁵⁶⁷⁸".index(power)
             month = 0.023 / 2 ** 30
-            expected = (n * (0.4e-6 + 5e-6 * (1 + 3 / 1000)), n * 0.080 / 3600 * 0.05, n * 0.006 / 3600 * 0.05, n * 26 * 2 ** 20 / 1000 * month, n * 200e3 * month)
+            expected = (n * (0.4e-6 + 5e-6 * (1 + 3 / 1000)), n * 0.080 / 3600 * 0.05, n * 0.007 / 3600 * 0.05, n * 26 * 2 ** 20 / 1000 * month, n * 200e3 * month)
             for text, value in zip(found, expected):
                 self.assertLess(abs(float(text.replace(",", "")) - value), max(0.006, value * 0.012), (n, text, value))
 

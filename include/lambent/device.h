@@ -512,6 +512,11 @@ LAM_API lam_tone lam_draw_tone(const lam_scene *scene, const lam_draw_params *pa
 // Returns the report of the device's last frame; all zero before the first frame.
 LAM_API void lam_device_report(const lam_device *device, lam_frame_report *report);
 
+// Writes the comment of a picture of traced paths for lam_save_params.comment, such as "16 paths of light, estimated noise
+// 3.20 of 255". Writes an empty text for other pictures.
+enum { LAM_COMMENT_SIZE = 96 };
+LAM_API void lam_frame_comment(const lam_frame_report *report, char comment[LAM_COMMENT_SIZE]);
+
 #ifdef __cplusplus
 }
 #endif

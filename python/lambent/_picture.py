@@ -20,9 +20,10 @@ class Picture(np.ndarray):
     raw = False  # the numbers are not sRGB colours
     camera = None  # the Camera of the picture
     warnings = ()  # warnings about problems of the model
+    comment = ""  # what PNG files store as their comment: the number of paths of light, and their noise
 
     def __array_finalize__(self, other):
-        for name in ("raw", "camera", "warnings"):
+        for name in ("raw", "camera", "warnings", "comment"):
             setattr(self, name, getattr(other, name, getattr(Picture, name)))
 
     def __array_wrap__(self, array, context=None, return_scalar=False):
@@ -42,12 +43,16 @@ class Picture(np.ndarray):
     def _params(self, compress, quality):
         if not isinstance(quality, (int, np.integer)) or not 0 <= quality <= 100:
             raise BadValue("quality: found %s, expected a whole number from 0 to 100" % shown(quality))
-        return ffi.new("lam_save_params *", {"raw": self.raw, "compress": choose("compress", words_of("lam_compress"), compress), "quality": quality})
+        comment = ffi.new("char[]", self.comment.encode())
+        params = ffi.new("lam_save_params *", {"raw": self.raw, "compress": choose("compress", words_of("lam_compress"), compress), "quality": quality})
+        if self.comment:
+            params.comment = comment
+        return params, comment
 
     def encode(self, format: str = "png", *, compress: str = "fast", quality: int = 0) -> bytes:
         """Returns the bytes of a file: png, ppm, jpg or webp with 8 bits, pfm or exr with floats. `quality` of jpg and webp is 1 to 100."""
-        out, (image, _pixels) = ffi.new("lam_bytes *"), self._image()
-        call(lib.lam_image_encode, image, text_bytes("format", format), self._params(compress, quality), out)
+        out, (image, _pixels), (params, _comment) = ffi.new("lam_bytes *"), self._image(), self._params(compress, quality)
+        call(lib.lam_image_encode, image, text_bytes("format", format), params, out)
         try:
             return ffi.buffer(out.data, out.size)[:]
         finally:
@@ -59,8 +64,8 @@ class Picture(np.ndarray):
 
     def save(self, path: "str | os.PathLike[str]", *, compress: str = "fast", quality: int = 0) -> None:
         """Writes a file in the format of its extension; the file is complete or is not written."""
-        image, _pixels = self._image()
-        call(lib.lam_image_save, image, path_bytes(path), self._params(compress, quality))
+        (image, _pixels), (params, _comment) = self._image(), self._params(compress, quality)
+        call(lib.lam_image_save, image, path_bytes(path), params)
 
     @property
     def hash(self) -> str:

@@ -134,7 +134,7 @@ class Bounces(Case):
         stopped, picture = image("--stop-after", 0.5)
         self.assertEqual(picture, image("--paths", int(stopped["paths"]))[1])
         self.assertEqual(stopped["paths"] % 16, 0)
-        comment = b"tEXtComment\0%d paths of light, estimated noise %.3g of 255" % (stopped["paths"], stopped["noise"])
+        comment = b"tEXtComment\0%d paths of light, estimated noise %.2f of 255" % (stopped["paths"], stopped["noise"])
         self.assertIn(comment, picture)
         self.assertNotIn(b"tEXtComment", image("--bounces", 0)[1])
 

@@ -127,8 +127,10 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
         progress_phase(progress, from + span * i / count, span / count);
         ok = job_control(job, progress, &control, error) &&
              lam_draw(job->device, job->scene, &job->camera, &job->draw, &job->image, &control, error);
-        if (ok)
+        if (ok) {
             lam_device_report(job->device, &reports[i]);
+            lam_frame_comment(&reports[i], job->comment);
+        }
     }
     return ok;
 }
@@ -141,9 +143,6 @@ void job_time_frames(struct job *job, lam_frame_report *reports, int count)
     job->times.frame_min = reports[0].total_ms;
     job->times.frame_max = reports[count - 1].total_ms;
     job->times.frames = count;
-    if (job->times.frame.paths > 0)
-        snprintf(job->comment, sizeof job->comment, "%.10g paths of light, estimated noise %.3g of 255",
-                 job->times.frame.paths, job->times.frame.noise);
 }
 
 // Draws as many frames as --repeat requests.

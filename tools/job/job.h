@@ -98,8 +98,8 @@ struct job {
     // the scene's lights without the lights of the options (these may depend on the camera); allocated with malloc
     lam_light *lights;
     int light_count;
-    char comment[96]; // of a PNG: the paths of light and their noise; empty for local lighting
-    uint64_t bytes;   // size of the written file
+    char comment[LAM_COMMENT_SIZE]; // of a PNG (lam_frame_comment)
+    uint64_t bytes;                 // size of the written file
     bool written;
     bool planned;                  // --dry-run: loading and arranging have succeeded
     struct options own;            // the options, completed by the settings of a scene file

@@ -10,6 +10,7 @@
 #include "path_passes.h"
 #include "sky.h"
 
+#include <stdio.h>
 #include <string.h>
 
 // Returns the size of the memory in struct lam_device, without the memory that the device's type adds.
@@ -164,6 +165,15 @@ void lam_device_report(const lam_device *device, lam_frame_report *report)
         *report = device->report;
     else
         memset(report, 0, sizeof *report);
+}
+
+void lam_frame_comment(const lam_frame_report *report, char comment[LAM_COMMENT_SIZE])
+{
+    const long long paths = (long long)(report->paths + 0.5), noise = (long long)(report->noise * 100 + 0.5);
+    comment[0] = 0;
+    if (paths) // whole numbers, whose text does not depend on the locale
+        snprintf(comment, LAM_COMMENT_SIZE, "%lld paths of light, estimated noise %lld.%02lld of 255", paths,
+                 noise / 100, noise % 100);
 }
 
 const char *lam_device_name(const lam_device *device) { return device ? device->name : NULL; }

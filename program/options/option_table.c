@@ -596,8 +596,8 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "specular-antialiasing toksvig glitter fireflies no-specular-aa"},
     {"brighten", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
      "A black model needs more light than a white model; otherwise, only the outline of the black model is visible. If "
-     "the base colours of a model file are dark, Lambent brightens the studio by up to 2.5 stops. If a physically "
-     "based "
+     "the base colours of a model file are dark, Lambent brightens the studio by up to 2.5 stops, so that the "
+     "parts of a black model can be told apart. If a physically based "
      "model is white and has no textures, Lambent dims the studio by 5/6 stop, so that edges and holes are visible on "
      "a "
      "white page. `--exposure 0`, `--color` and `--material` disable both adjustments. For the rules, see "

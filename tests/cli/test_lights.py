@@ -104,15 +104,33 @@ class Default(Case):
         [grey], [black] = stops("grey.obj"), stops("black.obj")
         self.assertTrue(0.5 <= grey < black <= 2.5, (grey, black))
         self.assertEqual(stops("black.obj", "--view", "back,top"), [black] * 2)
+        # a device with a small lamp of its own is brightened less, so that the lamp keeps its colour
+        (self.folder / "device.mtl").write_text("newmtl a\nKd 0.0001 0.0001 0.0001\nnewmtl lamp\nKd 0 0 0\nKe 0.5 0.5 0.5\n")
+        body, last = shape.rstrip("\n").rsplit("\n", 1)
+        (self.folder / "device.obj").write_text(f"mtllib device.mtl\nusemtl a\n{body}\nusemtl lamp\n{last}\n")
+        self.assertEqual(stops("device.obj"), [1.25])
         for words in (["white.obj"], ["lamp.obj"], ["torus-knot"], ["torus-knot", "--color", "#020202"], ["black.obj", "--exposure", "0"], ["black.obj", "--color", "#020202"],
                       ["black.obj", "--light", "point"], ["black.obj", "--environment", "sky"], ["black.obj", "--rig", "headlight"], ["black.obj", "--look", "classic"],
                       ["black.obj", "--color-mode", "raw"], ["black.obj", "--ground", "checker"], ["black.obj", "--brighten", "off"]):
             self.assertEqual(stops(*words), [], words)
         draw = lambda *words: self.png("black.obj", "-s", "48", *words)
+        black = round(48 * black) / 48 # the printed number is rounded
         self.assertEqual(draw(), draw("--exposure", black))
         self.assertGreater(max(draw()[2][1::4]), 2 * max(draw("--brighten", "off")[2][1::4]))
         explained = json.loads(self.good("explain", "black.obj", "24,24", "-s", "48", "--json").stdout)
         self.assertAlmostEqual(explained["exposure"], 2 ** black, places=4)
+
+    def test_light_falls_off_across_large_faces(self):
+        """The key light and the fill light are near: no face of a cube has one tone from edge to edge, and none is half dark."""
+        plain = ("cube", "-s", "200", "--samples", "1", "--ao", "off", "--cavity", "off", "-b", "white")
+        triangles, picture = self.png(*plain, "--show", "ids")[2], self.png(*plain)[2]
+        faces = {}
+        for i in range(0, len(picture), 4):
+            faces.setdefault(triangles[i : i + 3], []).append(picture[i])
+        spans = [max(values) - min(values) for color, values in faces.items() if color != b"\xff" * 3 and len(values) > 500]
+        self.assertEqual(len(spans), 6)
+        for span in spans:
+            self.assertTrue(8 <= span <= 28, spans)
 
     def test_white_models_get_less_light(self):
         """On a white page, edges of white physical models would vanish. Their exposure is the same from every side."""

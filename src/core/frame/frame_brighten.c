@@ -12,14 +12,16 @@
 #include <string.h>
 
 // A model is dark if three quarters of its surface have a base colour with a luminance below BRIGHT. If the 75th
-// percentile of the luminance is m stops below BRIGHT, the exposure increases by root(RATE m) stops. The exposure
-// increases by at most MOST stops, and only as long as at most 5 % of the surface exceeds WHITE.
+// percentile of the luminance is m stops below BRIGHT, the exposure increases by RATE cbrt(m) stops: black stays black,
+// but its parts can be told apart. The exposure increases by at most MOST stops, by LAMPS stops if a material emits
+// light, and only as long as at most 5 % of the surface exceeds WHITE.
 #define BRIGHT 0.35
-#define RATE   0.8
+#define RATE   0.9
 #define MOST   2.5
+#define LAMPS  1.25
 #define WHITE  1.0
 
-// A model is white if all its materials are physical, but not metal or glass, and if their base colours have a
+// A model is white if all its materials are physical, but not metal, glass or emissive, and if their base colours have a
 // luminance of at least PAPER. Models with textures or vertex colours are never white. The exposure of white models
 // decreases by DIM stops.
 #define PAPER 0.9
@@ -30,12 +32,17 @@
 // light reaches.
 #define LIGHTEST 1.7
 
+// The exposure stays if more than 5 % of the surface emits light with a luminance above GLOW: such colours are displayed
+// as they are. The small lamps of a device do not count.
+#define GLOW 0.02
+
 enum { BINS = 1024, STEPS = 48 }; // the number of bins, and of steps per stop
 
 // A histogram: area[b] is the area of the surfaces whose base colour has sqrt(luminance) ≈ b / BINS, as a whole number,
 // so that the order of the surfaces has no effect.
 struct luminances {
     int64_t area[BINS], all;
+    int64_t shining; // of `all`, the area that emits light
     // the mesh and the material whose points are added
     const lam_mesh *mesh;
     const lam_material *material;
@@ -53,46 +60,60 @@ static void add_tint(const lam_mesh *mesh, uint32_t corner, double weight, doubl
                                   : srgb_linear(((const uint8_t *)mesh->colors)[4 * at + c] / 255.0));
 }
 
-// Returns the luminance of the base colour at a point of a triangle, given the weights of the corners.
-static double base_luminance(const struct luminances *sum, uint32_t triangle, const double weight[3])
+// Returns the value of a map at a point of a triangle, given the weights of the corners; 1 without a map.
+static texel map_value(const struct luminances *sum, enum lam_map which, uint32_t triangle, const double weight[3])
 {
     const lam_mesh *mesh = sum->mesh;
-    const lam_texture_map *map = sum->material->maps[LAM_MAP_DIFFUSE];
+    const lam_texture_map *map = sum->material->maps[which];
     const float *from = map && map->texcoords ? mesh->second_texcoords : mesh->texcoords;
     const uint32_t *own = map && map->texcoords ? mesh->second_texcoord_indices : mesh->texcoord_indices;
-    double tint[3] = {0}, s = 0, t = 0;
+    double s = 0, t = 0;
+    if (!map || !from)
+        return (texel){1, 1, 1, 1};
     for (uint32_t k = 0; k < 3; k++) {
-        if (mesh->colors)
-            add_tint(mesh, 3 * triangle + k, weight[k], tint);
-        if (map && from) {
-            const float *at = from + 2 * (size_t)mesh_element(own, mesh, 3 * triangle + k);
-            s += weight[k] * (double)at[0];
-            t += weight[k] * (double)at[1];
-        }
+        const float *at = from + 2 * (size_t)mesh_element(own, mesh, 3 * triangle + k);
+        s += weight[k] * (double)at[0];
+        t += weight[k] * (double)at[1];
     }
-    const texel value = map && from ? texture_map_base(map, (float)s, (float)t) : (texel){1, 1, 1, 1};
-    const float *kd = &sum->material->diffuse.r;
-    double color[3];
+    return texture_map_base(map, (float)s, (float)t);
+}
+
+static bool is_dark(const lam_rgb *c) { return c->r == 0 && c->g == 0 && c->b == 0; }
+
+// Returns the luminance of a colour of the material at a point of a triangle, times the mesh's own colour if `tinted`.
+static double luminance_at(const struct luminances *sum, const lam_rgb *color, enum lam_map which, bool tinted,
+                           uint32_t triangle, const double weight[3])
+{
+    double tint[3] = {0}, at[3];
+    for (uint32_t k = 0; tinted && k < 3; k++)
+        add_tint(sum->mesh, 3 * triangle + k, weight[k], tint);
+    const texel value = map_value(sum, which, triangle, weight);
     for (int c = 0; c < 3; c++)
-        color[c] = (double)kd[c] * (mesh->colors ? tint[c] : 1) * (double)value[c];
-    return luminance(color[0], color[1], color[2]);
+        at[c] = (double)(&color->r)[c] * (tinted ? tint[c] : 1) * (double)value[c];
+    return luminance(at[0], at[1], at[2]);
 }
 
 static void add_row(void *user, const struct lattice_row *row)
 {
     struct luminances *sum = user;
-    const bool varies = sum->mesh->colors || sum->material->maps[LAM_MAP_DIFFUSE];
+    const lam_material *material = sum->material;
+    const bool colored = sum->mesh->colors != NULL, shines = !is_dark(&material->emission);
+    const bool varies = colored || material->maps[LAM_MAP_DIFFUSE] || (shines && material->maps[LAM_MAP_EMISSION]);
     for (int i = 0; i < (varies ? row->points : 1); i++) {
         double weight[3];
         for (int k = 0; k < 3; k++)
             weight[k] = row->weight[k] + i * row->step[k];
-        const double bright = base_luminance(sum, row->triangle, weight);
+        const double bright =
+            luminance_at(sum, &(lam_rgb){material->diffuse.r, material->diffuse.g, material->diffuse.b},
+                         LAM_MAP_DIFFUSE, colored, row->triangle, weight);
         if (!(bright >= 0))
             continue;
         const double bin = __builtin_sqrt(bright) * BINS;
         const int64_t area = varies ? row->size : row->size * row->points;
         sum->area[bin < BINS - 1 ? (int)bin : BINS - 1] += area;
         sum->all += area;
+        if (shines && luminance_at(sum, &material->emission, LAM_MAP_EMISSION, false, row->triangle, weight) > GLOW)
+            sum->shining += area;
     }
 }
 
@@ -106,8 +127,6 @@ static double percentile(const struct luminances *sum, double share)
     return ((double)bin + 0.5) * ((double)bin + 0.5) / ((double)BINS * BINS);
 }
 
-static bool is_dark(const lam_rgb *c) { return c->r == 0 && c->g == 0 && c->b == 0; }
-
 // Returns true if the studio is the model's only light, and if the model has its own colours.
 static bool applies(const struct frame *frame, const lam_scene *scene)
 {
@@ -119,11 +138,9 @@ static bool applies(const struct frame *frame, const lam_scene *scene)
     if (settings->color == LAM_COLOR_RAW || settings->ground == LAM_GROUND_CHECKER ||
         settings->ground == LAM_GROUND_COLOR)
         return false;
-    for (int i = 0; i < frame->range_count; i++) {
-        const lam_material *material = frame->materials[frame->ranges[i].front];
-        if (frame->ranges[i].reflection == LAM_REFLECTION_NONE || !is_dark(&material->emission))
+    for (int i = 0; i < frame->range_count; i++)
+        if (frame->ranges[i].reflection == LAM_REFLECTION_NONE)
             return false;
-    }
     return lam_output_is_light(settings->output) || settings->output == LAM_OUTPUT_CLIPPED;
 }
 
@@ -151,7 +168,8 @@ static bool is_white(const struct frame *frame)
         if (draw->ground)
             continue;
         surfaces++;
-        if (draw->strokes || !frame_is_physical(range->reflection) || m->metallic > 0 || m->transmission > 0)
+        if (draw->strokes || !frame_is_physical(range->reflection) || m->metallic > 0 || m->transmission > 0 ||
+            !is_dark(&m->emission))
             return false;
         if (m->maps[LAM_MAP_DIFFUSE] || draw->mesh->colors ||
             luminance((double)m->diffuse.r, (double)m->diffuse.g, (double)m->diffuse.b) < PAPER)
@@ -180,6 +198,7 @@ double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
         return 0;
     if (is_bright(frame))
         return is_white(frame) ? -DIM : 0;
+    bool lamps = false;
     const struct surface_lattice lattice = surface_lattice_of(scene);
     for (int i = 0; i < frame->range_count; i++) {
         const struct frame_draw_range *range = &frame->ranges[i];
@@ -187,15 +206,18 @@ double frame_brighten_stops(const struct frame *frame, const lam_scene *scene)
         const uint32_t first = range->first_id - draw->first_id;
         sum.mesh = draw->mesh;
         sum.material = frame->materials[range->front];
+        lamps |= !is_dark(&sum.material->emission);
         if (!draw->strokes && !draw->ground)
             surface_lattice_visit(&lattice, scene, draw->object, first, first + range->count, add_row, &sum);
     }
     int steps = 0;
     double bright = percentile(&sum, 0.75), white = percentile(&sum, 0.95);
     bool more = sum.all > 0;
-    while (more && steps < (int)(MOST * STEPS)) {
-        double half = (steps + 0.5) / STEPS; // half a step above the current one
-        more = bright * math_exp2(half * half / RATE) < BRIGHT && white * math_exp2((steps + 1.0) / STEPS) < WHITE;
+    if (sum.shining > sum.all / 20)
+        return 0;
+    while (more && steps < (int)((lamps ? LAMPS : MOST) * STEPS)) {
+        double half = (steps + 0.5) / (STEPS * RATE); // half a step above the current one
+        more = bright * math_exp2(half * half * half) < BRIGHT && white * math_exp2((steps + 1.0) / STEPS) < WHITE;
         steps += more;
     }
     double lightest = is_painted(frame, scene) ? percentile(&sum, 0.98) : LIGHTEST;

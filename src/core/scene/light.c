@@ -84,13 +84,14 @@ static lam_light camera_light(const char *name, lam_vec3 from, float diffuse, fl
     return light;
 }
 
-// Makes the default rig; rig_suit_form changes it for curved models and terrains. The key light is near: 3.2 times half
-// the box's diagonal from the centre, in front and to the left, so that the light varies across a flat face. The key
-// light's strength ranges from 1.3 on the near side of the model to 0.75 on the far side. The rim light comes from above
-// and behind. Tops are brightest, left sides darker and right sides darkest, so that the three visible faces of a cube
-// differ at each azimuth. At the corner of the box that is nearest to the key light, a point reflects kd times at most
+// Makes the default rig; suit_scene changes it for curved models and terrains. The key light is near: 3.2 times half the
+// box's diagonal from the centre, in front and to the left, so that the light varies across a flat face. The key light's
+// strength ranges from 1.15 on the near side of the model to 0.85 on the far side. The fill light is near too, so that
+// the faces that turn away from the key light vary as well. The rim light comes from above and behind. Tops are
+// brightest, left sides darker and right sides darkest, so that the three visible faces of a cube differ at each
+// azimuth. At the corner of the box that is nearest to the key light, a point reflects kd times at most
 //
-//  0.66·1.33 (key) + 0.19 (sky) = 1.07
+//  0.66·1.15 (key) + 0.19 (sky) = 0.95
 //
 // Only the key light casts shadows (--shadows, --ground), and these shadows are soft. The other lights represent large
 // bright surfaces; ambient occlusion approximates the shadows of their light.
@@ -100,12 +101,16 @@ static int studio(lam_light *lights)
     lights[0].name = "key";
     lights[0].frame = LAM_FRAME_VIEW;
     lights[0].position = v3(-1.23, 1.29, 2.66);
-    lights[0].attenuation = (lam_attenuation){0.527f, 0, 0.0462f}; // the attenuation is 1 at the centre
+    lights[0].attenuation = (lam_attenuation){0.75f, 0, 0.0244f}; // the attenuation is 1 at the centre
     lights[0].diffuse = (lam_rgb){0.66f, 0.66f, 0.66f};
     lights[0].specular = (lam_rgb){0.9f, 0.9f, 0.9f};
     lights[0].occluded = 0.6f;
     lights[0].radius = 0.4f;
     lights[1] = camera_light("fill", v3(0.95, 0.25, -0.28), 0.06f, 0.10f);
+    lights[1].type = LAM_LIGHT_POINT;
+    lights[1].frame = LAM_FRAME_VIEW;
+    lights[1].position = v3(2.0, 0.53, -0.59);
+    lights[1].attenuation = (lam_attenuation){0, 0, 0.217f}; // 1 at the centre
     lights[1].occluded = 1;
     lights[1].no_shadows = true;
     lights[2] = camera_light("rim", v3(-0.53, 0.66, -0.55), 0.46f, 0.30f);

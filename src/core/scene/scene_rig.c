@@ -125,6 +125,8 @@ static int suit_scene(lam_light lights[LAM_RIG_LIGHTS_MAX], int count, const str
         return count;
     lights[2] = lights[3]; // no rim light
     lam_light *key = &lights[0], *fill = &lights[1], *sky = &lights[2];
+    fill->type = LAM_LIGHT_DIRECTIONAL; // these models have no large faces that need a falloff
+    fill->frame = LAM_FRAME_CAMERA;
     double reflectance = grey_reflectance(scene);
     if (reflectance > 0) {
         suit_contrast(key, fill, sky, form, reflectance);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """beside.py draw PROGRAM OUT             draws the models of bench/peers/models.txt with Lambent and its peers: OUT/ours, OUT/f3d, …
-beside.py sheets OURS OUT PEER...      pairs of pictures of the same name, sides shuffled, for a blind judgement
+beside.py sheets [--crop] OURS OUT PEER...   pairs of pictures of the same name, sides shuffled, for a blind judgement; --crop: to the model
 beside.py tally OUT ANSWERS...         counts won, drawn and lost; an answer is "7L", "7R" or "7=", a file of answers a judge
 beside.py page OURS PEER OUT           the pairs with names, ours on the left: sheets of WebP for docs/beside.md
 
@@ -20,7 +20,7 @@ import shutil
 import subprocess
 import sys
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageChops, ImageDraw, ImageFont
 
 import contact_sheet
 import paths
@@ -87,15 +87,23 @@ def draw(given):
                 break
 
 
-def picture(path):
-    """On white, as large as a cell."""
+def picture(path, crop=False):
+    """On white, as large as a cell. `crop`: to the model, so that models have the same size whatever the distance of a program's camera."""
     image = Image.open(path).convert("RGBA")
     page = Image.new("RGBA", image.size, "white")
     page.alpha_composite(image)
-    return page.convert("RGB").resize((SIDE, SIDE), Image.LANCZOS)
+    page = page.convert("RGB")
+    box = crop and ImageChops.difference(page, Image.new("RGB", page.size, "white")).convert("L").point(lambda v: 255 * (v > 3)).getbbox()
+    if box:
+        side = round(1.06 * max(box[2] - box[0], box[3] - box[1]))
+        left, top = (box[0] + box[2] - side) // 2, (box[1] + box[3] - side) // 2
+        square = Image.new("RGB", (side, side), "white")
+        square.paste(page.crop(box), (box[0] - left, box[1] - top))
+        page = square
+    return page.resize((SIDE, SIDE), Image.LANCZOS)
 
 
-def sheet(pairs):
+def sheet(pairs, crop=False):
     """`pairs`: (title, left path, right path)."""
     rows = (len(pairs) + COLUMNS - 1) // COLUMNS
     width = 2 * SIDE + GAP
@@ -104,8 +112,8 @@ def sheet(pairs):
     for i, (title, left, right) in enumerate(pairs):
         x, y = i % COLUMNS * (width + 2 * GAP), i // COLUMNS * (SIDE + HEAD)
         draw.text((x + 4, y + 3), title, font=font)
-        out.paste(picture(left), (x, y + HEAD))
-        out.paste(picture(right), (x + SIDE + GAP, y + HEAD))
+        out.paste(picture(left, crop), (x, y + HEAD))
+        out.paste(picture(right, crop), (x + SIDE + GAP, y + HEAD))
     return out
 
 
@@ -132,8 +140,8 @@ def write_sheets(given):
             paths_ = [given.ours / f"{name}.png", peer / f"{name}.png"][::1 if side == "left" else -1]
             rows.append((str(number), *paths_))
             for which, path in zip(("left", "right"), paths_):
-                picture(path).save(given.out / f"{number:02}_{which}.png")
-        sheet(rows).save(given.out / f"page_{k:02}.png")
+                picture(path, given.crop).save(given.out / f"{number:02}_{which}.png")
+        sheet(rows, given.crop).save(given.out / f"page_{k:02}.png")
     (given.out / "key.json").write_text(json.dumps(key, indent=1))
     print(len(pairs), "pairs")
 
@@ -177,6 +185,7 @@ def main():
         if name == "sheets":
             command.add_argument("peers", nargs="+", type=pathlib.Path)
             command.add_argument("--seed", type=int, default=1)
+            command.add_argument("--crop", action="store_true", help="crop both pictures to the model")
         elif name == "tally":
             command.add_argument("answers", nargs="+")
     given = parser.parse_args()

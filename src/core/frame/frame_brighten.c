@@ -21,9 +21,9 @@
 #define LAMPS  1.25
 #define WHITE  1.0
 
-// A model is white if all its materials are physical, but not metal, glass or emissive, and if their base colours have a
-// luminance of at least PAPER. Models with textures or vertex colours are never white. The exposure of white models
-// decreases by DIM stops.
+// A model is white if all its materials are physical, but neither metal nor glass nor emissive, and if their base colours
+// have a luminance of at least PAPER. Models with textures or vertex colours are never white. The exposure of white
+// models decreases by DIM stops.
 #define PAPER 0.9
 #define DIM   (5.0 / 6)
 

@@ -424,7 +424,7 @@ static bool is_good(const struct outcome *o, lam_device *device, const char *nam
     bool card = is_card(lam_device_name(device));
     bool hidden = is_hidden(name);
     return (double)o->over_2_outside <= (hidden ? 5e-4 * (double)o->pixels : 0) &&
-           o->worst_outside <= (hidden ? 8 : 255) && (card || o->snapped <= max_snapped) && o->worst_between <= 8 &&
+           o->worst_outside <= (hidden ? 10 : 255) && (card || o->snapped <= max_snapped) && o->worst_between <= 8 &&
            (double)o->between <= 3e-3 * (double)o->pixels && (double)o->soft <= 0.01 * (double)o->pixels &&
            (double)o->grain <= (card ? 1e-3 : 2e-4) * (double)o->pixels &&
            (double)o->over_1 <= (card || hidden ? 0.002 : 0.001) * (double)o->pixels &&

@@ -237,8 +237,9 @@ TEST(test_rigs)
         assert_non_null(lights[i].name);
         hemispheres += lights[i].type == LAM_LIGHT_HEMISPHERE;
         if (lights[i].type != LAM_LIGHT_HEMISPHERE) {
-            assert_int_equal(lights[i].type, i ? LAM_LIGHT_DIRECTIONAL : LAM_LIGHT_POINT);
-            assert_int_equal(lights[i].frame, i ? LAM_FRAME_CAMERA : LAM_FRAME_VIEW);
+            const bool near = i < 2; // the key light and the fill light
+            assert_int_equal(lights[i].type, near ? LAM_LIGHT_POINT : LAM_LIGHT_DIRECTIONAL);
+            assert_int_equal(lights[i].frame, near ? LAM_FRAME_VIEW : LAM_FRAME_CAMERA);
         }
     }
     assert_int_equal(hemispheres, 1);

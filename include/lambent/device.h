@@ -380,6 +380,10 @@ typedef struct lam_draw_params {
     // Shadow rays start on the flat triangles, so that the terminator of a coarse smooth mesh shows its triangles. By
     // default, shadow rays start on the curved surface defined by the vertex normals.
     bool flat_terminator;
+    // Paths of light refract at glass everywhere, so that glass focuses light on rough surfaces (docs/lighting/bounces.md).
+    // Lamps without an extent then shed no light through glass. By default, glass lets light pass in a straight line
+    // after a reflection from a rough surface.
+    bool caustics;
     // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 128. Above 48, pixels share
     // rays (docs/lighting/shadows.md).
     int shadow_samples;
@@ -512,10 +516,12 @@ LAM_API lam_tone lam_draw_tone(const lam_scene *scene, const lam_draw_params *pa
 // Returns the report of the device's last frame; all zero before the first frame.
 LAM_API void lam_device_report(const lam_device *device, lam_frame_report *report);
 
-// Writes the comment of a picture of traced paths for lam_save_params.comment, such as "16 paths of light, estimated noise
-// 3.20 of 255". Writes an empty text for other pictures.
+// The size of the text that lam_device_comment writes, in bytes.
 enum { LAM_COMMENT_SIZE = 96 };
-LAM_API void lam_frame_comment(const lam_frame_report *report, char comment[LAM_COMMENT_SIZE]);
+
+// Writes what lam_save_params.comment should say of the device's last picture if its paths of light were traced, such as
+// "16 paths of light, estimated noise 3.20 of 255". Writes an empty text after other pictures.
+LAM_API void lam_device_comment(const lam_device *device, char comment[LAM_COMMENT_SIZE]);
 
 #ifdef __cplusplus
 }

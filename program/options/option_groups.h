@@ -198,6 +198,7 @@ struct batch_options {
     int retry_failed;
     bool resume, skip_same, isolate, failures_ok;
     const char *jobs;          // "-" or a file; NULL if jobs are not read
+    bool is_list;              // `jobs` is a list with a picture in each row
     int ahead;                 // 0 means the default
     uint64_t line_limit_bytes; // 0 means the default
 };

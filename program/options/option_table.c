@@ -706,6 +706,13 @@ struct option option_table[OPTIONS_MAX] = {
      "The picture depends on the speed of the machine. `--verbose` and reports contain the number of paths; with this "
      "number, `--paths` draws the same picture. Use `--time-limit` for a limit that fails.",
      .others = "time-budget"},
+    {"caustics", 0, GROUP_SHADING, NULL, NULL, NULL,
+     "Only paths that happen to meet an emitting surface or the environment behind glass find this light, so the "
+     "picture "
+     "needs many paths. Lamps without an extent shed no light through glass. Without this option, glass lets light "
+     "pass "
+     "in a straight line after a reflection from a rough surface.",
+     .others = "refractive-caustics"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "
      "hemisphere light and the environment cast no shadows. A light with a `radius` casts soft shadows. "
@@ -1053,6 +1060,15 @@ struct option option_table[OPTIONS_MAX] = {
      "command line apply to every job. Lambent adds a job's own options after these options. Instead of `-`, you can "
      "give a file or a pipe.",
      .kind = VALUE_FILE, .store = store_jobs, .others = "worker server daemon serve", FIELD(batch.jobs)},
+    {"list", 0, GROUP_BATCH, "FILE", NULL,
+     "`batch`: Draw the pictures of a list, FILE.csv or FILE.jsonl, and answer each with a line of JSON.",
+     "Each row is a picture. The column `model` names its model and `output` its file. All other columns are options "
+     "of "
+     "the picture, such as `size`, `view` or `material`. The first line of CSV names the columns. An empty field "
+     "leaves "
+     "the option out; `true` gives an option without a value. Messages name the line. Everything else is as for "
+     "`--jobs`: give `--allow-path` for the folders of models and pictures.",
+     .kind = VALUE_FILE, .store = store_pictures, .others = "catalogue csv", FIELD(batch.jobs)},
     {"ahead", 0, GROUP_BATCH, "N", "twice the number of models drawn at once",
      "The maximum number of waiting jobs. When this many jobs are waiting, Lambent pauses reading.", NULL,
      .store = store_integer, .others = "queue backlog queue-length", FIELD(batch.ahead), .min = 1, .max = 100000},

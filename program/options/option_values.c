@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include <lambent/section.h>
@@ -520,6 +521,19 @@ bool store_jobs(const struct option *option, const char *value, struct options *
             error, LAM_BAD_ARGUMENT,
             "found '%.20s', expected - (standard input) or a file; -j %.20s sets the number of models drawn at once",
             value, value);
+    return store_text(option, value, options, error);
+}
+
+bool store_pictures(const struct option *option, const char *value, struct options *options, lam_error *error)
+{
+    const size_t length = strlen(value);
+    if ((length < 5 || strcasecmp(value + length - 4, ".csv") != 0) &&
+        (length < 7 || strcasecmp(value + length - 6, ".jsonl") != 0))
+        return complain(error, LAM_BAD_ARGUMENT,
+                        "found '%.200s', expected a list of pictures, FILE.csv or FILE.jsonl; for a list of names give "
+                        "@FILE as a model",
+                        value);
+    options->batch.is_list = true;
     return store_text(option, value, options, error);
 }
 

@@ -231,8 +231,8 @@ int options_parse(int count, char **words, uint64_t groups, struct options *opti
 bool background_environment(const char *text, float *blur);
 
 // Parsers for the `store` member of the table. Each comment names the type of the field.
-option_parser store_switch, store_word_flag;             // bool; store_word_flag accepts words with the values 0 and 1
-option_parser store_text, store_jobs, store_environment; // const char *
+option_parser store_switch, store_word_flag; // bool; store_word_flag accepts words with the values 0 and 1
+option_parser store_text, store_jobs, store_pictures, store_environment; // const char *
 option_parser store_color, store_opaque_color, store_show, store_camera; // const char *, checked
 option_parser store_word, store_words, store_glsl, store_up; // int, the value of a word; store_words: a bit mask
 option_parser store_integer;                                 // int

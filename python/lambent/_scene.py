@@ -580,9 +580,8 @@ def paint(scene, options, camera, params, size, task, fitted):
             call(lib.lam_scene_set_environment, handle, ffi.NULL, 0)
         for index, old in enumerate(lights):
             call(lib.lam_scene_set_light, handle, index, old)
-    report, comment = ffi.new("lam_frame_report *"), ffi.new("char[]", lib.LAM_COMMENT_SIZE)
-    lib.lam_device_report(device, report)
-    lib.lam_frame_comment(report, comment)
+    comment = ffi.new("char[]", lib.LAM_COMMENT_SIZE)
+    lib.lam_device_comment(device, comment)
     picture.comment = ffi.string(comment).decode()
     picture.raw = bool(params.color == lib.LAM_COLOR_RAW or not light and params.output != lib.LAM_OUTPUT_BASE_COLOR)
     picture.camera, picture.warnings = Camera(camera[0]), scene.warnings

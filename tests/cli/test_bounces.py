@@ -76,6 +76,19 @@ class Bounces(Case):
         values = self.draw([pane, wall], {"glass": GLASS, "lamp": matt(0, 1)}, ([0, 0, 5], BLACK, 0.01), "--bounces", 40, "--paths", 1024)
         self.check_mean(values, (1 - 0.04) / (1 + 0.04), "pane")
 
+    def test_caustics(self):
+        """With --caustics, a ball of glass is invisible in a furnace with reflecting walls, and focuses the light of a lamp on the floor."""
+        ball = {"shape": "sphere", "material": "glass", "transform": [["scale", 0.4]]}
+        room = [{"shape": "cube", "material": "wall"}, ball]
+        values = self.draw(room, {"wall": matt(0.5, 0.25), "glass": GLASS}, ([0.5, 0.3, 0.9], [0, -0.4, 0], 70), "--bounces", 40, "--paths", 256, "--caustics")
+        self.check_mean(values, 0.5, "furnace")
+        scene = [{"shape": "cube", "material": "floor", "transform": [["translate", 0, -1, 0], ["scale", 4, 0.1, 4]]}, ball,
+                 {"shape": "cube", "material": "lamp", "transform": [["translate", 0, 6, 0], ["scale", 1, 0.01, 1]]}]
+        materials = {"floor": matt(0.8), "glass": GLASS, "lamp": matt(0, 5)}
+        under = [sum(self.draw(scene, materials, ([1.5, -0.6, 0], [0, -0.9, 0], 3), "--bounces", 2, "--paths", 512, *words)) for words in ((), ("--caustics",))]
+        self.assertGreater(under[1], 2 * under[0])
+        self.assertEqual(*(self.draw(scene, materials, ([1.5, 0, 0], [0, -0.5, 0], 60), "--bounces", 2, "--paths", 8, "--caustics", *words) for words in (("-j", 1, "--isa", "scalar"), ("-j", 3))))
+
     def test_equals_local_lighting(self):
         """One lamp and one reflection is what local lighting computes with shadows, for every model that needs no blur."""
         objects = [{"shape": "torus-knot", "material": "m"},
@@ -187,7 +200,7 @@ class Bounces(Case):
 
     def test_warnings(self):
         """Options of paths say that they need --bounces, unless a picture without bounces is asked for."""
-        for words in (("--paths", 8), ("--noise", 3), ("--stop-after", 1), ("--denoise", "on")):
+        for words in (("--paths", 8), ("--noise", 3), ("--stop-after", 1), ("--denoise", "on"), ("--caustics",)):
             done = self.good("cube", "-s", 16, *words, "-o", "a.png")
             self.assertIn("option '%s' has no effect without --bounces" % words[0], done.stderr.decode())
             self.assertNotIn(b"warning", self.good("cube", "-s", 16, *words, "--bounces", 0, "-o", "a.png").stderr)

@@ -195,7 +195,7 @@ class Models(Case):
         """A box that becomes twice as wide: in front view, both have the same height, the new one is twice as wide, and both are within the
         picture."""
         self.box("new/part.obj", 2)
-        found = self.diff("old", "new", "-o", "report.html", "--view", "front", "--projection", "orthographic", "-s", 200, code=6)
+        found = self.diff("old", "new", "-o", "report.html", "--view", "front", "--projection", "orthographic", "--rig", "headlight", "-s", 200, code=6)
         self.assertEqual(found["changed"], 1)
         (_, before), (_, after), (_, where) = self.pictures()
         boxes = [covered(p) for p in (before, after)]

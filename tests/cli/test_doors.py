@@ -49,7 +49,7 @@ INVISIBLE = {
     "environment: faces": "pictures: test_environment.py",
     "environment: equirectangular": "pictures: test_environment.py",
     "setting: anisotropy": "needs a texture: test_textures.py",
-    **{f"setting: {key}": "needs bounces: test_bounces.py" for key in ("denoise", "noise", "stop_after")},
+    **{f"setting: {key}": "needs bounces: test_bounces.py" for key in ("caustics", "denoise", "noise", "stop_after")},
     "setting: map_filter": "needs a texture: test_textures.py",
     "setting: brighten": "needs a model file: test_newcomers.py",
     "setting: light_cutoff": "skips weak lights among many: test_many_lights.c",

@@ -374,6 +374,45 @@ class Refusals(Jobs):
         self.assertEqual((done.returncode, done.stderr), (2, b"lambent: none: cannot read the jobs: No such file or directory\n"))
 
 
+class Lists(Jobs):
+    """--list: rows with a model, a picture and options."""
+
+    def answers(self, name, text, *words, exit=0):
+        (self.folder / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+        done = self.run_program("batch", "--list", name, "--allow-path", ".", "-q", *words)
+        self.assertEqual(done.returncode, exit, done.stderr)
+        return {answer["id"] or answer["line"]: answer for answer in map(json.loads, done.stdout.splitlines())}
+
+    def test_csv_and_json_lines_are_the_same_pictures(self):
+        rows = [{"model": "in/cube.stl", "output": "out/a.png", "size": "32", "view": "front", "material": "gold,roughness=0.2"},
+                {"model": "sphere", "output": 'out/b "2".png', "size": "24x16", "two-sided": True}]
+        lines = "\ufeffmodel,output,size,view,material,two-sided\r\nin/cube.stl,out/a.png,32,front,\"gold,roughness=0.2\",\r\n\r\nsphere,\"out/b \"\"2\"\".png\",24x16,,,true\r\n"
+        drawn = []
+        for name, text in (("list.csv", lines), ("list.jsonl", "".join(json.dumps(row) + "\n" for row in rows))):
+            answers = self.answers(name, text, "-b", "white")
+            self.assertEqual([answers[id]["outcome"] for id in sorted(answers)], ["written"] * 2)
+            drawn.append([(self.folder / row["output"]).read_bytes() for row in rows])
+            for row in rows:
+                (self.folder / row["output"]).unlink()
+        self.assertEqual(*drawn)
+        self.good("in/cube.stl", "-q", "-s", 32, "--view", "front", "--material", "gold,roughness=0.2", "-b", "white", "-o", "alone.png")
+        self.assertEqual((self.folder / "alone.png").read_bytes(), drawn[0][0])
+
+    def test_errors_name_the_line(self):
+        for name, text, line, says in (
+                ("a.csv", "model,output,siez\ncube,a.png,8\n", 2, "line 2: unknown option '--siez'"), ("a.csv", "model,output\ncube,a.png,8\n", 2, "found 3 fields, expected at most 2"),
+                ("a.csv", "model,model\ncube,a.png\n", 1, "column 2: found 'model'"), ("a.csv", "model\ncube\n", 2, "column 'output': is missing"),
+                ("a.csv", 'model,output\n"cube,a.png\n', 2, "each quoted field on one line"), ("a.csv", b"model,output\ncube,\xff.png\n", 2, "UTF-8"),
+                ("a.csv", "model,output,journal\ncube,a.png,j\n", 2, "journal"), ("a.csv", "model,output\ncube,../a.png\n", 2, "../a.png"),
+                ("a.jsonl", "[1]\n", 1, "expected an object of JSON"), ("a.jsonl", '{"output": "a.png"}\n', 1, "expected either key 'model'")):
+            answer = self.answers(name, text, exit=7)[line]
+            self.assertEqual(answer["outcome"], "refused", text)
+            self.assertIn(says, answer["error"], text)
+        for words, says in ((("--list", "list.txt"), "FILE.csv or FILE.jsonl"), (("--list", "a.csv", "--jobs", "-"), "cannot be used together"), (("--list", "a.csv", "cube"), "each row names its model"),
+                            (("--list", "a.csv", "-o", "x/"), "'--list' and '--output'"), (("--list", "none.csv"), "none.csv: cannot read")):
+            self.assertIn(says, self.run_program("batch", *words).stderr.decode(), words)
+
+
 class Flow(Jobs):
     SLOW = {"model": "teapot", "options": {"size": 3000, "samples": 16}}
 

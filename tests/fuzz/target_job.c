@@ -2,6 +2,7 @@
 // line, with the options, the plan and the model's bytes that the line requests. Its files may be in an empty folder.
 #include "target.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -44,5 +45,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     batch_job_free(job);
     json_decref(id);
+    for (int csv = 0; csv < 2; csv++) { // the same bytes as rows of a list: a job, or an error message
+        struct list_rows rows = {.is_csv = csv};
+        for (uint64_t line = 1; line < 3; line++) {
+            char *text;
+            lam_error reason = {0};
+            const bool ok = list_rows_take(&rows, (const char *)data, size, line, &text, &reason);
+            note_sentence(reason.text);
+            if (ok != (reason.code == LAM_OK) || (text && !ok) || (ok && !text && !(csv && line == 1)))
+                abort();
+            free(text);
+        }
+        json_decref(rows.columns);
+    }
     return 0;
 }

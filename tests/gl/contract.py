@@ -175,7 +175,7 @@ def edges(picture):
 
 
 def picture(folder, model, words):
-    done = subprocess.run([PROGRAM, str(model.path), "-o", "-", "--samples", "1", "--ao", "off", "--size", str(SIZE), *words],
+    done = subprocess.run([PROGRAM, str(model.path), "-o", "-", "--samples", "1", "--ao", "off", "--brighten", "off", "--size", str(SIZE), *words],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert done.returncode == 0, done.stderr.decode()
     return read_png(done.stdout)

@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -23,6 +24,7 @@ struct list {
 struct batch_jobs {
     struct batch *batch;
     struct batch_job_rules rules;
+    struct list_rows list; // of --list
     struct job_stream stream;
     size_t ahead;           // how many jobs may wait
     struct job_answers out; // has its own lock
@@ -90,6 +92,8 @@ struct batch_jobs *batch_jobs_open(struct batch *b, lam_error *error)
     jobs->ahead = o->batch.ahead ? (size_t)o->batch.ahead : 2 * (size_t)b->workers;
     jobs->rules = (struct batch_job_rules){
         .options = o, .threads = b->threads, .in_flight = b->workers, .has_keys = b->journal != NULL};
+    const size_t length = strlen(o->batch.jobs);
+    jobs->list.is_csv = length > 4 && strcasecmp(o->batch.jobs + length - 4, ".csv") == 0;
     list_start(&jobs->waiting);
     list_start(&jobs->drawing);
     pthread_condattr_t monotonic;
@@ -123,6 +127,7 @@ void batch_jobs_close(struct batch_jobs *jobs)
     if (jobs->stream.file > STDIN_FILENO)
         close(jobs->stream.file);
     free(jobs->stream.data);
+    json_decref(jobs->list.columns);
     job_answers_end(&jobs->out);
     pthread_cond_destroy(&jobs->changed);
     pthread_mutex_destroy(&jobs->lock);
@@ -227,8 +232,20 @@ static void take_line(struct batch_jobs *jobs, const char *text, size_t size)
     json_t *id;
     lam_error error = {0};
     uint64_t line = jobs->stream.line;
+    char *made = NULL;
     if (is_blank(text, size))
         return;
+    if (jobs->batch->options->batch.is_list) {
+        bool ok = list_rows_take(&jobs->list, text, size, line, &made, &error);
+        if (!ok) {
+            count(jobs, &error, 1);
+            refuse(jobs, NULL, line, "refused", &error);
+        }
+        if (!made)
+            return;
+        text = made;
+        size = strlen(made);
+    }
     switch (batch_job_read(text, size, &jobs->rules, &job, &id, &error)) {
     case LINE_JOB:
         hold(jobs, job, line);
@@ -242,6 +259,7 @@ static void take_line(struct batch_jobs *jobs, const char *text, size_t size)
         break;
     }
     json_decref(id);
+    free(made);
 }
 
 // Adds the held job to the queue if there is space.

@@ -17,20 +17,25 @@
 #include "report.h"
 #include "terminal.h"
 
-// With --jobs, each job names its model and its picture, so there is no list to resume.
+// With --jobs and --list, each job names its model and its picture, so there is no list to resume.
 static bool check_jobs(int operands, const struct options *o, lam_error *error)
 {
     static const char *const others[] = {"output", "files-from", "resume",     "retry-failed", "report",
                                          "json",   "dry-run",    "save-scene", "shard",        NULL};
+    const char *own = o->batch.is_list ? "list" : "jobs";
+    if (o->batch.is_list && option_given(o, "jobs"))
+        return complain(error, LAM_BAD_ARGUMENT, "options '--jobs' and '--list' cannot be used together");
     if (operands)
         return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--jobs': each job names its model, so the command line must not name one");
+                        "option '--%s': each %s names its model, so the command line must not name one", own,
+                        o->batch.is_list ? "row" : "job");
     for (int i = 0; others[i]; i++)
         if (option_given(o, others[i]))
-            return complain(error, LAM_BAD_ARGUMENT, "options '--jobs' and '--%s' cannot be used together", others[i]);
+            return complain(error, LAM_BAD_ARGUMENT, "options '--%s' and '--%s' cannot be used together", own,
+                            others[i]);
     if (o->batch.skip_same && !o->batch.journal)
-        return complain(error, LAM_BAD_ARGUMENT,
-                        "option '--skip-same' needs a journal; with --jobs, give --journal FILE");
+        return complain(error, LAM_BAD_ARGUMENT, "option '--skip-same' needs a journal; with --%s, give --journal FILE",
+                        own);
     return job_check_options(o, error);
 }
 

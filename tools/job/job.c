@@ -101,7 +101,7 @@ static int by_total(const void *a, const void *b)
 // Warns about an option for paths of light if no picture of the command line has any.
 static void warn_paths(struct job *job)
 {
-    static const char *const names[] = {"paths", "noise", "stop-after", "denoise"};
+    static const char *const names[] = {"paths", "noise", "stop-after", "denoise", "caustics"};
     char text[96];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!job->draw.bounces && !option_given(job->options, "bounces") && option_given(job->options, names[i])) {
@@ -129,7 +129,7 @@ bool job_draw_frames(struct job *job, double from, double span, int count, lam_f
              lam_draw(job->device, job->scene, &job->camera, &job->draw, &job->image, &control, error);
         if (ok) {
             lam_device_report(job->device, &reports[i]);
-            lam_frame_comment(&reports[i], job->comment);
+            lam_device_comment(job->device, job->comment);
         }
     }
     return ok;

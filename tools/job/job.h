@@ -98,7 +98,7 @@ struct job {
     // the scene's lights without the lights of the options (these may depend on the camera); allocated with malloc
     lam_light *lights;
     int light_count;
-    char comment[LAM_COMMENT_SIZE]; // of a PNG (lam_frame_comment)
+    char comment[LAM_COMMENT_SIZE]; // of a PNG (lam_device_comment)
     uint64_t bytes;                 // size of the written file
     bool written;
     bool planned;                  // --dry-run: loading and arranging have succeeded

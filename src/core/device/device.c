@@ -167,13 +167,14 @@ void lam_device_report(const lam_device *device, lam_frame_report *report)
         memset(report, 0, sizeof *report);
 }
 
-void lam_frame_comment(const lam_frame_report *report, char comment[LAM_COMMENT_SIZE])
+void lam_device_comment(const lam_device *device, char comment[LAM_COMMENT_SIZE])
 {
-    const long long paths = (long long)(report->paths + 0.5), noise = (long long)(report->noise * 100 + 0.5);
+    const double paths = device ? device->report.paths : 0, noise = device ? device->report.noise * 100 : 0;
+    const long long whole = (long long)(noise + 0.5); // whole numbers, whose text does not depend on the locale
     comment[0] = 0;
-    if (paths) // whole numbers, whose text does not depend on the locale
-        snprintf(comment, LAM_COMMENT_SIZE, "%lld paths of light, estimated noise %lld.%02lld of 255", paths,
-                 noise / 100, noise % 100);
+    if (paths > 0)
+        snprintf(comment, LAM_COMMENT_SIZE, "%lld paths of light, estimated noise %lld.%02lld of 255",
+                 (long long)(paths + 0.5), whole / 100, whole % 100);
 }
 
 const char *lam_device_name(const lam_device *device) { return device ? device->name : NULL; }

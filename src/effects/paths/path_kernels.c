@@ -317,7 +317,7 @@ static void scatter(const struct path_frame *f, struct path_stream *stream, cons
     }
     mask straight = mask_of_bits(glass_tints);
     s.lobes = mixture_of(p, straight);
-    straight = either(straight, negate(s.lobes.sharp));
+    straight = f->caustics ? mask_of_bits(0) : either(straight, negate(s.lobes.sharp));
     if (!p->inside)
         seek_sources(&s, mask_bits(straight), alive);
     struct next_ray next = next_ray_of(p, &s.lobes, &s.numbers);

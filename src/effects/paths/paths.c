@@ -144,6 +144,7 @@ bool path_frame_make(struct path_frame *f, struct call_control *call, lam_error 
     f->environment = (struct environment_view){frame->environment, frame->to_environment, NULL, &f->samples};
     f->samples.light_count = 0;
     f->bounces = frame->path_bounces;
+    f->caustics = frame->settings.caustics;
     if (frame->environment_lights && !environment_samples_make(&f->samples, frame->environment, frame->to_environment,
                                                                ENVIRONMENT_DIRECTIONS, &f->sample_storage, call, error))
         return false;

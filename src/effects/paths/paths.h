@@ -42,6 +42,7 @@ struct path_frame {
     // per area in the hierarchy's space; 0 if the side does not emit or has an emission map.
     const float *emitter_density;
     const bool *emits; // for each range and side, whether it may emit light
+    bool caustics;     // whether glass refracts on all paths
     bool finds;        // whether a path's ray may find light: an environment, a sky, or emission
     struct buffer storage, sample_storage;
 };

@@ -53,6 +53,18 @@ bool job_roots_check(const struct options *options, lam_error *error);
 // set, otherwise with LAM_CANNOT_READ.
 bool job_roots_have(const struct options *options, const char *path, bool writes, lam_error *error);
 
+// --- makes jobs from the rows of a list (--list).
+
+struct list_rows {
+    bool is_csv;     // CSV, whose first line names the columns; otherwise JSON Lines
+    json_t *columns; // of CSV; NULL before the first line. The caller calls json_decref
+};
+
+// Makes the text of a job from a row, for batch_job_read: `model` and `output` are keys of the job, other columns are its
+// options, and the number of the line is its id. Sets *job to NULL for the first line of CSV; otherwise the caller frees
+// it. Fails with LAM_BAD_ARGUMENT.
+bool list_rows_take(struct list_rows *rows, const char *text, size_t size, uint64_t line, char **job, lam_error *error);
+
 // --- reads lines from a file or a pipe, each no longer than a limit.
 
 struct job_stream {

@@ -142,6 +142,8 @@ static const lam_setting rows[] = {
      .summary = "Trace paths until the estimated noise is at most this, in values of 8-bit pictures (0 to 255)."},
     {"stop_after", MEMBER(NUMBER, stop_after_s), .max = 1e9, .zero = true, .expected = "0 to 1000000000",
      .summary = "Finish the picture after this many seconds, with the paths traced by then."},
+    {"caustics", MEMBER(FLAG, caustics),
+     .summary = "Refract light at glass on all paths of `bounces`, so that glass focuses light on rough surfaces."},
     {"ao", MEMBER(WORD, occlusion), WORDS_OF(occlusion_words), .expected = "lam_occlusion",
      .summary = "Ambient occlusion: auto, off, screen or rays."},
     {"cavity", MEMBER(WORD, cavity), WORDS_OF(cavity_words), .expected = "lam_cavity",

@@ -401,13 +401,17 @@ class Lists(Jobs):
     def test_errors_name_the_line(self):
         for name, text, line, says in (
                 ("a.csv", "model,output,siez\ncube,a.png,8\n", 2, "line 2: unknown option '--siez'"), ("a.csv", "model,output\ncube,a.png,8\n", 2, "found 3 fields, expected at most 2"),
-                ("a.csv", "model,model\ncube,a.png\n", 1, "column 2: found 'model'"), ("a.csv", "model\ncube\n", 2, "column 'output': is missing"),
+                ("a.csv", "model,model\ncube,a.png\n", 1, "column 2: found 'model'"), ("a.csv", "model;output\ncube;a.png\n", 1, "found the column 'model;output', expected names separated by commas"),
+                ("a.csv", "model\ncube\n", 2, "the first line names no valid columns"), ("a.csv", "output,model\n,cube\n", 2, "column 'output': is missing"), ("a.csv", b"model,output\ncube,a\0.png\n", 2, "expected fields of CSV"),
                 ("a.csv", 'model,output\n"cube,a.png\n', 2, "each quoted field on one line"), ("a.csv", b"model,output\ncube,\xff.png\n", 2, "UTF-8"),
                 ("a.csv", "model,output,journal\ncube,a.png,j\n", 2, "journal"), ("a.csv", "model,output\ncube,../a.png\n", 2, "../a.png"),
                 ("a.jsonl", "[1]\n", 1, "expected an object of JSON"), ("a.jsonl", '{"output": "a.png"}\n', 1, "expected either key 'model'")):
             answer = self.answers(name, text, exit=7)[line]
             self.assertEqual(answer["outcome"], "refused", text)
             self.assertIn(says, answer["error"], text)
+        answers = self.answers("a.csv", "model,output\ncube,a.png\nsphere,a.png\n", "-s", 8, exit=7)
+        self.assertEqual([answers[2]["outcome"], answers[3]["outcome"]], ["written", "refused"])
+        self.assertIn("line 3: column 'output': line 2 names 'a.png', too", answers[3]["error"])
         for words, says in ((("--list", "list.txt"), "FILE.csv or FILE.jsonl"), (("--list", "a.csv", "--jobs", "-"), "cannot be used together"), (("--list", "a.csv", "cube"), "each row names its model"),
                             (("--list", "a.csv", "-o", "x/"), "'--list' and '--output'"), (("--list", "none.csv"), "none.csv: cannot read")):
             self.assertIn(says, self.run_program("batch", *words).stderr.decode(), words)

@@ -57,6 +57,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             free(text);
         }
         json_decref(rows.columns);
+        json_decref(rows.outputs);
     }
     return 0;
 }

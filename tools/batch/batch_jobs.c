@@ -128,6 +128,7 @@ void batch_jobs_close(struct batch_jobs *jobs)
         close(jobs->stream.file);
     free(jobs->stream.data);
     json_decref(jobs->list.columns);
+    json_decref(jobs->list.outputs);
     job_answers_end(&jobs->out);
     pthread_cond_destroy(&jobs->changed);
     pthread_mutex_destroy(&jobs->lock);

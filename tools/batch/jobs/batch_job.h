@@ -55,9 +55,11 @@ bool job_roots_have(const struct options *options, const char *path, bool writes
 
 // --- makes jobs from the rows of a list (--list).
 
+// Initially zero, except for `is_csv`. The caller calls json_decref for both values.
 struct list_rows {
     bool is_csv;     // CSV, whose first line names the columns; otherwise JSON Lines
-    json_t *columns; // of CSV; NULL before the first line. The caller calls json_decref
+    json_t *columns; // of CSV; NULL before the first line
+    json_t *outputs; // the names of the pictures so far, with their lines; NULL before the first
 };
 
 // Makes the text of a job from a row, for batch_job_read: `model` and `output` are keys of the job, other columns are its

@@ -390,18 +390,17 @@ static bool draw_difference(struct compare *c, const lam_image *last, lam_error 
     const struct point corner = cell_corner(c, c->sheet.count);
     const double u = c->page.unit, middle = corner.x + c->page.cell_width / 2.0, top = corner.y + c->page.cell_height;
     lam_image image = {0};
-    lam_difference difference;
-    char mean[96];
-    bool ok = lam_image_compare(&c->other, last, &difference, error) &&
+    lam_difference *d = &c->differences[c->sheet.count - 1];
+    char title[64], mean[96];
+    bool ok = lam_image_compare(&c->other, last, d, error) &&
               lam_image_difference(&c->other, last, GAIN, &image, error) &&
               draw_image(&c->drawing, &image, (int)corner.x, (int)corner.y, "Difference", error);
     lam_image_free(&image);
     if (!ok || c->options->captions.no_captions)
         return ok;
-    snprintf(mean, sizeof mean, "from picture %d, %d times; the mean is %.1f of 255", c->sheet.apart, GAIN,
-             255 * difference.mean);
-    draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, c->page.cell_width, INK,
-                 "Difference of the last picture");
+    snprintf(title, sizeof title, "Difference of picture %d", c->sheet.apart);
+    snprintf(mean, sizeof mean, "from the last picture, %d times as bright; mean %.1f of 255", GAIN, 255 * d->mean);
+    draw_fitting(&c->drawing, (struct point){middle, top + 32 * u}, 23 * u, c->page.cell_width, INK, title);
     draw_words(c, (struct point){middle, top + 55 * u}, c->page.cell_width, mean);
     return true;
 }
@@ -547,10 +546,11 @@ static void print_json(const struct compare *c, const char *path)
                 json_put(&json, TEXT(NULL, own[k]), TEXT(NULL, own[k + 1]));
             }
         json_close(&json, ']');
-        if (c->sheet.mistakes) {
-            json_put(&json, TEXT("mistake", cell->mistake), NUMBER("mean_difference", c->differences[i].mean),
+        if (c->sheet.mistakes)
+            json_put(&json, TEXT("mistake", cell->mistake));
+        if (c->sheet.mistakes || (c->sheet.apart && i + 1 == c->sheet.count))
+            json_put(&json, NUMBER("mean_difference", c->differences[i].mean),
                      NUMBER("largest_difference", c->differences[i].maximum));
-        }
         json_close(&json, '}');
     }
     json_close(&json, ']');

@@ -381,7 +381,7 @@ typedef struct lam_draw_params {
     // default, shadow rays start on the curved surface defined by the vertex normals.
     bool flat_terminator;
     // Paths of light refract at glass everywhere, so that glass focuses light on rough surfaces (docs/lighting/bounces.md).
-    // Lamps without an extent then shed no light through glass. By default, glass lets light pass in a straight line
+    // Lights then shed nothing through glass, because no path meets them. By default, glass lets light pass in a straight line
     // after a reflection from a rough surface.
     bool caustics;
     // Shadow rays to a light with a radius from each point in its penumbra, 1..256; 0: 128. Above 48, pixels share

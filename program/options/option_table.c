@@ -708,10 +708,8 @@ struct option option_table[OPTIONS_MAX] = {
      .others = "time-budget"},
     {"caustics", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Only paths that happen to meet an emitting surface or the environment behind glass find this light, so the "
-     "picture "
-     "needs many paths. Lamps without an extent shed no light through glass. Without this option, glass lets light "
-     "pass "
-     "in a straight line after a reflection from a rough surface.",
+     "picture needs many paths. Lamps shed no light through glass, also lamps with a radius. Without this option, "
+     "glass lets light pass in a straight line after a reflection from a rough surface.",
      .others = "refractive-caustics"},
     {"shadows", 0, GROUP_SHADING, NULL, NULL, NULL,
      "Lambent traces a ray from every lit point to every light, except lights with `shadows=off`. Ambient light, "

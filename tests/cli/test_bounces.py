@@ -204,6 +204,9 @@ class Bounces(Case):
             done = self.good("cube", "-s", 16, *words, "-o", "a.png")
             self.assertIn("option '%s' has no effect without --bounces" % words[0], done.stderr.decode())
             self.assertNotIn(b"warning", self.good("cube", "-s", 16, *words, "--bounces", 0, "-o", "a.png").stderr)
+        for words, warns in ((("--light", "point:position=1/2/3"), True), (("--environment", "studio", "--rig", "none"), False)):
+            done = self.good("cube", "-s", 16, "--material", "glass", "--bounces", 2, "--paths", 1, "--caustics", *words, "-o", "a.png")
+            self.assertEqual(b"lamps shed no light through glass" in done.stderr, warns, words)
 
     def test_refusals(self):
         self.bad(1, "sphere", "--bounces", 1, "--shading", "gouraud", "-o", "a.png", says=("bounces needs Phong shading",))

@@ -98,7 +98,7 @@ static int by_total(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-// Warns about an option for paths of light if no picture of the command line has any.
+// Warns about an option for paths of light if no picture of the command line has any, and about lamps behind glass.
 static void warn_paths(struct job *job)
 {
     static const char *const names[] = {"paths", "noise", "stop-after", "denoise", "caustics"};
@@ -108,6 +108,17 @@ static void warn_paths(struct job *job)
             snprintf(text, sizeof text, "option '--%s' has no effect without --bounces", names[i]);
             lam_scene_add_warning(job->scene, text);
         }
+    bool lamps = false, glass = false;
+    lam_light lights[16];
+    const int count = lam_draw_lights(job->scene, job->draw.rig, job->draw.ground != LAM_GROUND_NONE, lights, 16);
+    for (int i = 0; i < count && i < 16; i++)
+        lamps |= lights[i].type != LAM_LIGHT_AMBIENT && lights[i].type != LAM_LIGHT_HEMISPHERE;
+    for (int i = 0; i < lam_scene_material_count(job->scene); i++)
+        glass |= lam_scene_material(job->scene, i)->transmission > 0;
+    if (job->draw.bounces && job->draw.caustics && lamps && glass)
+        lam_scene_add_warning(job->scene,
+                              "option '--caustics': lamps shed no light through glass, only emitting surfaces "
+                              "and the environment do");
 }
 
 bool job_draw_frames(struct job *job, double from, double span, int count, lam_frame_report *reports,

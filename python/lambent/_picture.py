@@ -20,7 +20,7 @@ class Picture(np.ndarray):
     raw = False  # the numbers are not sRGB colours
     camera = None  # the Camera of the picture
     warnings = ()  # warnings about problems of the model
-    comment = ""  # what PNG files store as their comment: the number of paths of light, and their noise
+    comment = ""  # the comment of PNG files: the number of paths of light, and their noise
 
     def __array_finalize__(self, other):
         for name in ("raw", "camera", "warnings", "comment"):

@@ -322,7 +322,7 @@ class StoreCase(Case):
         return pictures_below("expected")
 
     def check_journal(self, pictures, skip=()):
-        """Each picture has lines in the journal, the last with its bytes; those of the names in `skip` failed."""
+        """Each picture has lines in the journal, the last with its bytes. The pictures named in `skip` failed."""
         segments = self.stored("thumbs/", "journal")
         lines = [json.loads(line) for data in segments.values() for line in data.splitlines()]
         found = {}

@@ -100,7 +100,7 @@ class Compare(Case):
             self.assertEqual(part(page, gap + i * (48 + gap), gap, 48, 40), one, shading)
 
     def test_named_sheets(self):
-        sizes = {"summary": (5, 1), "terms": (3, 3), "stages": (2, 1), "light": (2, 2), "ambient": (3, 1), "frames": (3, 2),
+        sizes = {"summary": (5, 1), "terms": (4, 2), "stages": (2, 1), "light": (2, 2), "ambient": (3, 1), "frames": (3, 2),
                  "surfaces": (3, 1)}
         for name, (columns, rows) in sizes.items():
             with self.subTest(name):
@@ -113,7 +113,7 @@ class Compare(Case):
         """In raw numbers, ambient + diffuse + specular at shininess 50 equal the picture with all terms, up to the rounding of bytes."""
         page = self.sheet("sphere", "--sheet", "terms", "--no-captions", "--color-mode", "raw", "-s", "48x40", "-b", "0/0/0/1")
         gap = 3
-        at = [part(page, gap + i % 3 * (48 + gap), gap + i // 3 * (40 + gap), 48, 40) for i in range(4)]
+        at = [part(page, gap + i % 4 * (48 + gap), gap + i // 4 * (40 + gap), 48, 40) for i in range(4)]
         for i in range(0, len(at[0]), 4):
             for k in range(3):
                 self.assertLessEqual(abs(min(at[0][i + k] + at[1][i + k] + at[2][i + k], 255) - at[3][i + k]), 2)

@@ -45,7 +45,7 @@ static const struct sheet sheets[] = {
                                   "ambient=0.62,diffuse=0.3,shininess=30"}}},
     [SHEET_TERMS] = {.name = "terms",
                      .title = "The terms of the sum",
-                     .columns = 3,
+                     .columns = 4,
                      .beam = true,
                      .defaults = {COARSE, LIT, {"--material", "specular=0.7"}},
                      .count = 6,

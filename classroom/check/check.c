@@ -371,7 +371,7 @@ static bool run_inferred(struct run *r, const struct contract *nearest, lam_erro
     if (!r->inferred || !prepare(r, &r->inferred->contract, &scenes, error) || !draw(r, scenes, error))
         return false;
     r->report->scenes_wanted = __builtin_popcount(scenes);
-    return r->report->verdict != LAM_CHECK_PASSES || check_conclude(r, reading, outcome, scenes, true, error);
+    return r->report->verdict != LAM_CHECK_PASSES || check_conclude(r, reading, outcome, scenes, error);
 }
 
 // Returns whether most names are not in the contract, which is a guess.
@@ -398,14 +398,14 @@ static bool run_contract(struct run *r, const struct contract *contract, unsigne
     r->report->scenes_wanted = __builtin_popcount(scenes);
     if (r->report->verdict != LAM_CHECK_PASSES)
         return true;
-    bool writes =
+    r->writes_colour =
         compiler_hints_for_output(&r->diagnostics, &r->interface.fragment, p->fragment_name, contract->outputs);
     if (!contract->any_strengths)
-        return check_compare(r, scenes, writes, error);
+        return check_compare(r, scenes, error);
     struct reading *reading;
     enum reading_outcome outcome;
     return check_read(r, contract, contract->prefix_fragment ? contract : NULL, &reading, &outcome, NULL, error) &&
-           check_conclude(r, reading, outcome, scenes, writes, error);
+           check_conclude(r, reading, outcome, scenes, error);
 }
 
 bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam_error *error)
@@ -416,7 +416,7 @@ bool lam_check_run(const lam_check_params *params, lam_check_report *report, lam
         return false;
     // A copy of the parameters. In the copied shaders, inputs replace the fixed-function state of GLSL 110 and 120.
     lam_check_params own = *params;
-    struct run r = {.params = &own, .report = report, .draw_again = draw_again};
+    struct run r = {.params = &own, .report = report, .draw_again = draw_again, .writes_colour = true};
     r.arena = report->memory = calloc(1, sizeof *r.arena);
     if (!r.arena)
         return fail_memory(error, sizeof *r.arena);

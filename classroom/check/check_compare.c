@@ -104,7 +104,7 @@ static unsigned terms_of(const struct reference_scene *s)
 }
 
 // Compares every scene with its reference, and sets the verdict.
-void check_measure(struct run *r, bool writes)
+void check_measure(struct run *r)
 {
     lam_check_report *report = r->report;
     report->verdict = LAM_CHECK_PASSES;
@@ -129,7 +129,7 @@ void check_measure(struct run *r, bool writes)
         if (out->not_numbers)
             report->verdict = LAM_CHECK_NOT_NUMBER;
     }
-    if (report->verdict == LAM_CHECK_NOT_NUMBER && writes)
+    if (report->verdict == LAM_CHECK_NOT_NUMBER && r->writes_colour)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
                         "NaN or infinity reaches the picture: pow() of a negative base, normalize() of a zero "
                         "vector and division by 0 produce it; pow(max(x, 0.0), shininess) does not");
@@ -178,7 +178,7 @@ static bool weigh_darkness(struct run *r, lam_error *error)
 
 // Returns whether a search for faults is useful. A search is useless for nearly empty pictures. Scenes with many NaN
 // values are excluded, because NaN is treated as black and would look like a fault that darkens the picture.
-static bool is_searchable(struct run *r, bool writes)
+static bool is_searchable(struct run *r)
 {
     double clear = 0;
     int usable = 0;
@@ -199,16 +199,16 @@ static bool is_searchable(struct run *r, bool writes)
         r->scenes[i].spoilt = check_missing_share(&r->scenes[i], true) > 0.25;
         usable += !r->scenes[i].spoilt && !r->scenes[i].passes;
     }
-    if (writes && clear > 0.02)
+    if (r->writes_colour && clear > 0.02)
         diagnostics_add(&r->diagnostics, LAM_CHECK_DIAGNOSTIC_HINT, NULL, 0,
                         "%.0f %% of the model is not drawn: the shader discards it, or gl_Position moves it elsewhere",
                         clear * 100);
-    return writes && known && clear < 0.9 && usable > 0;
+    return r->writes_colour && known && clear < 0.9 && usable > 0;
 }
 
 // Finds the styles that the shader uses, and compares the shader with pictures drawn in these styles. The styles are as
 // correct as the reference.
-static bool accept_styles(struct run *r, struct fault_search *s, bool writes, lam_error *error)
+static bool accept_styles(struct run *r, struct fault_search *s, lam_error *error)
 {
     if (s->count == 0)
         for (int i = 0; i < r->scene_count; i++)
@@ -223,7 +223,7 @@ static bool accept_styles(struct run *r, struct fault_search *s, bool writes, la
             : s->styles[i]->demand == DEMAND_BARE_AMBIENT ? "it does not contain \"bare_ambient\": \"required\""
                                                           : "");
     if (s->count == 0)
-        check_measure(r, writes);
+        check_measure(r);
     return true;
 }
 
@@ -273,7 +273,7 @@ static void report_findings(struct run *r, const struct fault_search *s)
             report->scenes[i].looks_like = s->scene_faults[i]->id;
 }
 
-static bool explain(struct run *r, bool writes, lam_error *error)
+static bool explain(struct run *r, lam_error *error)
 {
     struct fault_search s = {.interface = &r->interface,
                              .frame = r->frame,
@@ -308,7 +308,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
         return false;
     r->report->tried = s.tried;
     r->report->search_stopped = s.stopped;
-    if (s.style_count && !accept_styles(r, &s, writes, error))
+    if (s.style_count && !accept_styles(r, &s, error))
         return false;
     if (r->report->verdict == LAM_CHECK_PASSES)
         return true;
@@ -323,7 +323,7 @@ static bool explain(struct run *r, bool writes, lam_error *error)
     return true;
 }
 
-bool check_compare(struct run *r, unsigned scenes, bool writes, lam_error *error)
+bool check_compare(struct run *r, unsigned scenes, lam_error *error)
 {
     shader_interface_set_counts(&r->interface, r->drawn.group_counts);
     if (!check_make_scenes(r, scenes, error))
@@ -332,10 +332,10 @@ bool check_compare(struct run *r, unsigned scenes, bool writes, lam_error *error
         return fail_memory(error, 4 * (size_t)r->size * (size_t)r->size * sizeof(float));
     if (!check_draw_references(r, error))
         return false;
-    check_measure(r, writes);
+    check_measure(r);
     if (!weigh_darkness(r, error))
         return false;
-    if (r->report->verdict == LAM_CHECK_PASSES || !is_searchable(r, writes))
+    if (r->report->verdict == LAM_CHECK_PASSES || !is_searchable(r))
         return true;
-    return explain(r, writes, error);
+    return explain(r, error);
 }

@@ -278,7 +278,7 @@ static bool draw_mended(struct run *r, const struct declarations *sides, const s
 }
 
 // Reports the mistakes of a shader that is right after repairs.
-static bool report_mistakes(struct run *r, struct reading *q, unsigned scenes, bool writes, lam_error *error)
+static bool report_mistakes(struct run *r, struct reading *q, unsigned scenes, lam_error *error)
 {
     const struct declarations both[] = {*q->sides[0].text, *q->sides[1].text};
     const int count = q->repair_count;
@@ -287,7 +287,7 @@ static bool report_mistakes(struct run *r, struct reading *q, unsigned scenes, b
         !draw_mended(r, both, q->repairs, count, scenes, &drawn, error))
         return false;
     if (drawn)
-        check_measure(r, writes);
+        check_measure(r);
     else
         forget_pictures(r);
     r->report->verdict = LAM_CHECK_DIFFERS;
@@ -319,14 +319,13 @@ static bool report_demand(struct run *r, const struct reading *q, const struct c
     return r->report->findings || !*fails || fail_memory(error, 1);
 }
 
-bool check_conclude(struct run *r, struct reading *q, enum reading_outcome outcome, unsigned scenes, bool writes,
-                    lam_error *error)
+bool check_conclude(struct run *r, struct reading *q, enum reading_outcome outcome, unsigned scenes, lam_error *error)
 {
     double missing;
     if (outcome == READING_AGAINST)
         return fail_against(q, error);
     if (outcome == READING_MISTAKEN)
-        return report_mistakes(r, q, scenes, writes, error);
+        return report_mistakes(r, q, scenes, error);
     if (outcome == READING_NONE)
         return fail(
             error, LAM_BAD_ARGUMENT, "no verdict: %s%s",
@@ -349,7 +348,7 @@ bool check_conclude(struct run *r, struct reading *q, enum reading_outcome outco
     }
     if (missing > 0.5)
         return fail(error, LAM_BAD_ARGUMENT, "no verdict: the model is not drawn; an input was probably misread");
-    check_measure(r, writes);
+    check_measure(r);
     hint(r, "the verdict follows from an evaluation of the source; the reference of the scenes is the shader's own "
             "picture");
     report_form(r, q);
@@ -367,7 +366,8 @@ bool check_doubt(struct run *r, const struct contract *contract, unsigned scenes
         double share = check_missing_share(&r->scenes[i], false);
         clear = share < clear ? share : clear;
     }
-    if (r->interface.physical || clear > 0.9 || (report->finding_count && (stated || !r->drawn.unknown_count)))
+    if (r->interface.physical || !r->writes_colour || clear > 0.9 ||
+        (report->finding_count && (stated || !r->drawn.unknown_count)))
         return true;
     if (!check_read(r, stated ? contract : NULL, contract->prefix_fragment ? contract : NULL, &q, &outcome, NULL,
                     error))
@@ -384,5 +384,5 @@ bool check_doubt(struct run *r, const struct contract *contract, unsigned scenes
     report->tried = 0;
     report->search_stopped = false;
     diagnostics_add_names(&r->diagnostics, &r->drawn, &r->interface, r->params);
-    return check_conclude(r, q, outcome, scenes, true, error);
+    return check_conclude(r, q, outcome, scenes, error);
 }

@@ -30,6 +30,7 @@ struct run {
     struct draw_result drawn;
     struct scene_comparison *scenes;
     int scene_count;
+    bool writes_colour;   // false if the fragment shader's outputs are unused: its pictures are undefined
     unsigned expectation; // bits of enum expectation
     float *numbers;       // scratch memory for the samples of a picture
     // Draws the scenes again with other texts, and keeps the verdict. The pictures of the scenes stay in the report.
@@ -50,7 +51,7 @@ bool check_draw_references(struct run *run, lam_error *error);
 // between each scene and its reference, and sets the verdict.
 bool check_make_scenes(struct run *run, unsigned scenes, lam_error *error);
 double check_missing_share(const struct scene_comparison *scene, bool not_numbers);
-void check_measure(struct run *run, bool writes);
+void check_measure(struct run *run);
 
 // Finds a reading of the inputs (reading.h). A contract fixes the roles. `engine` is the contract whose prefix the sources
 // lack, or NULL. `text` (may be NULL) receives the text of the contract that describes the reading.
@@ -59,7 +60,7 @@ bool check_read(struct run *run, const struct contract *contract, const struct c
 
 // Gives the verdict that follows from a reading. Returns false if there is no verdict.
 bool check_conclude(struct run *run, struct reading *reading, enum reading_outcome outcome, unsigned scenes,
-                    bool writes, lam_error *error);
+                    lam_error *error);
 
 // Gives a shader that differs the benefit of the doubt: its names only suggested the contract. Returns false if there is
 // no verdict.
@@ -69,7 +70,7 @@ bool check_doubt(struct run *run, const struct contract *contract, unsigned scen
 void check_describe(struct run *run);
 
 // Compares the pictures of `drawn` with the reference scenes `scenes` (bits), and fills the report: scenes, verdict,
-// findings. `writes` is true if the fragment shader writes a colour.
-bool check_compare(struct run *run, unsigned scenes, bool writes, lam_error *error);
+// findings.
+bool check_compare(struct run *run, unsigned scenes, lam_error *error);
 
 #endif

@@ -238,7 +238,7 @@ TEST(test_hopeless)
 // A large polygon around four points: every test of a corner meets all corners at its own position.
 TEST(test_repeated)
 {
-    enum { COUNT = IS_SLOW_BUILD ? 20000 : 200000 };
+    enum { COUNT = IS_SLOW_BUILD ? 20000 : 100000 };
     static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     uint32_t *corners = malloc(COUNT * sizeof *corners), *triples = malloc(3 * COUNT * sizeof *triples);
     for (uint32_t i = 0; i < COUNT; i++)
@@ -247,7 +247,7 @@ TEST(test_repeated)
     triangulator_start(&scratch, NULL);
     clock_t start = clock();
     assert_true(triangulate(&scratch, positions, corners, COUNT, triples));
-    assert_true(clock() - start < 10 * CLOCKS_PER_SEC); // a minute, if the steps were not limited
+    assert_true(clock() - start < 5 * CLOCKS_PER_SEC); // 12 s instead of 1.2 s, if the steps were not limited
     triangulator_stop(&scratch);
     free(corners);
     free(triples);

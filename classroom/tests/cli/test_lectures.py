@@ -259,14 +259,14 @@ class Exercises(Case):
         self.given |= {"s.png"}
 
     def test_beam_of_the_terms(self):
-        """The sheet of the terms ends with Lambert's law: below the six pictures stands a beam with its two numbers, in ink and in the beam's colour."""
+        """The sheet of the terms ends with Lambert's law: after the six pictures stands a beam with its two numbers, in ink and in the beam's colour."""
         page = self.good("compare", "sphere", "--sheet", "terms", "-s", "240x200", "-o", "terms.svg") and (self.folder / "terms.svg").read_text()
         for text in ("An oblique beam covers more area", "light on an area of 1: cos θ = n·l = 0.6", "beam: 1, surface: 1/cos θ = 1.66667"):
             self.assertIn(text, page)
         self.good("compare", "sphere", "--sheet", "terms", "-s", "240x200", "--no-captions", "-o", "s.png")
         width, height, pixels = read_png((self.folder / "s.png").read_bytes())
-        rows = range(height * 2 // 3, height)
-        self.assertGreater(sum(tuple(pixels[4 * (y * width + x):][:3]) == (0xc7, 0x77, 0) for y in rows for x in range(width // 3)), 20)
+        rows = range(height // 2, height)
+        self.assertGreater(sum(tuple(pixels[4 * (y * width + x):][:3]) == (0xc7, 0x77, 0) for y in rows for x in range(width // 2, width * 3 // 4)), 20)
         self.given |= {"terms.svg", "s.png"}
 
     def test_plain_captions(self):

@@ -2,6 +2,7 @@
 // ISA defined (meson.build).
 #include "lobe_sampling.h"
 #include "path_numbers.h"
+#include "path_tree.h"
 #include "paths.h"
 
 #define PI_F 3.14159265f

@@ -5,6 +5,7 @@
 #include "layer_kinds.h"
 #include "linear.h"
 #include "path_numbers.h"
+#include "path_tree.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +21,9 @@ enum { ENVIRONMENT_DIRECTIONS = 1 << 16 };
 
 // A kind of source has at least this share of the rays, so that a wrong estimate costs little.
 #define SHARE_LEAST 0.1
+
+// The tree has directional lights at this distance, in the hierarchy's space, in which the scene has about the size 1.
+#define DIRECTIONAL_AT 1024
 
 static double luminance(const float c[3])
 {
@@ -44,20 +48,31 @@ static double light_power(const struct path_frame *f, const struct frame_light *
     return sum > 0 ? power / sum : power;
 }
 
-// Sets the sums of the lights' shares. Returns the power of all lights.
-static double set_lights(const struct path_frame *f, float *sums)
+// Lists the lights. Returns the power of all of them.
+static double set_lights(struct path_frame *f, uint64_t *keys)
 {
     const struct frame *frame = f->frame;
-    double total = 0, sum = 0, count = frame->light_count;
-    for (int i = 0; i < frame->light_count; i++)
-        total += light_power(f, &frame->lights[i]);
-    for (int i = 0; i < frame->light_count && total > 0; i++) { // a tenth is shared evenly
-        double power = light_power(f, &frame->lights[i]);
-        sum += power > 0 ? 0.9 * power / total + 0.1 / count : 0;
-        sums[i] = (float)sum;
+    const double scale = f->hierarchy->scale;
+    double total = 0;
+    for (int i = 0; i < frame->light_count; i++) {
+        const struct frame_light *light = &frame->lights[i];
+        const double power = light_power(f, light), matt = luminance(light->diffuse),
+                     shine = luminance(light->specular);
+        double at[3];
+        struct path_node *node = &f->lights.nodes[i];
+        *node = (struct path_node){.power = power > 0 ? (float)(matt > shine ? matt : shine) : 0};
+        ray_point(f->hierarchy, light->world_position, at);
+        for (int c = 0; c < 3; c++) {
+            at[c] = light->kind == LIGHT_DIRECTIONAL ? -DIRECTIONAL_AT * light->world_axis[c] : at[c];
+            node->low[c] = (float)(at[c] - light->radius * scale);
+            node->high[c] = (float)(at[c] + light->radius * scale);
+        }
+        node->attenuation[0] = light->attenuation[0];
+        node->attenuation[1] = (float)((double)light->attenuation[1] / scale);
+        node->attenuation[2] = (float)((double)light->attenuation[2] / (scale * scale));
+        total += power;
     }
-    for (int i = 0; i < frame->light_count && sum > 0; i++)
-        sums[i] = i + 1 < frame->light_count ? (float)((double)sums[i] / sum) : 1;
+    path_tree_make(&f->lights, keys);
     return total;
 }
 
@@ -79,50 +94,49 @@ static double aimed_emission(const struct frame *frame, int range, bool back)
     return luminance(emission);
 }
 
-static double triangle_area(const struct hierarchy *h, uint32_t number)
-{
-    struct ray_triangle t;
-    hierarchy_triangle(h, number, &t);
-    lam_vec3 p[3];
-    for (int k = 0; k < 3; k++)
-        p[k] = v3(t.p[k][0], t.p[k][1], t.p[k][2]);
-    double area = 0.5 * v3_length(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])));
-    return area < 1e30 ? area : 0; // NaN becomes 0
-}
-
 // Lists the emitting triangles; without a list, only counts them. Returns their power.
-static double set_emitters(const struct path_frame *f, struct path_emitter *list, int *count)
+static double set_emitters(struct path_frame *f, uint32_t *list, uint32_t *first, uint64_t *keys)
 {
     const struct frame *frame = f->frame;
+    struct path_tree *tree = &f->emitters;
     double total = 0;
-    *count = 0;
+    tree->count = 0;
     for (int r = 0; r < frame->range_count; r++) {
         const struct frame_draw_range *range = &frame->ranges[r];
         double each = aimed_emission(frame, r, false) + aimed_emission(frame, r, true);
-        for (uint32_t i = 0; i < range->count && each > 0; i++) {
-            total += each * triangle_area(f->hierarchy, range->first_id + i);
-            if (list)
-                list[*count] = (struct path_emitter){range->first_id + i, (float)total};
-            ++*count;
+        if (list)
+            first[r] = tree->count;
+        if (!list && each > 0)
+            tree->count += range->count;
+        for (uint32_t i = 0; list && i < range->count && each > 0; i++) {
+            struct ray_triangle t;
+            hierarchy_triangle(f->hierarchy, range->first_id + i, &t);
+            double power = each * path_triangle_area(&t);
+            struct path_node *node = &tree->nodes[tree->count];
+            *node = (struct path_node){.power = power < 1e38 ? (float)power : 0, .attenuation = {0, 0, 1}};
+            for (int c = 0; c < 3; c++) {
+                double low = t.p[0][c] < t.p[1][c] ? t.p[0][c] : t.p[1][c], high = t.p[0][c] + t.p[1][c] - low;
+                node->low[c] = (float)(t.p[2][c] < low ? t.p[2][c] : low);
+                node->high[c] = (float)(t.p[2][c] > high ? t.p[2][c] : high);
+            }
+            total += (double)node->power;
+            list[tree->count++] = range->first_id + i;
         }
     }
-    for (int i = 0; list && i < *count && total > 0; i++)
-        list[i].sum = i + 1 < *count ? (float)((double)list[i].sum / total) : 1;
+    if (list)
+        path_tree_make(tree, keys);
     return total;
 }
 
-// Sets, for each range and side, whether it emits and the density of aimed rays.
-static void set_sides(const struct path_frame *f, double total, float *density, bool *emits)
+// Sets, for each range and side, whether it emits, and whether rays aim at it.
+static void set_sides(const struct path_frame *f, bool *aimed, bool *emits)
 {
     const struct frame *frame = f->frame;
-    for (int r = 0; r < frame->range_count; r++) {
-        double sides[2] = {aimed_emission(frame, r, false), aimed_emission(frame, r, true)};
-        for (int back = 0; back < 2; back++) {
-            const lam_material *m = side_material(frame, r, back);
-            emits[2 * r + back] = frame->ranges[r].reflection == LAM_REFLECTION_NONE || m->emission.r > 0 ||
-                                  m->emission.g > 0 || m->emission.b > 0;
-            density[2 * r + back] = total > 0 && sides[back] > 0 ? (float)((sides[0] + sides[1]) / total) : 0;
-        }
+    for (int side = 0; side < 2 * frame->range_count; side++) {
+        const lam_material *m = side_material(frame, side / 2, side % 2);
+        emits[side] = frame->ranges[side / 2].reflection == LAM_REFLECTION_NONE || m->emission.r > 0 ||
+                      m->emission.g > 0 || m->emission.b > 0;
+        aimed[side] = aimed_emission(frame, side / 2, side % 2) > 0;
     }
 }
 
@@ -136,10 +150,24 @@ static double environment_power(const struct environment_samples *samples)
     return samples->light_count ? sum / samples->light_count / (4 * PI) : 0;
 }
 
+// Returns the bytes of a tree, and moves its arrays to `at` unless that is NULL.
+static size_t place_tree(struct path_tree *t, char *at)
+{
+    for (t->leaves = 1; t->leaves < t->count;)
+        t->leaves *= 2;
+    const size_t nodes = 2 * (size_t)t->leaves * sizeof *t->nodes, items = t->leaves * sizeof *t->item;
+    if (at) {
+        t->nodes = (struct path_node *)at;
+        t->item = (uint32_t *)(at + nodes);
+        t->leaf = (uint32_t *)(at + nodes + items);
+    }
+    return nodes + items + t->count * sizeof *t->leaf;
+}
+
 bool path_frame_make(struct path_frame *f, struct call_control *call, lam_error *error)
 {
     const struct frame *frame = f->frame;
-    size_t lights = (size_t)frame->light_count, sides = 2 * (size_t)frame->range_count;
+    const size_t ranges = (size_t)frame->range_count, sides = 2 * ranges;
     double power[SOURCE_KINDS] = {0}, sum = 0;
     f->environment = (struct environment_view){frame->environment, frame->to_environment, NULL, &f->samples};
     f->samples.light_count = 0;
@@ -148,26 +176,29 @@ bool path_frame_make(struct path_frame *f, struct call_control *call, lam_error 
     if (frame->environment_lights && !environment_samples_make(&f->samples, frame->environment, frame->to_environment,
                                                                ENVIRONMENT_DIRECTIONS, &f->sample_storage, call, error))
         return false;
-    int count;
-    set_emitters(f, NULL, &count);
+    set_emitters(f, NULL, NULL, NULL);
+    f->lights.count = (uint32_t)frame->light_count;
+    size_t lights = place_tree(&f->lights, NULL), emitters = place_tree(&f->emitters, NULL);
+    const size_t most = f->lights.count > f->emitters.count ? f->lights.count : f->emitters.count;
     if (!buffer_reserve(&f->storage,
-                        (size_t)count * sizeof *f->emitters + (lights + sides) * sizeof(float) + sides * sizeof(bool) +
-                            1,
+                        most * sizeof(uint64_t) + lights + emitters + (f->emitters.count + ranges) * sizeof(uint32_t) +
+                            2 * sides * sizeof(bool),
                         call, error))
         return false;
-    struct path_emitter *emitters = f->storage.data;
-    float *sums = (float *)(emitters + count), *density = sums + lights;
-    bool *emits = (bool *)(density + sides);
-    power[SOURCE_LIGHT] = set_lights(f, sums);
+    uint64_t *keys = f->storage.data;
+    char *trees = (char *)(keys + most);
+    place_tree(&f->lights, trees);
+    place_tree(&f->emitters, trees + lights);
+    uint32_t *emitter = (uint32_t *)(trees + lights + emitters), *first = emitter + f->emitters.count;
+    bool *aimed = (bool *)(first + ranges), *emits = aimed + sides;
+    power[SOURCE_LIGHT] = set_lights(f, keys);
     power[SOURCE_ENVIRONMENT] = environment_power(&f->samples);
-    power[SOURCE_EMITTER] = set_emitters(f, emitters, &count);
-    set_sides(f, power[SOURCE_EMITTER], density, emits);
-    power[SOURCE_EMITTER] /= PI;
-    f->emitters = emitters;
-    f->light_sums = sums;
-    f->emitter_density = density;
+    power[SOURCE_EMITTER] = set_emitters(f, emitter, first, keys) / PI;
+    set_sides(f, aimed, emits);
+    f->emitter = emitter;
+    f->first_emitter = first;
+    f->aimed = aimed;
     f->emits = emits;
-    f->emitter_count = count;
     f->finds = frame->environment || frame->hemisphere_count;
     for (int c = 0; c < 3; c++)
         f->finds |= frame->ambient[c] > 0;
@@ -265,6 +296,17 @@ static void add_surroundings(const struct path_frame *f, struct path_stream *s, 
     }
 }
 
+// Returns pi times the density with which the ray's origin would have aimed a ray at the hit of an emitting triangle.
+static float aimed_density(const struct path_frame *f, const struct path *path, const struct path_ray *ray,
+                           const struct ray_hit *hit)
+{
+    struct ray_triangle t;
+    hierarchy_triangle(f->hierarchy, hit->number, &t);
+    const uint32_t number = f->first_emitter[hit->range] + (hit->number - f->frame->ranges[hit->range].first_id);
+    const float share = f->share[SOURCE_EMITTER] * tree_share(&f->emitters, number, ray->origin, path->normal);
+    return (float)(PI * (double)share / path_triangle_area(&t)) * hit->area_per_angle;
+}
+
 static int by_key(const void *a, const void *b)
 {
     uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
@@ -299,8 +341,8 @@ static int find_surfaces(const struct path_frame *f, struct path_stream *s, stru
             path->alive = false;
             continue;
         }
-        float aimed = (float)PI * f->share[SOURCE_EMITTER] * f->emitter_density[group] * hit->area_per_angle;
-        path->emission_share = path->density > 0 && aimed > 0 ? path->density / (path->density + aimed) : 1;
+        const float aimed = path->density > 0 && f->aimed[group] ? aimed_density(f, path, &s->shadow_ray[i], hit) : 0;
+        path->emission_share = aimed > 0 ? path->density / (path->density + aimed) : 1;
         path->distance = hit->distance;
         s->hit[s->order[i]] = *hit;
         s->key[met++] = (uint64_t)group << 32 | s->order[i];

@@ -18,10 +18,11 @@
 // The kinds of sources that a point chooses between, with fixed probabilities.
 enum path_source { SOURCE_LIGHT, SOURCE_ENVIRONMENT, SOURCE_EMITTER, SOURCE_KINDS };
 
-// A triangle that emits light, with the sum of the power of all triangles before it and of its own.
-struct path_emitter {
-    uint32_t number;
-    float sum;
+// Sources of light, for choosing one near a point (path_tree.h).
+struct path_tree {
+    struct path_node *nodes;
+    uint32_t *item, *leaf; // the source at each leaf, and the leaf of each source
+    uint32_t count, leaves;
 };
 
 // Data of a frame that all paths read.
@@ -34,13 +35,13 @@ struct path_frame {
     struct environment_view environment; // cube is NULL if there is none
     struct environment_samples samples;
     int bounces;
-    float share[SOURCE_KINDS];           // the probability of each kind; 0 if there is none
-    const float *light_sums;             // sums of the lights' shares; the last is 1
-    const struct path_emitter *emitters; // their sums end with 1
-    int emitter_count;
-    // For each range and side (2 range + back): the probability density of points of its triangles among the emitters,
-    // per area in the hierarchy's space; 0 if the side does not emit or has an emission map.
-    const float *emitter_density;
+    float share[SOURCE_KINDS]; // the probability of each kind; 0 if there is none
+    struct path_tree lights, emitters;
+    const uint32_t *emitter; // for each emitting triangle, its number in the hierarchy
+    // For each range, its first emitting triangle among all. For each range and side (2 range + back), whether rays aim
+    // at it: the emission is the same at all points.
+    const uint32_t *first_emitter;
+    const bool *aimed;
     const bool *emits; // for each range and side, whether it may emit light
     bool caustics;     // whether glass refracts on all paths
     bool finds;        // whether a path's ray may find light: an environment, a sky, or emission
@@ -55,6 +56,7 @@ struct path {
     float emission_share;     // the share of the emission of the surface that the ray meets
     float distance;           // length of the ray, in world space
     float toward[3];          // direction of the ray in eye space
+    float normal[3];          // of the ray's origin in world space, for path_tree.h
     uint32_t seed, number;    // of the pixel; of the path
     uint16_t bounces, events; // reflections so far; surfaces so far
     bool alive, straight, mirrored;

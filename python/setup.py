@@ -16,6 +16,7 @@ from wheel.bdist_wheel import bdist_wheel
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 os.chdir(ROOT / "python")
+os.umask(0o022)
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scripts")]
 import project  # noqa: E402
 
@@ -46,6 +47,8 @@ class Build(build_ext):
             self.add_draco(folder)
         shutil.copy(ROOT / "LICENSE", folder)
         describe.write_stubs(folder)
+        for path in folder.rglob("*"):  # the modes of copied files depend on who unpacked the sources
+            path.chmod(0o755 if path.is_dir() or path.stat().st_mode & 0o100 else 0o644)
 
     def add_libraries(self, folder):
         """Copies the libraries that the extension loads, under the names by which it loads them, and their licences."""

@@ -41,7 +41,8 @@ def make_inputs(program, folder):
     for shape in ("cube", "sphere"):
         subprocess.run([program, "-q", "shape", shape, "-o", "ball.stl" if shape == "sphere" else "cube.stl"], cwd=folder, check=True)
     refused = {"draco.gltf": CORPUS / "gltf" / "draco.gltf", "meshopt.gltf": CORPUS / "gltf" / "meshopt.gltf"}
-    expected = {"cube": drawn(*WORDS), "plainCube": drawn("cube.stl", "--size", "96"), "ball": drawn("ball.stl", "--size", "96"),
+    expected = {"cube": drawn(*WORDS), "plainCube": drawn("cube.stl", "--size", "96"), "turning": drawn("cube.stl", "--size", "96", "--turntable", "4"),
+                "ball": drawn("ball.stl", "--size", "96"),
                 "package": drawn(str(CORPUS / "3mf" / "bambu.3mf"), "--size", "96"),
                 "draco": drawn(str(CORPUS / "gltf" / "draco.gltf"), "--size", "96"), "meshopt": drawn(str(CORPUS / "gltf" / "meshopt.gltf"), "--size", "96"),
                 "refused": {name: base64.b64encode(path.read_bytes()).decode() for name, path in refused.items()}}

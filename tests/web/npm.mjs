@@ -27,6 +27,8 @@ function tryDrawing(lambent, label) {
   lambent.files.set('/cube.stl', read('cube.stl'));
   ok(hash(lambent.draw('/cube.stl', options, png)) === expected.cube, `${label}: options by name draw the program's bytes`);
   ok(hash(lambent.draw(words, png)) === expected.cube, `${label}: words draw the program's bytes`);
+  ok(hash(lambent.draw('/cube.stl', { size: 96, turntable: 4 }, png)) === expected.turning, `${label}: a turntable is the program's animated PNG`);
+  ok(hash(lambent.draw('/cube.stl', options, png)) === expected.cube, `${label}: a picture after a turntable`);
   const picture = lambent.draw('/cube.stl', options);
   ok(picture.width === 96 && picture.pixels instanceof Uint8ClampedArray && picture.pixels.length === 96 * 96 * 4 && Array.isArray(picture.warnings), `${label}: pixels`);
 }
@@ -58,6 +60,8 @@ async function tryErrors(lambent) {
   await refused(() => lambent.draw('/missing.stl'), 'LambentError', 'CANNOT_READ', '/missing.stl');
   await refused(() => lambent.draw('/cube.stl', { view: 'frint' }), 'LambentError', 'BAD_ARGUMENT', 'front');
   await refused(() => lambent.draw('/cube.stl', { sice: 4 }), 'LambentError', 'BAD_ARGUMENT', 'size');
+  await refused(() => lambent.draw('/cube.stl', { turntable: 4 }), 'LambentError', 'BAD_ARGUMENT', 'make files');
+  await refused(() => lambent.draw('/cube.stl', { turntable: 4 }, { as: 'jpg' }), 'LambentError', 'UNSUPPORTED', 'contains one picture');
   await refused(() => lambent.draw('/cube.stl', { size: 96 }, { as: 'gif' }), 'TypeError', 'BAD_ARGUMENT', 'png');
   await refused(() => lambent.draw('/cube.stl', { size: {} }), 'TypeError', 'BAD_ARGUMENT', 'found Object as options.size');
   await refused(() => lambent.draw('/cube.stl', { size: NaN }), 'TypeError', 'BAD_ARGUMENT', 'options.size');

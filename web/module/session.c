@@ -10,6 +10,7 @@
 
 #include <lambent/words.h>
 
+#include "animate_frame.h"
 #include "command_table.h"
 #include "console.h"
 #include "contents.h"
@@ -58,8 +59,9 @@ void web_forget(void)
     session.environments = NULL;
 }
 
-// Parses the words. The call's options and job are then complete; its end frees the options in any case.
-static bool start(int count)
+// Parses the words. The call's options and job are then complete; its end frees the options in any case. `saves`: the
+// call writes a file, which can be an animation. The job of an animation loads a model of its own.
+static bool start(int count, bool saves)
 {
     static bool filled;
     struct options *options = &call.options;
@@ -92,7 +94,8 @@ static bool start(int count)
         options->limits.memory_limit_bytes = session.memory_limit_bytes;
     if (!name || !job_check_options(options, error) || !job_check_formula(name, options, error))
         return false;
-    if (options->animation.turntable || options->animation.sweeps.count)
+    bool animated = animation_wanted(options);
+    if (animated && !saves)
         return complain(error, LAM_BAD_ARGUMENT,
                         "options '--turntable' and '--sweep' make files, expected one picture");
     if (session.device && (session.isa != options->work.isa || session.threads != options->work.threads)) {
@@ -110,10 +113,10 @@ static bool start(int count)
     *job = (struct job){.options = options,
                         .model = name,
                         .device = session.device,
-                        .keeps_scene = true,
+                        .keeps_scene = !animated,
                         .environments = session.environments};
     job->times.start = clock_ms();
-    return session.device && kept_model_take(&model, job, &session.progress, error);
+    return session.device && (animated || kept_model_take(&model, job, &session.progress, error));
 }
 
 // Prints the result of a command line, and ends the call. Returns the exit code.
@@ -133,7 +136,8 @@ static int answer(bool ok)
     json_close(&json, '}');
     putc('\n', stdout);
     fflush(stdout);
-    job->scene = NULL; // the session owns the scene
+    if (job->keeps_scene)
+        job->scene = NULL; // the session owns the scene
     lam_image_free(&session.image);
     session.image = job->image;
     job->image = (lam_image){0};
@@ -158,24 +162,26 @@ const void *web_pixels(void) { return session.image.pixels; }
 
 int web_draw(int count)
 {
-    bool ok = start(count) && job_draw(&call.job, LAM_RGBA8, &session.progress, &call.error);
+    bool ok = start(count, false) && job_draw(&call.job, LAM_RGBA8, &session.progress, &call.error);
     return answer(ok);
 }
 
 int web_save(int count)
 {
-    bool ok = start(count);
+    bool ok = start(count, true);
     call.job.output = call.options.picture.output;
     if (ok && (!call.job.output || strcmp(call.job.output, "-") == 0))
         ok = complain(&call.error, LAM_BAD_ARGUMENT, "expected the file to write after -o");
-    ok = ok && job_run(&call.job, &session.progress, &call.error);
+    bool (*run)(struct job *, struct progress *, lam_error *) =
+        animation_wanted(&call.options) ? animation_run : job_run;
+    ok = ok && run(&call.job, &session.progress, &call.error);
     return answer(ok);
 }
 
 int web_explain(int count, int x, int y)
 {
     lam_explanation *explanation = NULL;
-    bool ok = start(count);
+    bool ok = start(count, false);
     if (ok && (x < 0 || y < 0 || x >= call.options.picture.width || y >= call.options.picture.height))
         ok = complain(&call.error, LAM_BAD_ARGUMENT, "pixel %d,%d lies outside of the picture", x, y);
     if (ok)
@@ -228,7 +234,8 @@ static lam_reflection reflection_named(const char *word)
 
 int web_curves(int count, int light, double farthest, double shininess)
 {
-    bool ok = start(count - 1) && job_load(&call.job, NULL, &call.error) && job_arrange(&call.job, NULL, &call.error);
+    bool ok =
+        start(count - 1, false) && job_load(&call.job, NULL, &call.error) && job_arrange(&call.job, NULL, &call.error);
     lam_light one = ok ? light_of(&call.job, light) : lam_light_default(LAM_LIGHT_AMBIENT);
     if (ok && one.type == LAM_LIGHT_AMBIENT)
         ok = complain(&call.error, LAM_BAD_ARGUMENT, "the picture has no light %d with a place or a direction", light);
@@ -257,7 +264,8 @@ int web_curves(int count, int light, double farthest, double shininess)
 int web_lights(int count)
 {
     lam_bytes text = {0};
-    bool ok = start(count) && job_load(&call.job, NULL, &call.error) && job_arrange(&call.job, NULL, &call.error) &&
+    bool ok = start(count, false) && job_load(&call.job, NULL, &call.error) &&
+              job_arrange(&call.job, NULL, &call.error) &&
               lam_lights_encode(call.job.scene, call.job.rig, call.options.draw.ground, &text, &call.error);
     if (ok) {
         fwrite(text.data, 1, text.size, stdout);
@@ -268,7 +276,7 @@ int web_lights(int count)
 
 int web_contents(int count)
 {
-    bool ok = start(count) && job_load(&call.job, NULL, &call.error);
+    bool ok = start(count, false) && job_load(&call.job, NULL, &call.error);
     if (ok) {
         struct json json = {.file = stdout};
         json_open(&json, NULL, '{');

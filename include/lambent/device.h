@@ -273,6 +273,18 @@ typedef enum lam_brighten {
     LAM_BRIGHTEN_COUNT
 } lam_brighten;
 
+// Draws panes that a model file only blends as glass. Blending weakens the reflections of a pane, and adds a film of the
+// base colour.
+typedef enum lam_glass {
+    LAM_GLASS_OFF = 0, // as the file describes them
+    // A physical material becomes thin, smooth glass (transmission 1, metallic 0, roughness at most 0.1) if its name
+    // contains "glass", "window", "windscreen" or "windshield", it is blended with an opacity above 0 and up to 0.6, has
+    // no maps of colour and opacity, and transmits nothing. The glass tints the light by 1 − opacity (1 − base colour), as
+    // the blended pane does before white.
+    LAM_GLASS_AUTO,
+    LAM_GLASS_COUNT
+} lam_glass;
+
 // The ground: a plane at the scene's lowest point, perpendicular to its up axis (lam_scene_set_up), on which the
 // scene's lights cast shadows as if lam_draw_params.shadows were set (docs/lighting/ground.md). The plane is opaque up
 // to a distance of 3 radii of the scene's sphere from the centre, and fades to transparent at 6 radii. The plane is
@@ -428,6 +440,7 @@ typedef struct lam_draw_params {
     // environment is blurred like the mirror image in a surface of this roughness; up to 0.045 it is sharp. Without an
     // environment: LAM_BAD_ARGUMENT.
     float background_environment;
+    lam_glass glass; // whether panes that are only blended become glass
     LAM_RESERVED(11);
 } lam_draw_params;
 
@@ -478,7 +491,8 @@ typedef struct lam_frame_report {
     // estimated root mean square error in values of 8-bit pictures, without the filter. 0 for other pictures; the error is
     // 0 if there was one path.
     double paths, noise;
-    LAM_RESERVED(2);
+    uint64_t glass_materials; // materials that lam_glass changed
+    LAM_RESERVED(1);
 } lam_frame_report;
 
 // Draws the scene from the camera into `image`, which the caller created with the desired size and pixel format.

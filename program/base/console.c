@@ -124,9 +124,9 @@ const char *exit_code_name(const char *name)
 
 struct suggestion suggest_start(const char *typed)
 {
-    // At most a third of the letters may differ; in short words, one letter may differ.
-    int allowed = (int)strlen(typed) / 3;
-    return (struct suggestion){.typed = typed, .distance = allowed < 1 ? 2 : allowed + 1};
+    // At most a third of the letters may differ; in short words, one letter may differ. One letter is like no other.
+    const int length = (int)strlen(typed), allowed = length / 3;
+    return (struct suggestion){.typed = typed, .distance = length < 2 ? 1 : allowed < 1 ? 2 : allowed + 1};
 }
 
 void suggest_try(struct suggestion *suggestion, const char *word)

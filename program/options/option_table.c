@@ -175,7 +175,7 @@ static const struct choice captions_words[] = {{"full", CAPTIONS_FULL, "with the
 static const struct choice look_words[] = {
     {"studio", 0, "the default"},
     {"classic", 1, "the former studio, with directional lights and without occlusion"},
-    {"catalog", 2, "the studio and a ground plane with a soft shadow, for web pages"},
+    {"catalog", 2, "the studio, a ground plane with a soft shadow, and panes as glass, for web pages"},
     {"technical", 3, "feature edges over pale, flat-shaded faces, for print"},
     {NULL, 0, NULL}};
 
@@ -524,7 +524,7 @@ struct option option_table[OPTIONS_MAX] = {
      "`--elevation`, `--zoom`, `--fov` or `--projection`. For any picture, `--json` reports the camera under the same "
      "keys.",
      .kind = VALUE_CAMERA, .store = store_camera,
-     .others = "intrinsics camera-matrix calibration extrinsics position near far pose",
+     .others = "intrinsics k camera-matrix calibration extrinsics position near far pose",
      .also = "eye=eye=* camera-position=eye=* look-at=target=* lookat=target=* target=target=*", FIELD(view.camera),
      .min = FOV_MIN, .max = FOV_MAX},
 
@@ -603,6 +603,12 @@ struct option option_table[OPTIONS_MAX] = {
      "white page. `--exposure 0`, `--color` and `--material` disable both adjustments. For the rules, see "
      "`docs/lighting/tone.md`.",
      .others = "auto-exposure dark-models"},
+    {"glass", 0, GROUP_LIGHTS, "SWITCH", NULL, NULL,
+     "Many files describe a pane of glass as a blended surface. Its reflections then are as weak as its opacity, and "
+     "the pane looks like a grey film. With `auto`, physical materials become thin glass if their name contains glass, "
+     "window, windscreen or windshield, their opacity is at most 0.6, and no map varies their colour. To turn a whole "
+     "model into glass, use `--material glass`.",
+     .others = "glass-panes windows panes no-glass=off"},
     {"ao-radius", 0, GROUP_LIGHTS, "SHARE", .others = "occlusion-radius ssao-radius"},
     {"ao-samples", 0, GROUP_LIGHTS, "N", .others = "occlusion-samples ao-rays ray-count"},
     {"light-scale", 0, GROUP_LIGHTS, "FACTOR", "1",

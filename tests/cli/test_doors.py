@@ -52,6 +52,7 @@ INVISIBLE = {
     **{f"setting: {key}": "needs bounces: test_bounces.py" for key in ("caustics", "denoise", "noise", "stop_after")},
     "setting: map_filter": "needs a texture: test_textures.py",
     "setting: brighten": "needs a model file: test_newcomers.py",
+    "setting: glass": "needs a blended material with a name: test_gltf.py",
     "setting: light_cutoff": "skips weak lights among many: test_many_lights.c",
     "setting: line_width": "needs lines: test_strokes.c",
     "setting: point_size": "needs points: test_strokes.c",

@@ -247,6 +247,21 @@ class Gltf(GltfCase):
             text = self.good(model, "-s", "16", "-b", "white", "-o", "a.png", *words).stderr
             self.assertEqual(b"glass is drawn opaque" in text, said, (words, text))
 
+    def test_panes_that_are_only_blended(self):
+        """With --glass auto, a blended material whose name says glass or window is drawn as thin glass; others stay."""
+        def draw(*words, **material):
+            blended = {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.4, 0.6, material.pop("opacity", 0.3)]}}
+            done = self.good(self.model(materials=[{**blended, **material}, {}, {}]), "-s", "32", "-b", "white", "--brighten", "off", "-v", "-o", "a.png", *words)
+            return read_png((self.folder / "a.png").read_bytes())[2], b"blended materials drawn as glass: 1" in done.stderr
+        glass = draw(name="any", alphaMode="OPAQUE", pbrMetallicRoughness={"baseColorFactor": [0.76, 0.82, 0.88, 1], "metallicFactor": 0, "roughnessFactor": 0.1},
+                     extensions={"KHR_materials_transmission": {"transmissionFactor": 1}})[0]
+        film = draw(name="Shop_WINDOW.001")
+        self.assertEqual(draw("--glass", "auto", name="Shop_WINDOW.001"), (glass, True))
+        self.assertNotEqual(film, (glass, False))
+        self.assertEqual(film, draw("--glass", "auto", name="foil"))
+        self.assertEqual(*(draw("--glass", word, name="glass", opacity=0.7) for word in ("off", "auto")))
+        self.assertNotEqual(draw("--look", "catalog", name="glass"), draw("--look", "catalog", "--glass", "off", name="glass"))
+
     def test_moved_lights(self):
         """A scene file that places a model also places its lights and cameras."""
         light = {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 30, "name": "lamp"}]}}

@@ -214,7 +214,7 @@ CONTEXT = {
     "shadow-terminator": (["--shadows", "--light", "point:position=2r/3r/1r"], "off"),
     "shadow-samples": (["--shadows", "--light", "point:position=2r/3r/1r,radius=0.5"], "3"),
     "hidden-lines": (["--wireframe"], "show"), "surfaces": ([], "off"),
-    "deflection": ([], None), "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "cavity": ([], "off"), "brighten": (["dark.obj"], "off"), "specular-aa": (["--material", "#ffc356,metallic=1,roughness=0.3"], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
+    "deflection": ([], None), "look": ([], "classic"), "ground": ([], "checker"), "ao": ([], "off"), "cavity": ([], "off"), "brighten": (["dark.obj"], "off"), "glass": ([], None), "specular-aa": (["--material", "#ffc356,metallic=1,roughness=0.3"], "off"), "ao-radius": ([], "0.3"), "ao-samples": (["--ao", "rays"], "16"),
     "environment-rotation": (["--reflection-map", "studio", "--reflectivity", "0.5"], "90"),
 }
 

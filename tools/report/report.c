@@ -121,6 +121,8 @@ static void table_of_picture(const struct job *job)
         say_plain("exposure raised by %.3g stops for a dark model\n", frame->brightened);
     if (frame->brightened < 0)
         say_plain("exposure lowered by %.3g stops for a white model\n", -frame->brightened);
+    if (frame->glass_materials)
+        say_plain("glass    blended materials drawn as glass: %" PRIu64 "\n", frame->glass_materials);
     if (job->draw.output == LAM_OUTPUT_DEPTH)
         say_plain("depth    %.7g to %.7g\n", frame->depth_near, frame->depth_far);
     if (frame->ground)

@@ -208,7 +208,7 @@ class Pages(Case):
 class Exercises(Case):
     def test_exercises(self):
         """Twenty exercises of a seed, with one or two mistakes: at least twelve, each visible in 2 % of the pixels and named by the check."""
-        done = self.run_program("exercises", "--count", 20, "--seed", 7, "-o", "class", "--title", "Week <5>")
+        done = self.run_program("exercises", "--count", 20, "--seed", 7, "-o", "class", "--title", "Week <5>", timeout=600)
         if done.returncode == 3 and b"OpenGL" in done.stderr:
             self.skipTest("OpenGL is missing")
         self.assertEqual(done.returncode, 0, done.stderr.decode())

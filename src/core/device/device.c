@@ -83,6 +83,7 @@ static bool draw_once(lam_device *device, const lam_scene *scene, const lam_came
     device->report.frame_ms = (double)(now_ns() - call->start_ns) * 1e-6;
     device->report.triangles = device->frame.triangle_count;
     device->report.brightened = device->frame.brightened;
+    device->report.glass_materials = (uint64_t)device->frame.panes;
     device->report.depth_near = (double)device->frame.depth_near;
     device->report.depth_far = (double)device->frame.depth_far;
     if (ok && device->frame.makes_normals && !device->type->makes_normals)

@@ -209,6 +209,7 @@ struct frame {
     int material_count, scene_material_count; // number of all materials, and number without the copies
     lam_material *converted;                  // materials converted to the other kind
     int converted_count;
+    int panes;               // materials that lam_draw_params.glass changed
     lam_mesh *stroke_meshes; // one per draw of lines or points
     int stroke_mesh_count;
     struct frame_light *lights;

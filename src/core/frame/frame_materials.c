@@ -40,13 +40,44 @@ static lam_material converted(const lam_material *material, lam_reflection model
     return classic;
 }
 
+// Returns whether lam_draw_params.glass applies to a material.
+static bool is_pane(const struct frame *frame, const lam_material *m)
+{
+    static const char *const words[] = {"glass", "window", "windscreen", "windshield"};
+    if (frame->settings.glass != LAM_GLASS_AUTO || !m->name || !frame_is_physical(frame_reflection(frame, m)) ||
+        m->alpha_mode != LAM_ALPHA_BLEND || !(m->diffuse.a > 0 && m->diffuse.a <= 0.6f) || m->transmission > 0 ||
+        m->maps[LAM_MAP_DIFFUSE] || m->maps[LAM_MAP_OPACITY])
+        return false;
+    for (const char *at = m->name; *at; at++)
+        for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+            size_t k = 0;
+            while (words[i][k] && (at[k] | 0x20) == words[i][k])
+                k++;
+            if (!words[i][k])
+                return true;
+        }
+    return false;
+}
+
+static lam_material pane_of(lam_material m)
+{
+    float *base = &m.diffuse.r;
+    for (int c = 0; c < 3; c++)
+        base[c] = 1 - m.diffuse.a * (1 - base[c]);
+    m.diffuse.a = 1;
+    m.transmission = 1;
+    m.metallic = 0;
+    m.roughness = m.roughness < 0.1f ? m.roughness : 0.1f;
+    return m;
+}
+
 size_t frame_materials_to_convert(const struct frame *frame, const lam_scene *scene)
 {
     size_t count = 0;
     bool physical = scene->default_material->physical, mixed = false;
     for (int i = -1; i < scene->materials.count; i++) {
         const lam_material *material = i < 0 ? scene->default_material : lam_scene_material(scene, i);
-        count += !fits(material, frame_reflection(frame, material));
+        count += !fits(material, frame_reflection(frame, material)) || is_pane(frame, material);
         mixed |= material->physical != physical;
     }
     // Each material may also need a converted copy for unlit lines, or for the back of an object whose front has the
@@ -64,15 +95,19 @@ void frame_materials_build(struct frame *frame, const lam_scene *scene)
 {
     frame->default_material = *scene->default_material;
     frame->scene_material_count = frame->material_count = scene->materials.count + 1;
-    frame->converted_count = 0;
+    frame->converted_count = frame->panes = 0;
     for (int i = 0; i < frame->material_count; i++) {
         const lam_material *material = i ? lam_scene_material(scene, i - 1) : &frame->default_material;
         lam_reflection model = frame_reflection(frame, material);
+        const bool fit = fits(material, model), pane = is_pane(frame, material);
         frame->materials[i] = material;
-        if (!fits(material, model)) {
-            frame->converted[frame->converted_count] = converted(material, model);
-            frame->materials[i] = &frame->converted[frame->converted_count++];
-        }
+        if (fit && !pane)
+            continue;
+        lam_material *own = &frame->converted[frame->converted_count++];
+        *own = fit ? *material : converted(material, model);
+        *own = pane ? pane_of(*own) : *own;
+        frame->panes += pane;
+        frame->materials[i] = own;
     }
 }
 

@@ -9,7 +9,7 @@ static int limit_of(const char *word)
 {
     enum { COMPARED_MAX = 63 }; // the limit of lam_edit_distance
     size_t length = strlen(word);
-    return length > COMPARED_MAX ? 0 : (int)length / 3 + 2;
+    return length > COMPARED_MAX ? 0 : length < 2 ? 1 : (int)length / 3 + 2; // one letter is like no other
 }
 
 struct spelling spelling_of(const char *word) { return (struct spelling){.word = word, .limit = limit_of(word)}; }

@@ -14,7 +14,7 @@ struct spelling spelling_of(const char *word);
 void spelling_try(struct spelling *spelling, const char *candidate);
 
 // Returns the word in `words` with the smallest edit distance to `word`. Returns NULL if this distance exceeds 1 plus a
-// third of the length of `word`.
+// third of the length of `word`, or if `word` is another letter.
 const char *nearest_word(const char *word, const char *const *words, int count);
 
 // Returns the known name among `words` that a typed word most likely means, or NULL if none is close enough.

@@ -63,6 +63,8 @@ WORDS(map_filter_words, {"file", LAM_MAP_FILTER_FILE, "the filters that the mode
       {"trilinear", LAM_MAP_FILTER_TRILINEAR, "four texels in each of two smaller copies of the picture (mipmaps)"})
 WORDS(brighten_words, {"auto", LAM_BRIGHTEN_AUTO, "on for model files lit by the built-in studio environment"},
       {"off", LAM_BRIGHTEN_OFF, "all models receive the same light"})
+WORDS(glass_words, {"off", LAM_GLASS_OFF, "materials as the file describes them"},
+      {"auto", LAM_GLASS_AUTO, "blended materials whose name contains glass or window become thin glass"})
 WORDS(ground_words, {"off", LAM_GROUND_NONE, "no ground"},
       {"shadow", LAM_GROUND_SHADOW, "a transparent plane that shows only shadows and occlusion, in translucent black"},
       {"checker", LAM_GROUND_CHECKER,
@@ -152,6 +154,8 @@ static const lam_setting rows[] = {
      .summary = "Reduce glitter on bumpy physical materials: auto, off or on."},
     {"brighten", MEMBER(WORD, brighten), WORDS_OF(brighten_words), .expected = "lam_brighten",
      .summary = "Use a brighter studio for dark models and a dimmer studio for white models: auto or off."},
+    {"glass", MEMBER(WORD, glass), WORDS_OF(glass_words), .expected = "lam_glass",
+     .summary = "Draw blended materials named glass or window as thin glass with full reflections: off or auto."},
     {"background_environment", MEMBER(NUMBER, background_environment), .max = 1, .zero = true, .expected = "0 to 1",
      .summary =
          "Show the environment behind the model, blurred like in a surface of this roughness, up to 1; 0.045 and "

@@ -37,7 +37,7 @@ struct library {
 
 static const char *open_library(struct library *avif)
 {
-    return library_open_functions(&avif->handle, AVIF_LIBRARY, false, LIBRARY_NAMES(FUNCTIONS), "lacks functions");
+    return library_open_functions(&avif->handle, AVIF_LIBRARY, true, LIBRARY_NAMES(FUNCTIONS), "lacks functions");
 }
 
 bool avif_is_installed(void)

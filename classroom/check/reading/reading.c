@@ -167,7 +167,11 @@ static bool run_vertices(struct reading *r, struct reading_sample *s)
             return false;
         for (int i = 0; i < vertex->symbol_count; i++) {
             const struct glsl_symbol *out = &vertex->symbols[i],
-                                     *in = out->storage == GLSL_OUTPUT ? glsl_symbol(fragment, out->name) : NULL;
+                                     *in = out->storage != GLSL_OUTPUT
+                                               ? NULL
+                                               : glsl_symbol(fragment, strcmp(out->name, "gl_FrontColor") == 0
+                                                                           ? "gl_Color"
+                                                                           : out->name);
             if (!in || in->storage != GLSL_INPUT)
                 continue;
             for (int c = 0; c < glsl_size(vertex, out->type); c++) {

@@ -563,6 +563,20 @@ class Renamed(CheckTest):
         self.assertIn("lightPos (uniform): eye, because it is stated", " ".join(self.notes(report, "hint")))
         self.bad(1, "check", *words, "--role", "eye", says="NAME=ROLE", leaves=("s.frag", "s.vert"))
 
+    def test_recursion(self):
+        """A function that calls itself, or is only declared, gets no verdict, also if the check evaluates the texts before a driver reads them."""
+        vert, frag = renamed.rename(dict(zip(("vert", "frag"), renamed.RIGHT["prototypes"])), "letters", 1).values()
+        (self.folder / "s.vert").write_text(vert)
+        body = "float lambert(vec3 n, vec3 l) { return max(dot(n, l), 0.0); }"
+        self.assertIn(body, frag)
+        for text in (frag.replace(body, body.replace("max(", "lambert(n, l) + max(")), frag.replace(body, ""),
+                     frag.replace(body, "").replace("n = normalize(N)", "n = normalize(N) * float[int(lambert(N, N))](1.0)[0]"),
+                     frag.replace(body, "const float k = lambert(vec3(1.0), vec3(1.0));" + body.replace("max(", "k * max("))):
+            (self.folder / "s.frag").write_text(text)
+            done = self.run_program("check", "s.frag", "--vertex", "s.vert", "-s", 32)
+            self.assertIn(done.returncode, (1, 6), done.stdout.decode() + done.stderr.decode())
+            self.assertNotIn(b"passes", done.stdout)
+
 
 class Unruly(CheckTest):
     def test_unknown_names(self):

@@ -182,6 +182,8 @@ void main() { vec3 n = normalize(N), l = normalize(LightPosition - P), v = norma
 void main() { vec3 n = normalize(N), l = normalize(LightPosition - P); FragColor = vec4(Ka + lambert(n, l) * Kd, 1.0); }
 float lambert(vec3 n, vec3 l) { return max(dot(n, l), 0.0); }
 """),
+    "vertices in world space": ("#version 330 core\nin vec3 p, n; uniform mat4 cameraView, lensProjection; out vec3 q, m;\nvoid main() { q = p; m = n; gl_Position = lensProjection * cameraView * vec4(p, 1.0); }\n",
+                                "#version 330 core\nin vec3 q, m; uniform vec3 lamp, viewer, kd; out vec4 o;\nvoid main() { vec3 n = normalize(m), l = normalize(lamp - q), v = normalize(viewer - q); o = vec4(0.1 * kd + kd * max(dot(n, l), 0.0) + 0.3 * pow(max(dot(reflect(-l, n), v), 0.0), 12.0), 1.0); }\n"),
     "old colours": (OLD_VERT.replace("void main() {", "void main() {\n    gl_FrontColor = gl_Color;"),
                     "#version 120\nvarying vec3 n, p;\nuniform vec3 lightPos;\nvoid main() { gl_FragColor = gl_Color * (0.1 + max(dot(normalize(n), normalize(lightPos - p)), 0.0)); }\n"),
     "gouraud with a direction": (GOURAUD.replace("lightPos - p", "lightPos"), PLAIN_OUT),
@@ -236,6 +238,8 @@ WRONG = [
     ("gouraud", {"normal-not-unit", "normal-never-unit"}, [("vert", "normalize(nm * nrm)", "nm * nrm")]),
     ("gouraud", {"light-backwards"}, [("vert", "lightPos - p", "p - lightPos")]),
     ("gouraud", {"eye-backwards", "reflect-sign"}, [("vert", "v = normalize(-p)", "v = normalize(p)")]),
+    ("gouraud with a direction", {"no-clamp"}, [("vert", "max(dot(n, l), 0.0)", "dot(n, l)"), ("vert", "d > 0.0 ? pow(max(dot(reflect(-l, n), v), 0.0), shine) : 0.0", "0.0")]),
+    ("vertices in world space", {"normal-object-space"}, [("vert", "cameraView, lensProjection", "move, viewAndLens"), ("vert", "lensProjection * cameraView", "viewAndLens * move")]),
     ("linear and quadratic", {"half-not-unit"}, [("frag", "normalize(l + v)", "(l + v)")]),
     ("array of lights", {"half-not-unit"}, [("frag", "normalize(l + v)", "(l + v)")]),
     ("world spot", {"reflect-sign", "eye-backwards"}, [("frag", "reflect(-lightDir, norm)", "reflect(lightDir, norm)")]),

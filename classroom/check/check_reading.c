@@ -222,6 +222,8 @@ static void report_repair(struct run *r, const struct repair *mistake, const cha
         snprintf(other + strlen(other), sizeof other - strlen(other), "%s%s", i ? " " : "", also[i]);
     if (row)
         fault_text(row->explanation, &r->interface, r->frame, r->reflection, text, sizeof text);
+    else // the only mistake that the search on drawn scenes does not know
+        snprintf(text, sizeof text, "v is the difference of an eye and a point that are in different spaces");
     *out = (lam_check_finding){.mistake = mistake->mistake,
                                .explanation = arena_string(r->arena, text),
                                .also = also_count ? arena_string(r->arena, other) : NULL,

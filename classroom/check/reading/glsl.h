@@ -80,7 +80,7 @@ struct glsl_function {
     struct glsl_type types[GLSL_PARAMETERS];
     int places[GLSL_PARAMETERS];
     uint8_t out[GLSL_PARAMETERS]; // 1: in, 2: out, 3: inout
-    int body, result;             // result: address
+    int body, result;             // body: -1 while only a prototype is known; result: address
 };
 
 struct glsl_program {
@@ -101,6 +101,7 @@ struct glsl_program {
     bool discarded;
     char unsupported[120]; // the reason why the source cannot be read or evaluated; "" if there is none
     int at, depth;         // used while parsing
+    bool inner;            // while parsing: inside of a function other than main()
 };
 
 // Parses a source. Returns false if a part of it is not supported (p->unsupported). The memory is from the arena.

@@ -202,6 +202,9 @@ static void call_builtin(struct glsl_program *p, const struct glsl_node *node, d
             double x[3] = {0};
             for (int k = 0; k < count && k < 3; k++)
                 x[k] = a[k][glsl_width(t[k]) > 1 ? i : 0];
+            const bool color = n > 2; // the picture cuts off colours at 1 in any case
+            x[1] = color && f == F_min && x[1] == 1 ? x[0] : x[1];
+            x[2] = color && f == F_clamp && x[2] == 1 && x[0] > 1 ? x[0] : x[2];
             out[i] =
                 f == F_atan ? (count > 1 ? math_atan2(x[0], x[1]) : math_atan(x[0])) : component(f, x[0], x[1], x[2]);
         }
@@ -346,7 +349,8 @@ static void call(struct glsl_program *p, const struct glsl_node *node, double *o
     for (int k = 0; k < i; k++)
         if (f->out[k] & 1)
             memmove(p->memory + f->places[k], values[k], (size_t)glsl_size(p, f->types[k]) * sizeof *out);
-    run(p, f->body, f);
+    if (f->body >= 0)
+        run(p, f->body, f);
     memmove(out, p->memory + f->result, (size_t)glsl_size(p, f->type) * sizeof *out);
     i = 0;
     for (int child = node->first; child >= 0; child = p->nodes[child].next, i++)

@@ -248,6 +248,8 @@ static int call(struct glsl_program *p)
         bool same = strcmp(p->functions[i].name, name) == 0 && p->functions[i].count == count;
         for (int k = 0; k < count && same; k++)
             same = accepts(p->functions[i].types[k], types[k]);
+        if (same && p->inner && p->functions[i].body < 0)
+            return stop(p, name); // a function may call only functions above it, which excludes recursion
         if (same) {
             p->nodes[node].number = i;
             p->nodes[node].type = p->functions[i].type;
@@ -616,6 +618,14 @@ static void block_members(struct glsl_program *p, struct glsl_type t, struct gls
         declare(p, p->members[i].name, p->members[i].type, kind.storage)->flat = kind.flat;
 }
 
+static bool is_same(const struct glsl_function *a, const struct glsl_function *b)
+{
+    bool same = strcmp(a->name, b->name) == 0 && a->count == b->count;
+    for (int i = 0; i < a->count && same; i++)
+        same = accepts(a->types[i], b->types[i]) && a->types[i].base == b->types[i].base;
+    return same;
+}
+
 static void function(struct glsl_program *p, const char *name, struct glsl_type type)
 {
     const int outside = p->symbol_count;
@@ -647,19 +657,21 @@ static void function(struct glsl_program *p, const char *name, struct glsl_type 
     take(p, "void");
     expect(p, ")");
     f.result = reserve(p, glsl_size(p, type));
-    if (take(p, ";")) { // a prototype: the calls come after the definition, or are not supported
-        p->symbol_count = outside;
-        return;
-    }
-    int body = statement(p);
+    int at = 0; // of the prototype, or of a new function
+    while (at < p->function_count && !is_same(&p->functions[at], &f))
+        at++;
+    const bool prototype = take(p, ";");
+    p->inner = strcmp(name, "main") != 0;
+    f.body = prototype ? -1 : statement(p);
+    p->inner = false;
     p->symbol_count = outside;
-    f.body = body;
     if (strcmp(name, "main") == 0)
-        p->main_body = body;
-    else if (p->function_count < GLSL_FUNCTIONS)
-        p->functions[p->function_count++] = f;
-    else
+        p->main_body = f.body;
+    else if (at == GLSL_FUNCTIONS)
         stop(p, "too many functions");
+    else if (!prototype || at == p->function_count)
+        p->functions[at] = f;
+    p->function_count += strcmp(name, "main") != 0 && at == p->function_count && at < GLSL_FUNCTIONS;
 }
 
 static bool qualifier(struct glsl_program *p, struct glsl_symbol *kind)
@@ -860,6 +872,9 @@ static void declare_built_ins(struct glsl_program *p)
                 {"gl_FrontColor", "vec4", GLSL_OUTPUT, 0},
                 {"gl_BackColor", "vec4", GLSL_OUTPUT, 0},
                 {"gl_TexCoord", "vec4", GLSL_OUTPUT, 8},
+                {"gl_ClipDistance", "float", GLSL_LOCAL, 8},
+                {"gl_PointSize", "float", GLSL_LOCAL, 0},
+                {"gl_FragDepth", "float", GLSL_LOCAL, 0},
                 {"gl_FragCoord", "vec4", GLSL_LOCAL, 0},
                 {"gl_FrontFacing", "bool", GLSL_LOCAL, 0},
                 {"gl_FragColor", "vec4", GLSL_LOCAL, 0},
@@ -890,5 +905,8 @@ bool glsl_parse(struct glsl_program *p, const struct declarations *text, bool ve
     declare_built_ins(p);
     while (!p->unsupported[0] && p->at < text->word_count)
         global(p);
+    for (int i = 0; i < p->function_count && !p->unsupported[0]; i++)
+        if (p->functions[i].body < 0)
+            stop(p, p->functions[i].name); // declared, but not defined
     return !p->unsupported[0] && (p->main_body >= 0 || stop(p, "there is no main()"));
 }

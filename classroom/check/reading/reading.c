@@ -130,6 +130,23 @@ static void put_right(struct reading *r, const struct reading_sample *s, enum re
         to_space(s, space, world, r->right[space][which]);
 }
 
+static bool is_directional(const struct reading *r, int light)
+{
+    for (int i = 0; i < r->leaf_count; i++)
+        if (r->leaves[i].geometric && r->leaves[i].choices[r->leaves[i].chosen].role == READ_LIGHT &&
+            light >= r->leaves[i].light && light < r->leaves[i].light + (r->leaves[i].count ? r->leaves[i].count : 1))
+            return false;
+    return r->light_count > 0;
+}
+
+static void way(const struct reading *r, const struct reading_sample *s, int light, const double p[3], double out[3])
+{
+    double center[3];
+    weighted(s, s->points, center);
+    subtract(r->light_count ? s->lights[light] : s->eye, r->light_count && is_directional(r, light) ? center : p, out);
+    unit3(out);
+}
+
 void reading_set_right(struct reading *r, const struct reading_sample *s, int k)
 {
     double p[3], n[3], v[3], l[3];
@@ -139,9 +156,8 @@ void reading_set_right(struct reading *r, const struct reading_sample *s, int k)
     memcpy(p, k < 3 ? s->points[k] : p, sizeof p);
     memcpy(n, k < 3 ? s->units[k] : n, sizeof n);
     subtract(s->eye, p, v);
-    subtract(s->lights[0], p, l);
+    way(r, s, 0, p, l);
     unit3(v);
-    unit3(l);
     put_right(r, s, RIGHT_POINT, p, 1);
     put_right(r, s, RIGHT_NORMAL, n, 0);
     put_right(r, s, RIGHT_EYE, v, 0);
@@ -167,7 +183,11 @@ static bool run_vertices(struct reading *r, struct reading_sample *s)
             return false;
         for (int i = 0; i < vertex->symbol_count; i++) {
             const struct glsl_symbol *out = &vertex->symbols[i],
-                                     *in = out->storage == GLSL_OUTPUT ? glsl_symbol(fragment, out->name) : NULL;
+                                     *in = out->storage != GLSL_OUTPUT
+                                               ? NULL
+                                               : glsl_symbol(fragment, strcmp(out->name, "gl_FrontColor") == 0
+                                                                           ? "gl_Color"
+                                                                           : out->name);
             if (!in || in->storage != GLSL_INPUT)
                 continue;
             for (int c = 0; c < glsl_size(vertex, out->type); c++) {
@@ -196,23 +216,6 @@ bool reading_evaluate(struct reading *r, struct reading_sample *s)
 }
 
 // --- the terms of a right shader
-
-static bool is_directional(const struct reading *r, int light)
-{
-    for (int i = 0; i < r->leaf_count; i++)
-        if (r->leaves[i].geometric && r->leaves[i].choices[r->leaves[i].chosen].role == READ_LIGHT &&
-            light >= r->leaves[i].light && light < r->leaves[i].light + (r->leaves[i].count ? r->leaves[i].count : 1))
-            return false;
-    return r->light_count > 0;
-}
-
-static void way(const struct reading *r, const struct reading_sample *s, int light, const double p[3], double out[3])
-{
-    double center[3];
-    weighted(s, s->points, center);
-    subtract(r->light_count ? s->lights[light] : s->eye, r->light_count && is_directional(r, light) ? center : p, out);
-    unit3(out);
-}
 
 static void view(const struct reading_sample *s, const struct reading_form *f, const double p[3], double out[3])
 {
@@ -372,7 +375,7 @@ int reading_count_wrong(struct reading *r, bool known)
     bool matters = known;
     if (!known && !make_pair(r, r->samples + READ_TURNS, r->pair))
         return READ_MANY;
-    for (int k = known; k < 2; k++) {
+    for (int k = 0; k < 2; k++) {
         for (int side = 0; side < 2; side++)
             for (int i = 0; i < r->sides[side].node_count; i++)
                 if (glsl_is_dot(&r->sides[side], i))
@@ -394,7 +397,7 @@ int reading_count_wrong(struct reading *r, bool known)
                 matters = matters || (k && dot->depends);
                 for (int c = 0; c < count && k && dot->depends && x != not_run; c++) {
                     same = same || is_small(x - right[1][side][c]);
-                    along = along || (!known && is_small(x * right[0][side][c] - before * right[1][side][c]));
+                    along = along || is_small(x * right[0][side][c] - before * right[1][side][c]);
                 }
                 if (k && dot->depends && x != not_run && !same && !is_of_axis(r, p, i))
                     wrong += along ? 1 : 2;
@@ -433,7 +436,7 @@ static double color_of(const struct reading_form *f, double x)
 // visible.
 static bool test_point(struct reading *r, int point, const struct reading_form *f, uint32_t *lit, bool *shines)
 {
-    static _Thread_local double a[READ_COLUMNS][READ_COLUMNS + 3], c[READ_TURNS][READ_COLUMNS];
+    static _Thread_local double a[READ_COLUMNS][READ_COLUMNS + 3], c[READ_TURNS][READ_COLUMNS], colors[READ_TURNS][3];
     struct reading_sample *s = r->samples + point * READ_TURNS;
     const int n = columns(r, s, f, c[0]), turns = 12 + 3 * n < READ_TURNS ? 12 + 3 * n : READ_TURNS;
     double largest = 0;
@@ -444,15 +447,15 @@ static bool test_point(struct reading *r, int point, const struct reading_form *
         if (s[t].color[0] < -1e29 && !reading_evaluate(r, &s[t]))
             return false;
         columns(r, &s[t], f, c[t]);
+        for (int i = 0; i < 3; i++) {
+            double y = colors[t][i] = color_of(f, s[t].color[i]);
+            largest = y > largest ? y : -y > largest ? -y : largest;
+        }
         for (int k = 0; k < n; k++) {
             for (int m = 0; m < n; m++)
                 a[k][m] += c[t][k] * c[t][m];
             for (int i = 0; i < 3; i++)
-                a[k][n + i] += c[t][k] * color_of(f, s[t].color[i]);
-        }
-        for (int i = 0; i < 3; i++) {
-            double y = color_of(f, s[t].color[i]);
-            largest = y > largest ? y : -y > largest ? -y : largest;
+                a[k][n + i] += c[t][k] * colors[t][i];
         }
     }
     solve(a, n);
@@ -485,7 +488,7 @@ static bool test_point(struct reading *r, int point, const struct reading_form *
             double y = 0;
             for (int k = 0; k < n; k++)
                 y += factors[k][i] * c[t][k];
-            y -= color_of(f, s[t].color[i]);
+            y -= colors[t][i];
             y = y < 0 ? -y : y;
             sum += y;
             r->worst = y > r->worst ? y : r->worst;
@@ -573,6 +576,33 @@ static bool has_role(const struct reading *r, int role)
     return false;
 }
 
+// Returns whether the colours change if only the eye moves, as every highlight does.
+static bool sees_eye(struct reading *r)
+{
+    for (int k = 0; k < 12; k++) {
+        struct reading_sample *s = r->samples + (k % READ_POINTS) * READ_TURNS + k, moved = *s;
+        const struct reading_sample *other = s - k + READ_TURNS - 1 - k;
+        memcpy(moved.eye, other->eye, sizeof moved.eye);
+        memcpy(moved.eye_axis, other->eye_axis, sizeof moved.eye_axis);
+        memcpy(moved.matrices, other->matrices, sizeof moved.matrices);
+        if (!reading_evaluate(r, s) || !reading_evaluate(r, &moved))
+            return true;
+        for (int i = 0; i < 3; i++)
+            if (!is_small(s->color[i] - moved.color[i]))
+                return true;
+    }
+    return false;
+}
+
+// Returns whether a stage calls dot() with the normal, in the reading of the last reading_count_wrong.
+static bool is_lit(const struct reading *r, int side)
+{
+    for (int i = 0; i < r->sides[side].node_count; i++)
+        if (r->dots[side][i].depends)
+            return true;
+    return false;
+}
+
 bool reading_test_forms(struct reading *r, bool wrong)
 {
     double powers[7] = {0};
@@ -586,7 +616,8 @@ bool reading_test_forms(struct reading *r, bool wrong)
     const double gamma = encoding(r);
     const bool has_eye = has_role(r, READ_EYE);
     const bool lit_later = declarations_uses(fragment, "dot") || declarations_uses(fragment, "normalize");
-    int count = 1 + exponents(r, powers + 1);
+    const bool lit[] = {is_lit(r, 0), is_lit(r, 1)}, shines = sees_eye(r);
+    int count = shines ? 1 + exponents(r, powers + 1) : 1;
     for (int k = 0; k < count; k++)
         for (int bits = 0; bits < 64; bits++)
             for (int early = wrong ? 1 : 0; early < (wrong ? 8 : 1); early++) {
@@ -599,7 +630,8 @@ bool reading_test_forms(struct reading *r, bool wrong)
                                          .early = (uint8_t)early,
                                          .exponent = powers[k]};
                 if ((k == 0 && (bits & 22 || r->needs_highlight)) || (f.infinite_viewer && has_eye) ||
-                    (!f.vertex && !lit_later) || (f.vertex && (f.late_normal || wrong)) || (bits & 32 && gamma <= 0) ||
+                    (!f.vertex && (!lit_later || (lit[0] && !lit[1]))) || (f.vertex && !lit[0] && lit[1]) ||
+                    (f.vertex && (f.late_normal || wrong)) || (bits & 32 && gamma <= 0) ||
                     (f.vertex && r->light_count > 4))
                     continue;
                 if (reading_test(r, &f)) {

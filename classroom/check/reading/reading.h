@@ -124,15 +124,16 @@ struct reading {
     struct reading_sample *pair;       // two samples with different normals
     double worst;                      // the largest residual of the last test
     double right[3][RIGHT_VECTORS][4]; // by space; set before each run of a stage
-    // The likeliest readings, in the order in which they are tested: the first that contradict no name, and then readings
-    // with few wrong cosines. `mean` is the mean residual of the best form.
+    // The likeliest readings that contradict no clear name, in the order in which they are tested: the first, and then
+    // readings with few wrong cosines. `mean` is the mean residual of the best form.
     struct reading_state {
         uint8_t chosen[READ_LEAVES],
-            roles[READ_LEAVES];    // `roles`: of the first choice, for the matrices of gl_Position
-        bool rows, against, cheap; // cheap: one of the first
+            roles[READ_LEAVES]; // `roles`: of the first choice, for the matrices of gl_Position
+        bool rows, cheap;       // cheap: one of the first
         int wrong;
         double mean;
-    } nearest[READ_NEAREST];
+    } nearest[READ_NEAREST], doubt; // doubt: under this reading the shader is right, but it contradicts a clear name
+    bool doubted;                   // `doubt` is set
     int nearest_count, cheap_count;
     double mean; // the mean residual of the best form of the last reading_test_forms
     double strength[READ_POINTS][READ_LIGHTS],
@@ -164,8 +165,8 @@ bool reading_evaluate(struct reading *r, struct reading_sample *s);
 // Sets the right vectors at vertex k of a sample, or at the point if k is 3.
 void reading_set_right(struct reading *r, const struct reading_sample *s, int k);
 
-// Restores one of the nearest readings.
-void reading_restore(struct reading *r, const struct reading_state *state);
+// Restores one of the nearest readings, and returns what reading_count_wrong counts in it.
+int reading_restore(struct reading *r, const struct reading_state *state);
 
 // Finds changes of the source after which the shader is right under one of the nearest readings, which it restores, and
 // stores them in the reading. Returns the number of changes, or 0 if none are found.

@@ -165,21 +165,29 @@ static const char *const eye_words[] = {"eye", "cam", "viewpos", "viewer", "view
 static const char *const light_words[] = {"light", "lamp", "sun", NULL};
 static const char *const normal_words[] = {"norm", "inv", NULL};
 
-static void choose(struct reading *r, struct reading_leaf *leaf, int role, int space)
+// Returns whether the roles of an input are stated, and this is none of them. `stated`: whether they are stated.
+static bool is_excluded(const struct reading *r, const struct reading_leaf *leaf, int role, int space, bool *stated)
 {
-    bool eye = has(leaf->name, eye_words) && !has(leaf->name, light_words), light = has(leaf->name, light_words);
     static const char *const spaces[] = {"world", "eye", "object"};
-    bool stated = false, allowed = false;
+    bool allowed = false;
     char name[60], whole[80];
     snprintf(name, sizeof name, "%s%s", space & 4 ? "-" : "", reading_role_names[role]);
     snprintf(whole, sizeof whole, "%s/%s", name, spaces[space & 3]);
+    *stated = false;
     for (const char *const *s = r->stated; s && *s; s++) {
         const char *is = strchr(*s, '=');
         bool mine = is && strlen(leaf->name) == (size_t)(is - *s) && strncmp(*s, leaf->name, (size_t)(is - *s)) == 0;
-        stated = stated || mine;
+        *stated = *stated || mine;
         allowed = allowed || (mine && (strcmp(is + 1, name) == 0 || strcmp(is + 1, whole) == 0));
     }
-    if (leaf->choice_count == READ_CHOICES || (stated && !allowed))
+    return *stated && !allowed;
+}
+
+static void choose(struct reading *r, struct reading_leaf *leaf, int role, int space)
+{
+    bool eye = has(leaf->name, eye_words) && !has(leaf->name, light_words), light = has(leaf->name, light_words);
+    bool stated;
+    if (leaf->choice_count == READ_CHOICES || is_excluded(r, leaf, role, space, &stated))
         return;
     bool against = !stated && ((role == READ_EYE && light) || (eye && (role == READ_LIGHT || role == READ_TO_LIGHT)));
     leaf->choices[leaf->choice_count++] = (struct reading_choice){(uint8_t)role, (uint8_t)space, against};
@@ -406,8 +414,8 @@ static void list_vector(struct reading *r, struct reading_leaf *leaf)
     const bool literal = leaf->node >= 0, eye = has(leaf->name, eye_words);
     if (literal)
         choose(r, leaf, READ_OTHER, 0);
-    for (int sign = 0; sign < 2 && paired && !scaled; sign++)
-        choose(r, leaf, READ_AXIS, order[0] | sign << 2);
+    for (int i = 0; i < (literal ? 4 : 2) && (paired || literal) && !scaled; i++)
+        choose(r, leaf, READ_AXIS, order[i / 2] | (i & 1) << 2);
     for (int turn = 0; turn < 2; turn++) { // first the roles that suit the effect of a longer vector
         if (plain && eye && turn == 0)
             choose(r, leaf, READ_EYE, READ_WORLD_SPACE);
@@ -484,6 +492,8 @@ static int find_chains(struct reading *r, struct chain out[MAX_CHAINS])
     int members[3], count = 0, found = 0;
     struct reading_leaf *position = NULL;
     for (int i = 0; i < r->leaf_count; i++)
+        r->leaves[i].choices[0].role = r->leaves[i].attribute ? READ_OTHER : r->leaves[i].choices[0].role;
+    for (int i = 0; i < r->leaf_count; i++)
         if (r->leaves[i].attribute && !position && (effect(r, &r->leaves[i], 0, 2) & 8))
             position = &r->leaves[i];
     if (!position)
@@ -501,10 +511,12 @@ static int find_chains(struct reading *r, struct chain out[MAX_CHAINS])
     }
     for (int k = 0; k < 432 && found < MAX_CHAINS; k++) {
         struct chain c = {.count = count, .rows = k % 2};
-        bool repeated = false;
+        bool repeated = false, stated;
         for (int i = 0, rest = k / 2; i < 3; i++, rest /= 6) {
             c.roles[i] = READ_MODEL + rest % 6;
-            repeated = repeated || (i >= count && rest % 6);
+            repeated = repeated || (i >= count && rest % 6) ||
+                       (!r->has_model && count > 1 && c.roles[i] == READ_MODEL && i < count) ||
+                       (i < count && is_excluded(r, &r->leaves[members[i]], c.roles[i], 0, &stated));
             for (int m = 0; m < i && i < count; m++)
                 repeated = repeated || c.roles[m] == c.roles[i];
         }
@@ -528,11 +540,12 @@ static int find_chains(struct reading *r, struct chain out[MAX_CHAINS])
 // Numbers the lights. Returns false if the roles contradict each other.
 static bool number_lights(struct reading *r)
 {
-    int eyes = 0, axes = 0;
+    int eyes = 0, axes = 0, normals = 0;
     r->light_count = 0;
     for (int i = 0; i < r->leaf_count; i++) {
         struct reading_leaf *leaf = &r->leaves[i];
         const int role = leaf->choices[leaf->chosen].role;
+        normals += leaf->attribute && role == READ_NORMAL;
         if (!leaf->geometric)
             continue;
         eyes += role == READ_EYE;
@@ -557,24 +570,32 @@ static bool number_lights(struct reading *r)
     bool vectors = false;
     for (int i = 0; i < r->leaf_count; i++)
         vectors = vectors || (r->leaves[i].geometric && r->leaves[i].node < 0);
-    return eyes <= 1 && (r->light_count || (!axes && !vectors));
+    return eyes <= 1 && normals <= 1 && (r->light_count || (!axes && !vectors));
 }
 
 // Returns whether a reading is less likely than another.
 static bool is_worse(const struct reading_state *a, const struct reading_state *b)
 {
-    return a->against != b->against ? a->against
-           : a->cheap != b->cheap   ? b->cheap
-           : a->wrong != b->wrong   ? a->wrong > b->wrong
-                                    : a->mean > b->mean;
+    return a->cheap != b->cheap ? b->cheap : a->wrong != b->wrong ? a->wrong > b->wrong : a->mean > b->mean;
+}
+
+static struct reading_state state_of(const struct reading *r)
+{
+    struct reading_state s = {.rows = r->rows, .mean = 1};
+    for (int i = 0; i < r->leaf_count; i++) {
+        s.chosen[i] = (uint8_t)r->leaves[i].chosen;
+        s.roles[i] = r->leaves[i].choices[0].role;
+    }
+    return s;
 }
 
 // Keeps the reading if it is one of the likeliest.
-static void keep(struct reading *r, bool against, int wrong)
+static void keep(struct reading *r, int wrong)
 {
-    struct reading_state *list = r->nearest, mine = {.rows = r->rows, .against = against, .wrong = wrong, .mean = 1};
+    struct reading_state *list = r->nearest, mine = state_of(r);
     int at = r->nearest_count;
-    mine.cheap = !against && wrong < READ_MANY && r->cheap_count < READ_CHEAP;
+    mine.wrong = wrong;
+    mine.cheap = wrong < READ_MANY && r->cheap_count < READ_CHEAP;
     r->cheap_count += mine.cheap;
     while (at > 0 && is_worse(&list[at - 1], &mine))
         at--;
@@ -584,10 +605,6 @@ static void keep(struct reading *r, bool against, int wrong)
     for (int i = r->nearest_count - 1; i > at; i--)
         list[i] = list[i - 1];
     list[at] = mine;
-    for (int i = 0; i < r->leaf_count; i++) {
-        list[at].chosen[i] = (uint8_t)r->leaves[i].chosen;
-        list[at].roles[i] = r->leaves[i].choices[0].role;
-    }
 }
 
 // Keeps the likeliest combinations of choices whose ranks add up to `sum`. Returns true if one of them is right and
@@ -603,9 +620,14 @@ static bool search(struct reading *r, int leaf, int sum)
         if (sum || !number_lights(r))
             return false;
         const int wrong = reading_count_wrong(r, false);
-        if (wrong == 0 && !against && reading_test_forms(r, false))
-            return true;
-        keep(r, against, wrong);
+        if (wrong == 0 && !(against && r->doubted) && reading_test_forms(r, false)) {
+            if (!against)
+                return true;
+            r->doubt = state_of(r);
+            r->doubted = true;
+        }
+        if (!against)
+            keep(r, wrong);
         return false;
     }
     struct reading_leaf *l = &r->leaves[leaf];
@@ -618,7 +640,7 @@ static bool search(struct reading *r, int leaf, int sum)
     return false;
 }
 
-void reading_restore(struct reading *r, const struct reading_state *state)
+int reading_restore(struct reading *r, const struct reading_state *state)
 {
     r->rows = state->rows;
     for (int i = 0; i < r->leaf_count; i++) {
@@ -626,6 +648,7 @@ void reading_restore(struct reading *r, const struct reading_state *state)
         r->leaves[i].choices[0].role = state->roles[i];
     }
     number_lights(r);
+    return reading_count_wrong(r, false);
 }
 
 // Searches all readings, cheapest first, and tests the likeliest.
@@ -644,11 +667,13 @@ static enum reading_outcome search_chains(struct reading *r, const struct chain 
     for (int i = 0; i < r->nearest_count && !r->spent; i++) {
         reading_restore(r, &r->nearest[i]);
         if (reading_test_forms(r, false))
-            return r->nearest[i].against ? READING_AGAINST : READING_RIGHT;
+            return READING_RIGHT;
         r->nearest[i].mean = r->mean;
     }
-    while (r->nearest_count && r->nearest[r->nearest_count - 1].against)
-        r->nearest_count--;
+    if (r->doubted) {
+        reading_restore(r, &r->doubt);
+        return reading_test_forms(r, false) ? READING_AGAINST : READING_NONE;
+    }
     for (int i = 1; i < r->nearest_count; i++) { // sorts them by their means
         const struct reading_state state = r->nearest[i];
         int at = i;
@@ -668,6 +693,11 @@ static void list_attributes(struct reading *r)
                 has(leaf->name, normal_words) != (preferred == 1) || (effect(r, leaf, 0, 90) & 7) == 0)
                 continue;
             bool first = true;
+            if (strncmp(leaf->name, "gl_", 3) == 0) {
+                if (strcmp(leaf->name, "gl_Normal") == 0)
+                    choose(r, leaf, READ_NORMAL, 0);
+                continue;
+            }
             for (int k = 0; k < r->leaf_count; k++)
                 first = first && !(r->leaves[k].attribute && r->leaves[k].choice_count &&
                                    r->leaves[k].choices[0].role == READ_NORMAL);
@@ -705,11 +735,30 @@ static bool prepare(struct reading *r, const struct declarations *vertex, const 
     return add_inputs(r);
 }
 
+// Returns whether a matrix may move the model. Otherwise its vertices are in world space. Only the clear names of a view and
+// a projection are evidence, because a shader that forgets the model matrix in its lighting looks the same.
+static bool moves_model(struct reading *r)
+{
+    static const char *const model[] = {"model", "world", "mv", "obj", "gl_", NULL},
+                             *const view[] = {"view", "cam", NULL}, *const projection[] = {"proj", "persp", NULL};
+    for (int i = 0; i < r->leaf_count; i++)
+        if (!r->leaves[i].attribute && r->leaves[i].type.columns > 2) {
+            const char *name = r->leaves[i].name;
+            bool moves = has(name, model) || has(name, view) == has(name, projection);
+            for (int k = 0; k < 4 && !moves; k++)
+                moves = effect(r, &r->leaves[i], 5 * k % glsl_width(r->leaves[i].type), 30) & 7;
+            if (moves)
+                return true;
+        }
+    return false;
+}
+
 static enum reading_outcome find_variant(struct reading *r, const struct declarations *vertex,
                                          const struct declarations *fragment)
 {
     struct chain chains[MAX_CHAINS];
     r->leaf_count = r->number_count = r->nearest_count = r->cheap_count = r->switch_count = 0;
+    r->doubted = false;
     if (!prepare(r, vertex, fragment))
         return READING_NONE;
     int matrices = 0;
@@ -722,6 +771,12 @@ static enum reading_outcome find_variant(struct reading *r, const struct declara
         if (strncmp(r->leaves[i].name, "gl_", 3) == 0 && r->leaves[i].type.columns > 2)
             list_matrix(r, &r->leaves[i]);
     int count = find_chains(r, chains);
+    if (matrices == 2 && count && !moves_model(r)) {
+        r->has_model = false;
+        if (!make_samples(r))
+            return READING_NONE;
+        count = find_chains(r, chains);
+    }
     if (!count) {
         snprintf(r->reason, sizeof r->reason, "the check does not understand how gl_Position is computed");
         return READING_NONE;

@@ -323,6 +323,22 @@ static bool is_mean(const struct reading *r, const double *x)
     return xx > 0.24 * hh && xx < 0.26 * hh;
 }
 
+// Returns whether a direction to the eye is the difference of an eye, whose space is stated, and a point in another space.
+static bool is_mixed(const struct reading *r, const struct reading_sample *s, const double *x)
+{
+    bool stated = false;
+    for (int i = 0; i < r->leaf_count; i++)
+        stated = stated || (r->leaves[i].choice_count == 1 && r->leaves[i].choices[0].role == READ_EYE);
+    for (int space = 1; space < SPACES; space++) {
+        double v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = s->eye[i] - r->right[space][RIGHT_POINT][i];
+        if (stated && along(x, v))
+            return true;
+    }
+    return false;
+}
+
 // Names the mistake of a change that makes the shader right.
 static const char *name_of(struct reading *r, struct tried *t)
 {
@@ -376,6 +392,7 @@ static const char *name_of(struct reading *r, struct tried *t)
         return which == 'n'                                                                        ? "n.r-for-v.r"
                : along(x, s->eye_axis)                                                             ? "viewer-infinite"
                : along(x, r->right[0][RIGHT_POINT]) && (named(r, READ_VIEW) || named(r, READ_EYE)) ? "eye-at-origin"
+               : is_mixed(r, s, x)                                                                 ? "spaces-mixed"
                                                                                                    : NULL;
     default:
         return along(x, s->lights[0]) ? "point-as-direction" : NULL;
@@ -605,8 +622,7 @@ int repair_find(struct reading *r)
         for (int k = 0; k < r->nearest_count && k < (deep ? MAX_EARLY : READ_NEAREST) && !r->spent; k++) {
             struct tried best[MAX_BEAM];
             int best_count = 0;
-            reading_restore(r, &r->nearest[k]);
-            if (reading_count_wrong(r, false) == READ_MANY || !find_dependence(r, s.depends))
+            if (reading_restore(r, &r->nearest[k]) == READ_MANY || !find_dependence(r, s.depends))
                 continue;
             const int wrong = reading_count_wrong(r, true);
             int found = deep ? descend(&s, wrong, 0) : try_each(&s, wrong, 0, best, &best_count);
@@ -673,8 +689,7 @@ bool repair_accepts(struct reading *r)
     uint8_t *depends[2];
     for (int k = 0; k < r->nearest_count; k++) {
         bool right = true, lit = false;
-        reading_restore(r, &r->nearest[k]);
-        if (r->nearest[k].wrong || reading_count_wrong(r, false) || !find_dependence(r, depends) ||
+        if (reading_restore(r, &r->nearest[k]) || r->nearest[k].wrong || !find_dependence(r, depends) ||
             (!is_stylized(r, depends) && r->light_count < 5 && r->nearest[k].mean > 1e-7))
             continue;
         for (int side = 0; side < 2; side++)

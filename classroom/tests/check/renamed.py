@@ -176,6 +176,16 @@ void main() { vec3 n = normalize(N), l = normalize(LightPosition - P), v = norma
     "web": (WEB_VERT, "precision mediump float;\nvarying vec3 v_normal, v_surfaceToLight, v_surfaceToView;\nuniform vec4 u_color; uniform float u_shininess;\nvoid main() { vec3 normal = normalize(v_normal), toLight = normalize(v_surfaceToLight), toView = normalize(v_surfaceToView), halfway = normalize(toLight + toView);\n    float light = max(dot(normal, toLight), 0.0), specular = 0.0; if (light > 0.0) { specular = pow(max(dot(normal, halfway), 0.0), u_shininess); }\n    gl_FragColor = u_color; gl_FragColor.rgb *= light; gl_FragColor.rgb += specular; }\n"),
     "old": (OLD_VERT, "#version 120\nvarying vec3 n, p;\nuniform vec3 lightPos; uniform vec4 diffuse, specular; uniform float shininess;\nvoid main() { vec3 N = normalize(n), L = normalize(lightPos - p), E = normalize(-p), R = normalize(-reflect(L, N));\n    gl_FragColor = diffuse * max(dot(N, L), 0.0) + specular * pow(max(dot(R, E), 0.0), 0.3 * shininess); }\n"),
     "gouraud": (GOURAUD, PLAIN_OUT),
+    "gouraud cut off at 1": (GOURAUD.replace("kd * d + ks * s;", "kd * d + ks * s; color = min(color, vec3(1.0));"), PLAIN_OUT),
+    "cut off at 1": eye(L, "LightPosition - P", rest="c = clamp(c + Kd, 0.0, 1.0);"),
+    "prototypes": (EYE_VERT, EYE_HEAD + L + """float lambert(vec3 n, vec3 l);
+void main() { vec3 n = normalize(N), l = normalize(LightPosition - P); FragColor = vec4(Ka + lambert(n, l) * Kd, 1.0); }
+float lambert(vec3 n, vec3 l) { return max(dot(n, l), 0.0); }
+"""),
+    "vertices in world space": ("#version 330 core\nin vec3 p, n; uniform mat4 cameraView, lensProjection; out vec3 q, m;\nvoid main() { q = p; m = n; gl_Position = lensProjection * cameraView * vec4(p, 1.0); }\n",
+                                "#version 330 core\nin vec3 q, m; uniform vec3 lamp, viewer, kd; out vec4 o;\nvoid main() { vec3 n = normalize(m), l = normalize(lamp - q), v = normalize(viewer - q); o = vec4(0.1 * kd + kd * max(dot(n, l), 0.0) + 0.3 * pow(max(dot(reflect(-l, n), v), 0.0), 12.0), 1.0); }\n"),
+    "old colours": (OLD_VERT.replace("void main() {", "void main() {\n    gl_FrontColor = gl_Color;"),
+                    "#version 120\nvarying vec3 n, p;\nuniform vec3 lightPos;\nvoid main() { gl_FragColor = gl_Color * (0.1 + max(dot(normalize(n), normalize(lightPos - p)), 0.0)); }\n"),
     "gouraud with a direction": (GOURAUD.replace("lightPos - p", "lightPos"), PLAIN_OUT),
     "gouraud in world space": ("#version 330 core\nin vec3 p, n; uniform mat4 M, V, P; uniform vec3 lamp, eye, kd, ks; out vec3 color;\nvoid main() { vec4 w = M * vec4(p, 1.0); vec3 N = normalize(transpose(inverse(mat3(M))) * n), L = normalize(lamp - w.xyz), H = normalize(L + normalize(eye - w.xyz)); color = 0.1 * kd + kd * max(dot(N, L), 0.0) + ks * pow(max(dot(N, H), 0.0), 40.0); gl_Position = P * V * w; }\n", PLAIN_OUT),
     "factors per vertex": (GOURAUD.replace("out vec3 color", "out float dd, ss").replace("color = ka + kd * d + ks * s;", "dd = d; ss = s;"), "#version 330 core\nin float dd, ss; out vec4 f; uniform vec3 ka, kd, ks;\nvoid main() { f = vec4(ka + kd * dd + ks * ss, 1.0); }\n"),
@@ -228,6 +238,8 @@ WRONG = [
     ("gouraud", {"normal-not-unit", "normal-never-unit"}, [("vert", "normalize(nm * nrm)", "nm * nrm")]),
     ("gouraud", {"light-backwards"}, [("vert", "lightPos - p", "p - lightPos")]),
     ("gouraud", {"eye-backwards", "reflect-sign"}, [("vert", "v = normalize(-p)", "v = normalize(p)")]),
+    ("gouraud with a direction", {"no-clamp"}, [("vert", "max(dot(n, l), 0.0)", "dot(n, l)"), ("vert", "d > 0.0 ? pow(max(dot(reflect(-l, n), v), 0.0), shine) : 0.0", "0.0")]),
+    ("vertices in world space", {"normal-object-space"}, [("vert", "cameraView, lensProjection", "move, viewAndLens"), ("vert", "lensProjection * cameraView", "viewAndLens * move")]),
     ("linear and quadratic", {"half-not-unit"}, [("frag", "normalize(l + v)", "(l + v)")]),
     ("array of lights", {"half-not-unit"}, [("frag", "normalize(l + v)", "(l + v)")]),
     ("world spot", {"reflect-sign", "eye-backwards"}, [("frag", "reflect(-lightDir, norm)", "reflect(lightDir, norm)")]),

@@ -94,8 +94,37 @@ static bool extend(struct state *t, const struct candidate *beam, int beam_count
     return true;
 }
 
+// Tries five forms that hide each other, so that no set of two explains much, alone and with one more fault. If one of the
+// forms is impossible, the search of small sets suffices, and costs less.
+static bool try_common(struct state *t, struct candidate *best, lam_error *error)
+{
+    static const char *const ids[] = {"no-gate", "normal-unit-late", "alpha-summed", "distance-interpolated",
+                                      "direction-minus-point"};
+    enum { IDS = sizeof ids / sizeof *ids };
+    struct candidate set = {0}, next[BEAM];
+    for (int i = 0; i < IDS; i++)
+        for (int m = 0; m < fault_count && set.count == i; m++)
+            if (strcmp(faults[m].id, ids[i]) == 0 && t->outcomes[m].applies && t->outcomes[m].changed_count)
+                set.members[set.count++] = t->outcomes[m].fault;
+    candidate_rebuild(&set);
+    int more = 0;
+    if (set.count < IDS)
+        return true;
+    if (!candidate_try(t, &set, no_limit, error) || (!set.fits && !extend(t, &set, 1, next, &more, error)))
+        return false;
+    set = more ? next[0] : set;
+    if (!set.fits)
+        return true;
+    *best = set;
+    return reduce(t, best, error);
+}
+
 bool sets_try(struct state *t, struct candidate *best, lam_error *error)
 {
+    if (!try_common(t, best, error))
+        return false;
+    if (best->fits)
+        return true;
     struct candidate beam[BEAM];
     int beam_count = 0;
     for (int m = 0; m < fault_count; m++) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""table.py PROGRAM [ROW…]: tests every artefact of docs/install.md, or those of the named rows, and prints a table of them (make test-packages). It builds
-each twice, here and in an unpacked source archive in another folder, and compares the bytes; the scripts of ROWS install, use and remove what was built here. A cell says "not run" if
+"""table.py PROGRAM [ROW…]: tests every artefact of docs/install.md, or only the named rows, and prints a table (make test-packages). It builds each
+artefact twice, here and in an unpacked source archive in another folder, and compares the bytes; the scripts of ROWS install, use and remove what was
+built here. A cell says "not run" if
 its test was skipped. An empty cell, or "no", is a failure. It needs the committed tree, and up to two hours."""
 import hashlib
 import os

@@ -72,7 +72,7 @@ static struct path_node joined(const struct path_node *a, const struct path_node
 {
     if (!(a->power > 0) || !(b->power > 0))
         return a->power > 0 ? *a : *b;
-    struct path_node both = {.power = a->power + b->power};
+    struct path_node both = {.power = a->power + b->power, .reach = a->reach > b->reach ? a->reach : b->reach};
     for (int c = 0; c < 3; c++) {
         both.low[c] = a->low[c] < b->low[c] ? a->low[c] : b->low[c];
         both.high[c] = a->high[c] > b->high[c] ? a->high[c] : b->high[c];

@@ -25,6 +25,7 @@ struct path_node {
     float low[3], high[3];
     float power;
     float attenuation[3]; // the mean, weighted by power
+    float reach;          // the square of the distance beyond which no source has light; may be infinite
 };
 
 // Fills the tree. The caller sets `leaves` (a power of two, at least `count`), allocates `nodes` (2 · leaves), `item`
@@ -57,6 +58,8 @@ static inline float tree_light(const struct path_node *n, const double x[3], con
         above += normal[c] * d + __builtin_fabsf(normal[c]) * half;
         facing += normal[c] * normal[c];
     }
+    if (least > n->reach)
+        return 0;
     float square = __builtin_sqrtf((least + NEAREST * size) * most), distance = __builtin_sqrtf(square);
     float cosine = facing > 0 && above < distance ? above / distance : 1;
     cosine = cosine > COSINE_LEAST ? cosine : COSINE_LEAST;

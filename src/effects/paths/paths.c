@@ -67,6 +67,9 @@ static double set_lights(struct path_frame *f, uint64_t *keys)
             node->low[c] = (float)(at[c] - light->radius * scale);
             node->high[c] = (float)(at[c] + light->radius * scale);
         }
+        const double range =
+            light->inverse_range > 0 ? 1.001 * scale / (double)light->inverse_range : (double)__builtin_inff();
+        node->reach = (float)(range * range);
         node->attenuation[0] = light->attenuation[0];
         node->attenuation[1] = (float)((double)light->attenuation[1] / scale);
         node->attenuation[2] = (float)((double)light->attenuation[2] / (scale * scale));
@@ -113,7 +116,8 @@ static double set_emitters(struct path_frame *f, uint32_t *list, uint32_t *first
             hierarchy_triangle(f->hierarchy, range->first_id + i, &t);
             double power = each * path_triangle_area(&t);
             struct path_node *node = &tree->nodes[tree->count];
-            *node = (struct path_node){.power = power < 1e38 ? (float)power : 0, .attenuation = {0, 0, 1}};
+            *node = (struct path_node){
+                .power = power < 1e38 ? (float)power : 0, .attenuation = {0, 0, 1}, .reach = __builtin_inff()};
             for (int c = 0; c < 3; c++) {
                 double low = t.p[0][c] < t.p[1][c] ? t.p[0][c] : t.p[1][c], high = t.p[0][c] + t.p[1][c] - low;
                 node->low[c] = (float)(t.p[2][c] < low ? t.p[2][c] : low);

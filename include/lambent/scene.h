@@ -48,17 +48,22 @@ LAM_API int lam_rig_lights(lam_rig rig, lam_light *lights);
 
 // The axis that points up.
 typedef enum lam_up {
-    LAM_UP_AUTO = 0,   // the format's: y for glTF, OBJ and PLY, z for STL and 3MF
+    // Like LAM_UP_FILE; but if a PLY or STL model cannot stand on that axis, and stands on exactly one of the other two
+    // positive axes, that axis, with a warning. This turns scans upright that lie on their back.
+    LAM_UP_AUTO = 0,
     LAM_UP_X,          // +x
     LAM_UP_Y,          // +y
     LAM_UP_Z,          // +z
     LAM_UP_NEGATIVE_X, // −x
     LAM_UP_NEGATIVE_Y, // −y
     LAM_UP_NEGATIVE_Z, // −z
+    // The file's axes: y for glTF, OBJ and PLY, z for STL, 3MF, and OBJ and PLY files that contain a terrain in the xy
+    // plane (with a warning).
+    LAM_UP_FILE,
     LAM_UP_COUNT
 } lam_up;
 
-// Returns the name of an up axis: "auto", "x", "y", "z", "-x", "-y" or "-z". Returns NULL if `up` is out of range.
+// Returns the name of an up axis: "auto", "x", "y", "z", "-x", "-y", "-z" or "file". Returns NULL if `up` is out of range.
 LAM_API const char *lam_up_name(lam_up up);
 // Returns the up axis with this name, in upper or lower case, with an optional plus ("+Z"). Returns LAM_UP_COUNT if
 // there is none.
@@ -204,7 +209,7 @@ LAM_API int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface
 
 // Writes a mesh of triangles as a model file, completely or not at all. The extension of the file name selects the
 // format: .obj, .stl (binary) or .ply (binary). The file contains normals and texture coordinates if the format
-// supports them, but no materials or colours. `up` is the up axis of the mesh (AUTO: y). OBJ and PLY have y up and STL
+// supports them, but no materials or colours. `up` is the up axis of the mesh (AUTO, FORMAT: y). OBJ and PLY have y up and STL
 // has z up: the coordinates are rotated, so that the file shows the same picture. Errors: LAM_BAD_ARGUMENT (no
 // triangles), LAM_UNSUPPORTED (another extension), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error *error);
@@ -403,7 +408,7 @@ LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
 // this index. Returns −1 if there is no such camera.
 LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
-// These functions get and set the up axis (LAM_UP_AUTO means y; a value out of range is ignored). The up axis rotates
+// These functions get and set the up axis (LAM_UP_AUTO and LAM_UP_FILE mean y; a value out of range is ignored). The up axis rotates
 // the fitted camera, the rig and the environment, but never the coordinates. The front of the model, which faces the
 // viewer at azimuth 0, is +Z with x or y up and −Y with z up. A negative axis turns the picture upside down.
 LAM_API lam_up lam_scene_up(const lam_scene *scene);

@@ -21,6 +21,7 @@ static const struct {
     {"lam_control.layer_limit", "--layer-limit"},
     {"lam_load_params.deflection", "--deflection"},
     {"lam_load_params.lenient", "--lenient"},
+    {"lam_load_params.up", "--up"},
     {"lam_load_params.allowed_paths", "--allow-path FOLDER"},
     {"lam_load_params.models_anywhere", "--files-inside"},
     {"lam_draw_params.output", "--show"},

@@ -132,14 +132,16 @@ static const struct choice projection_words[] = {{"perspective", 0, "a vertical 
                                                  {"orthographic", 1, "parallel, as in technical drawings"},
                                                  {NULL, 0, NULL}};
 
-static const struct choice up_words[] = {{"auto", LAM_UP_AUTO, "z for STL and 3MF, y for other formats"},
-                                         {"x", LAM_UP_X, NULL},
-                                         {"y", LAM_UP_Y, "the model's front is +Z"},
-                                         {"z", LAM_UP_Z, "the model's front is -Y"},
-                                         {"-x", LAM_UP_NEGATIVE_X, NULL},
-                                         {"-y", LAM_UP_NEGATIVE_Y, "like y, upside down"},
-                                         {"-z", LAM_UP_NEGATIVE_Z, "like z, upside down"},
-                                         {NULL, 0, NULL}};
+static const struct choice up_words[] = {
+    {"auto", LAM_UP_AUTO, "z for STL and 3MF, y for other formats; a scan that lies is turned upright"},
+    {"x", LAM_UP_X, NULL},
+    {"y", LAM_UP_Y, "the model's front is +Z"},
+    {"z", LAM_UP_Z, "the model's front is -Y"},
+    {"-x", LAM_UP_NEGATIVE_X, NULL},
+    {"-y", LAM_UP_NEGATIVE_Y, "like y, upside down"},
+    {"-z", LAM_UP_NEGATIVE_Z, "like z, upside down"},
+    {"file", LAM_UP_FILE, "like auto, but nothing is turned"},
+    {NULL, 0, NULL}};
 
 // Filled by option_table_fill.
 static char reflection_summary[400], output_summary[200];
@@ -491,11 +493,13 @@ struct option option_table[OPTIONS_MAX] = {
      projection_words, .store = store_word, .others = "parallel",
      .also = "ortho=orthographic orthographic=orthographic orthogonal=orthographic perspective=perspective",
      FIELD(view.projection)},
-    {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z or auto.",
+    {"up", 0, GROUP_VIEW, "AXIS", "auto", "The model's up axis: x, y, z, -x, -y, -z, file or auto.",
      "The camera and the lights that are fixed to the camera follow the axis; the model's coordinates do not change. "
      "Lambent reads STL and 3MF files as Z up, as in CAD and 3D printing, and other formats as Y up. Lambent also "
-     "reads OBJ and PLY files as Z up if they contain a terrain in the xy plane. Lambent also accepts capital letters "
-     "and a plus sign (`+Z`).",
+     "reads OBJ and PLY files as Z up if they contain a terrain in the xy plane. `--up auto` also turns a PLY or STL "
+     "model upright if it cannot stand on this axis, but on exactly one of the other two, such as a scan that lies on "
+     "its back. A warning names the axis. `--up file`, `convert` and several models joined with ` + ` do not turn "
+     "models. Lambent also accepts capital letters and a plus sign (`+Z`).",
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up, .others = "axis",
      .also = "up-axis upaxis z-up=z zup=z y-up=y yup=y", FIELD(view.up), .single = TAKES_UP, .not_in = KEEPS_MODEL},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",

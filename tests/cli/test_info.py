@@ -1,6 +1,7 @@
 # test_info.py: the command `info`: its report about a model; the JSON matches docs/info.schema.json.
 import base64
 import json
+import struct
 
 from harness import ROOT, check_value, write_png
 from test_gltf import GltfCase
@@ -96,6 +97,48 @@ class Info(GltfCase):
             self.assertEqual(self.info(f"{name}.obj")[0]["up"], up, name)
             self.assertEqual(b"z is assumed to be up" in self.good(f"{name}.obj", "-s", "32", "-o", "a.png").stderr, up == "z", name)
         self.assertNotIn(b"z is assumed", self.good("hills.obj", "--up", "y", "-s", "32", "-o", "a.png").stderr)
+
+    def test_up_of_a_lying_model(self):
+        """A PLY or STL file with a model that stands on another axis than the usual one is turned, with a message; not by --up file, convert or +."""
+        def boxes(turn, parts):
+            """Triangles of boxes (low corner, high corner); `turn` maps a point with z up to the file's axes."""
+            out = []
+            for low, high in parts:
+                p = [turn([(low, high)[i >> k & 1][k] for k in range(3)]) for i in range(8)]
+                for a, b, c, d in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+                    out += [(p[a], p[b], p[c]), (p[a], p[c], p[d])]
+            return out
+
+        def write(name, triangles):
+            if name.endswith(".stl"):
+                data = b"\0" * 80 + struct.pack("<I", len(triangles)) + b"".join(struct.pack("<12fH", 0, 0, 0, *sum(map(list, t), []), 0) for t in triangles)
+            else:
+                head = "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\nproperty float z\nelement face %d\n" \
+                       "property list uchar int vertex_indices\nend_header\n" % (3 * len(triangles), len(triangles))
+                data = (head + "".join("%g %g %g\n" % tuple(p) for t in triangles for p in t) +
+                        "".join("3 %d %d %d\n" % (3 * i, 3 * i + 1, 3 * i + 2) for i in range(len(triangles)))).encode()
+            (self.folder / name).write_bytes(data)
+
+        animal = [((0, 0, .6), (1, .4, 1))] + [((x, y, 0), (x + .1, y + .1, .6)) for x in (.1, .8) for y in (.05, .25)]
+        turns = {"z": lambda p: p, "y": lambda p: (p[0], p[2], -p[1]), "x": lambda p: (p[2], -p[0], -p[1])}
+        for ending, usual in (("ply", "y"), ("stl", "z")):
+            for up, turn in turns.items():
+                name = f"animal-{up}.{ending}"
+                write(name, boxes(turn, animal))
+                self.assertEqual(self.info(name)[0]["up"], up, name)
+                said = self.good(name, "-s", "32", "-o", f"{name}.png").stderr
+                self.assertEqual(f"{up} is assumed to be up".encode() in said, up != usual, name)
+                for words, same in ((("--up", up), True), (("--up", "file"), up == usual), (("--up", usual), up == usual)):
+                    self.good(name, "-s", "32", *words, "-o", "given.png")
+                    self.assertEqual((self.folder / f"{name}.png").read_bytes() == (self.folder / "given.png").read_bytes(), same, (name, words))
+        # Models that stand on no axis, on two, or on the usual one, and low ones, are not turned.
+        roof = [((0, 0, .6), (1, .4, 1)), ((.1, .05, 0), (.2, .15, .6))]
+        low = [((0, 0, .1), (1, .4, .2))] + [((x, y, 0), (x + .1, y + .1, .1)) for x in (.1, .8) for y in (.05, .25)]
+        for name, parts in (("one-leg", roof), ("low", low), ("cube", [((0, 0, 0), (1, 1, 1))])):
+            write(f"{name}.ply", boxes(turns["z"], parts))
+            self.assertEqual(self.info(f"{name}.ply")[0]["up"], "y", name)
+        said = self.good("animal-z.ply + cube.ply", "-s", "32", "-o", "two.png").stderr + self.good("convert", "animal-z.ply", "out.glb").stderr
+        self.assertNotIn(b"is assumed to be up", said)
 
     def test_drawing_memory(self):
         """The memory for drawing in addition to the model: at least the picture, more with more threads; no estimate if it exceeds the limit."""

@@ -192,7 +192,7 @@ class View(Case):
             (self.folder / "own.json").write_text(json.dumps({"lambent": 1, "up": axis, "objects": [{"shape": "torus-knot"}]}))
             self.assertEqual(self.png("own.json", "-s", 48), plain)
         for name in ("+-z", "--z", "zz", "w", "+", "-"):
-            self.bad(1, "cube.obj", "--up=" + name, says="expected auto, x, y, z, -x, -y or -z", leaves=self.new_files())
+            self.bad(1, "cube.obj", "--up=" + name, says="expected auto, x, y, z, -x, -y, -z or file", leaves=self.new_files())
         # The coordinates do not change.
         self.assertEqual(self.report("teapot", "-s", 16, "--up", "z")["model"]["bounds"],
                          self.report("teapot", "-s", 16)["model"]["bounds"])

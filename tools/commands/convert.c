@@ -237,7 +237,8 @@ int run_convert(int operand_count, char **operands, const struct options *option
 {
     (void)operand_count;
     struct convert c = {.options = options, .model = operands[0], .output = operands[1]};
-    c.job = (struct job){.options = options, .model = operands[0], .keeps_scene = true, .times.start = clock_ms()};
+    c.job = (struct job){
+        .options = options, .model = operands[0], .keeps_scene = true, .keeps_axes = true, .times.start = clock_ms()};
     struct progress progress;
     lam_error error = {0};
     interrupt_start();

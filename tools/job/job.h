@@ -77,6 +77,7 @@ struct job {
     struct animation *animation; // during an animation (animate_frame.h); otherwise NULL
     lam_scene *scene;            // NULL until the model is loaded
     bool keeps_scene;            // another job will draw the scene again
+    bool keeps_axes;             // the model is not turned upright if it lies (`--up auto` means file)
     struct model_counts model_counts;
     lam_rig rig;          // the rig that drawing adds to the scene's own lights
     bool file_lights;     // whether the model is lit by the lights of a glTF file, which are in candela and lux

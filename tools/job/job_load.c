@@ -98,7 +98,9 @@ static lam_scene *make_shape(const char *name, const struct options *o, const la
                                     error);
     if (ok) {
         // Formulas use the axes of textbooks, with z up.
-        lam_scene_set_up(scene, formula.text && o->view.up == LAM_UP_AUTO ? LAM_UP_Z : (lam_up)o->view.up);
+        lam_scene_set_up(scene, formula.text && (o->view.up == LAM_UP_AUTO || o->view.up == LAM_UP_FILE)
+                                    ? LAM_UP_Z
+                                    : (lam_up)o->view.up);
         return scene;
     }
     if (formula.text)
@@ -159,7 +161,9 @@ static lam_scene *load_one(const struct job *job, const char *name, bool only, c
     const lam_bytes *bytes = job->model_bytes;
     if (!bytes && (job_formula(o).text || lam_shape_find(name) >= 0))
         return make_shape(name, o, control, error);
-    lam_load_params params = {.up = (lam_up)o->view.up,
+    // Several models share their axes, so none is turned by its own shape.
+    const bool turns = o->view.up != LAM_UP_AUTO || (only && !job->keeps_axes);
+    lam_load_params params = {.up = turns ? (lam_up)o->view.up : LAM_UP_FILE,
                               .color = (lam_color_mode)o->picture.color_mode,
                               .override_color = option_given(o, "color-mode"),
                               .models_anywhere = !o->limits.files_inside,

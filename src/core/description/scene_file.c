@@ -41,7 +41,7 @@ static bool read_scene(struct reader *r, const json_t *root)
     if (!json_take_word(&r->json, NULL, root, "up", up_words, &up) ||
         !take_rgb(r, NULL, root, "ambient", &r->scene->ambient))
         return false;
-    if (r->source->params->up == LAM_UP_AUTO)
+    if (r->source->params->up == LAM_UP_AUTO || r->source->params->up == LAM_UP_FILE)
         r->scene->up = (lam_up)up;
     return true;
 }

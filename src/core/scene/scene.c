@@ -365,7 +365,7 @@ lam_up lam_scene_up(const lam_scene *scene) { return scene ? scene->up : LAM_UP_
 void lam_scene_set_up(lam_scene *scene, lam_up up)
 {
     if (scene && (unsigned)up < LAM_UP_COUNT)
-        scene->up = up == LAM_UP_AUTO ? LAM_UP_Y : up;
+        scene->up = up == LAM_UP_AUTO || up == LAM_UP_FILE ? LAM_UP_Y : up;
 }
 
 void lam_scene_set_ambient(lam_scene *scene, lam_rgb ambient)

@@ -34,7 +34,7 @@ lam_vec3 to_y_up(lam_up up, lam_vec3 d)
 
 static const char *const names[LAM_UP_COUNT] = {
     [LAM_UP_AUTO] = "auto",     [LAM_UP_X] = "x",           [LAM_UP_Y] = "y",           [LAM_UP_Z] = "z",
-    [LAM_UP_NEGATIVE_X] = "-x", [LAM_UP_NEGATIVE_Y] = "-y", [LAM_UP_NEGATIVE_Z] = "-z",
+    [LAM_UP_NEGATIVE_X] = "-x", [LAM_UP_NEGATIVE_Y] = "-y", [LAM_UP_NEGATIVE_Z] = "-z", [LAM_UP_FILE] = "file",
 };
 
 const char *lam_up_name(lam_up up) { return (unsigned)up < LAM_UP_COUNT ? names[up] : NULL; }

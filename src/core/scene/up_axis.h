@@ -11,7 +11,7 @@
 //  right   +X   −X    +X   −X    −Y   +Y
 //
 // A negative axis turns the picture upside down and keeps the front. The axes for z up are the convention of CAD
-// programs. LAM_UP_AUTO means y.
+// programs. LAM_UP_AUTO and LAM_UP_FILE mean y.
 lam_vec3 from_y_up(lam_up up, lam_vec3 d); // rotates a direction of a model with y up into the scene
 lam_vec3 to_y_up(lam_up up, lam_vec3 d);   // the inverse rotation
 

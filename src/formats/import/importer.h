@@ -42,6 +42,7 @@ struct importer {
     lam_up up;              // the format's up axis
     // the format does not define an up axis; `up` is the most common axis, and the shape of a terrain may override `up`
     bool up_is_habit;
+    bool may_lie; // files often contain scans and single parts, which may lie on any side; the shape may override `up`
     // a scene file, which names other models; the importer prepares the normals and origins of these models itself
     bool is_scene_file;
     bool flat_normals; // the format requires flat normals for meshes without normals

@@ -51,7 +51,7 @@ static struct lam_scene *start_scene(const struct import_source *source, const s
     if (scene) {
         scene->format = importer->name;
         scene->color = params->color;
-        scene->up = params->up == LAM_UP_AUTO ? importer->up : params->up;
+        scene->up = params->up == LAM_UP_AUTO || params->up == LAM_UP_FILE ? importer->up : params->up;
     }
     return scene;
 }
@@ -97,11 +97,8 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
         return false;
     if (!scene_measure(scene, source->pool, error))
         return false;
-    if (importer->up_is_habit && params->up == LAM_UP_AUTO && is_terrain_on_z(scene, source->pool)) {
-        scene->up = LAM_UP_Z;
-        lam_scene_add_warning(scene, "z is assumed to be up, because the model is a terrain in the plane of x and y "
-                                     "(to keep the file's axes, choose y as the up axis)");
-    }
+    if (params->up == LAM_UP_AUTO || params->up == LAM_UP_FILE)
+        guess_up(scene, importer, params->up == LAM_UP_AUTO, source->pool);
     if (scene->settings && scene->settings->section_count &&
         !scene_cut(scene, scene->settings->sections, scene->settings->section_count, source->call, error))
         return false;

@@ -327,6 +327,7 @@ const struct importer importer_ply = {
     .extensions = "ply",
     .up = LAM_UP_Y,
     .up_is_habit = true,
+    .may_lie = true,
     .probe = ply_probe,
     .load = ply_load,
 };

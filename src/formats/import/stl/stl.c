@@ -91,6 +91,7 @@ const struct importer importer_stl = {
     .name = "stl",
     .extensions = "stl",
     .up = LAM_UP_Z,
+    .may_lie = true,
     .probe = stl_probe,
     .load = stl_load,
 };

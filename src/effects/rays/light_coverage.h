@@ -231,8 +231,50 @@ static double inverse_power(double x)
     return power.number;
 }
 
+// The lines that divide the light, with sums of absolute values between 1 and 2.
+struct light_cuts {
+    float a[4], b[4], c[4];
+    int count;
+};
+
+LANE_FN uint32_t cut_group(const struct light_cuts *cuts, const struct light_pattern *pattern, int group)
+{
+    uint32_t bits = 0;
+    for (int part = 0; part < COVER_GROUP; part += LANES) {
+        num x = num_load(pattern->cover[0] + COVER_GROUP * group + part),
+            y = num_load(pattern->cover[1] + COVER_GROUP * group + part);
+        mask inside = (cuts->a[0] + cuts->b[0] * x) + cuts->c[0] * y >= 0.0f;
+        for (int i = 1; i < cuts->count; i++)
+            inside = both(inside, (cuts->a[i] + cuts->b[i] * x) + cuts->c[i] * y >= 0.0f);
+        bits |= (uint32_t)mask_bits(inside) << part;
+    }
+    return bits;
+}
+
+// Adds the points on the positive side of all lines. Most groups of points are on one side of each line. The rounding
+// errors of a group and of a point are below 2⁻²⁰ together.
+LANE_FN void cut_points(const struct light_cuts *cuts, const struct light_pattern *pattern, uint32_t hit[COVER_GROUPS])
+{
+    for (int first = 0; first < COVER_GROUPS; first += LANES) {
+        num x = num_load(pattern->group[0] + first), y = num_load(pattern->group[1] + first),
+            radius = num_load(pattern->group[2] + first);
+        mask outside = lane_numbers() < 0, cut = outside;
+        for (int i = 0; i < cuts->count; i++) {
+            num value = (cuts->a[i] + cuts->b[i] * x) + cuts->c[i] * y;
+            num reach = radius * (absolute(num_of(cuts->b[i])) + absolute(num_of(cuts->c[i]))) + 0x1p-20f;
+            outside = either(outside, value + reach < 0.0f);
+            cut = either(cut, value - reach < 0.0f);
+        }
+        const unsigned divided = (unsigned)mask_bits(cut);
+        for (unsigned bits = ~(unsigned)mask_bits(outside) & (unsigned)((1ull << LANES) - 1); bits; bits &= bits - 1) {
+            const int i = __builtin_ctz(bits);
+            hit[first + i] |= divided >> i & 1 ? cut_group(cuts, pattern, first + i) : UINT32_MAX;
+        }
+    }
+}
+
 // Adds the points of the light that a triangle covers. Returns false if it covers the whole light.
-static bool cover_by(const struct pixel_rays *s, int point, uint32_t number, uint32_t hit[COVER_POINTS / 32])
+static bool cover_by(const struct pixel_rays *s, int point, uint32_t number, uint32_t hit[COVER_GROUPS])
 {
     const struct hierarchy *h = s->rays->hierarchy;
     struct ray_triangle triangle;
@@ -262,35 +304,24 @@ static bool cover_by(const struct pixel_rays *s, int point, uint32_t number, uin
             return true;
         whole += side;
     }
-    struct ray_lanes ray = {.own[0] = 0};
+    _Alignas(64) double start[3][LANES];
     for (int k = 0; k < 3; k++)
-        ray.point[k][0] = s->starts->point[k][point];
-    if (through_points(h, &triangle, &ray, 1))
+        for (int i = 0; i < DLANES; i++) // through_points reads DLANES points
+            start[k][i] = s->starts->point[k][point];
+    if (through_points(h, &triangle, (const double(*)[LANES])start, 1))
         return true;
     if (whole == lines)
         return false;
-    float a[4], b[4], c[4]; // of the lines that divide the light
-    int cuts = 0;
+    struct light_cuts cuts = {.count = 0};
     for (int i = 0; i < lines; i++) {
         if (line_side(e[i]))
             continue;
         double scale = inverse_power(__builtin_fabs(e[i].a) + __builtin_fabs(e[i].b) + __builtin_fabs(e[i].c));
-        a[cuts] = (float)(e[i].a * scale);
-        b[cuts] = (float)(e[i].b * scale);
-        c[cuts++] = (float)(e[i].c * scale);
+        cuts.a[cuts.count] = (float)(e[i].a * scale);
+        cuts.b[cuts.count] = (float)(e[i].b * scale);
+        cuts.c[cuts.count++] = (float)(e[i].c * scale);
     }
-    const float(*cover)[COVER_POINTS] = s->rays->pattern->cover;
-    for (int word = 0; word < COVER_POINTS / 32; word++) {
-        uint32_t bits = 0;
-        for (int part = 0; part < 32; part += LANES) {
-            num x = num_load(cover[0] + 32 * word + part), y = num_load(cover[1] + 32 * word + part);
-            mask inside = (a[0] + b[0] * x) + c[0] * y >= 0.0f;
-            for (int i = 1; i < cuts; i++)
-                inside = both(inside, (a[i] + b[i] * x) + c[i] * y >= 0.0f);
-            bits |= (uint32_t)mask_bits(inside) << part;
-        }
-        hit[word] |= bits;
-    }
+    cut_points(&cuts, s->rays->pattern, hit);
     return true;
 }
 
@@ -380,7 +411,7 @@ static int pass_listed(const struct pixel_rays *s, const uint16_t *points, int c
     int left = 0;
     for (int first = 0; first < count; first += LANES) {
         struct cover_packet packet;
-        uint32_t hit[LANES][COVER_POINTS / 32] = {{0}}, *may = s->pixels->scratch->may;
+        uint32_t hit[LANES][COVER_GROUPS] = {{0}}, *may = s->pixels->scratch->may;
         int lanes = count - first < LANES ? count - first : LANES, triangles[LANES] = {0};
         unsigned open = 0, blocked = 0;
         cover_packet_fill(&packet, s, points + first, lanes);
@@ -402,7 +433,7 @@ static int pass_listed(const struct pixel_rays *s, const uint16_t *points, int c
             }
         for (unsigned bits = open; bits; bits &= bits - 1) {
             int i = __builtin_ctz(bits), covered = 0;
-            for (int k = 0; k < COVER_POINTS / 32; k++)
+            for (int k = 0; k < COVER_GROUPS; k++)
                 covered += __builtin_popcount(hit[i][k]);
             s->passed[0][points[first + i]] = blocked >> i & 1 ? 0 : 1 - (float)covered / COVER_POINTS;
         }

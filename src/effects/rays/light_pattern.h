@@ -12,7 +12,15 @@
 #ifndef LIGHT_PATTERN_H
 #define LIGHT_PATTERN_H
 
-enum { LIGHT_POINTS_MAX = 256, LIGHT_PROBES = 48, CELL_PROBES = 128, COVER_POINTS = 1024, LIGHT_FEW = 32 };
+enum {
+    LIGHT_POINTS_MAX = 256,
+    LIGHT_PROBES = 48,
+    CELL_PROBES = 128,
+    COVER_GROUP = 32,
+    COVER_GROUPS = 32,
+    LIGHT_FEW = 32
+};
+enum { COVER_POINTS = COVER_GROUP * COVER_GROUPS };
 
 struct light_points {
     int count;
@@ -20,9 +28,11 @@ struct light_points {
 };
 
 struct light_pattern {
-    struct light_points probes, all;           // probes.count is 0 if there are no probes
-    struct light_points few;                   // for surfaces at grazing angles
-    _Alignas(64) float cover[2][COVER_POINTS]; // x and y of points, for the coverage by few triangles
+    struct light_points probes, all; // probes.count is 0 if there are no probes
+    struct light_points few;         // for surfaces at grazing angles
+    // x and y of points, for the coverage by few triangles. Each COVER_GROUP points are near each other: in `group`, x, y
+    // and radius of a circle around them.
+    _Alignas(64) float cover[2][COVER_POINTS], group[3][COVER_GROUPS];
     struct light_points cell; // CELL_PROBES points, for the first rays of a cell of pixels (penumbra.h)
 };
 

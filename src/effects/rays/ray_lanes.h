@@ -155,7 +155,7 @@ LANE_FN unsigned crosses(const struct ray_triangle *triangle, const struct ray_l
 // (hierarchy.rounding). The last term is the error of this determinant. (Shewchuk, "Adaptive precision floating-point
 // arithmetic and fast robust geometric predicates", 1997, uses 7 · 2⁻⁵³ instead of 8 · 2⁻⁵³.)
 LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_triangle *triangle,
-                                const struct ray_lanes *ray, unsigned lanes)
+                                const double point[3][LANES], unsigned lanes)
 {
     const double(*p)[3] = triangle->p;
     unsigned through = 0;
@@ -166,7 +166,7 @@ LANE_FN unsigned through_points(const struct hierarchy *h, const struct ray_tria
             continue;
         for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i++) {
             double u = (p[1][j] - p[0][j]) * (p[2][k] - p[0][k]), v = (p[1][k] - p[0][k]) * (p[2][j] - p[0][j]);
-            dnum q = p[0][i] - dnum_load(ray->point[i] + at);
+            dnum q = p[0][i] - dnum_load(point[i] + at);
             away += (u - v) * q;
             error += (__builtin_fabs(u) + __builtin_fabs(v)) * dabsolute(q);
             rounding += 2 * __builtin_fabs(u - v) * h->rounding[i];
@@ -420,7 +420,7 @@ static __attribute__((noinline, unused)) unsigned blocked_by(const struct traver
         return 0;
     hierarchy_triangle(t->hierarchy, number, &triangle);
     lanes = crosses(&triangle, t->ray, &t->view, lanes, NULL, NULL);
-    lanes = lanes ? lanes & ~through_points(t->hierarchy, &triangle, t->ray, lanes) : 0;
+    lanes = lanes ? lanes & ~through_points(t->hierarchy, &triangle, t->ray->point, lanes) : 0;
     return t->filter && lanes ? t->filter(t->user, &triangle, t->ray, &t->view, lanes) : lanes;
 }
 
@@ -670,7 +670,7 @@ static __attribute__((noinline, unused)) bool found_nearer(struct nearest_search
     if (at < s->after || (at == s->after && (int64_t)number <= (int64_t)(int32_t)s->after_number) ||
         (s->found.number != (uint32_t)NO_TRIANGLE && (at > s->t || (at == s->t && number > s->found.number))))
         return false;
-    if (through_points(s->hierarchy, &triangle, s->ray, lane) ||
+    if (through_points(s->hierarchy, &triangle, s->ray->point, lane) ||
         (s->counts && !s->counts(s->user, &triangle, s->ray, &s->view)))
         return false;
     s->found = triangle;

@@ -191,6 +191,42 @@ class Gltf(GltfCase):
             done = self.good(self.moving(pointer, [0] * count, [1] * count, kind), "--time", "1", "-o", "a.png", "-s", "16")
             self.assertEqual(done.stderr.count(says.encode()), 1, (pointer, done.stderr))
 
+    def test_morphed_colors(self):
+        """Morph targets and animated weights change colours, which are clamped after all targets are added."""
+        for kind, format_, white in ((5121, "<16B", 255), (5126, "<16f", 1)):
+            base = struct.pack(format_, *([white, 0, 0, white] * 4))
+            deltas = struct.pack("<24f", *([-2, 0, 0] * 4), *([0.5, 1, 0] * 4))
+            data = CORNERS + base + deltas + struct.pack("<4f", 0, 2, 0, 1)
+            views, at = [], 0
+            for size in (48, 12, len(base), 48, 48, 8, 8):
+                views.append({"buffer": 0, "byteOffset": at, "byteLength": size})
+                at += size
+            model = self.model(
+                nodes=[{"mesh": 0}] * 4, bufferViews=views,
+                accessors=[{"bufferView": i, "componentType": c, "count": n, "type": t, "normalized": c == 5121}
+                           for i, (c, n, t) in enumerate(((5126, 4, "VEC3"), (5123, 6, "SCALAR"), (kind, 4, "VEC4"),
+                                                          (5126, 4, "VEC3"), (5126, 4, "VEC3"), (5126, 2, "SCALAR"),
+                                                          (5126, 2, "SCALAR")))],
+                buffers=[{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+                materials=[unlit(1, 1, 1)] * 3, meshes=[{"weights": [1, 1], "primitives": [{
+                    "attributes": {"POSITION": 0, "COLOR_0": 2}, "indices": 1, "material": 0,
+                    "targets": [{"COLOR_0": 3}, {"COLOR_0": 4}]}]}],
+                animations=[{"channels": [{"sampler": 0, "target": {"path": "pointer", "extensions": {
+                    "KHR_animation_pointer": {"pointer": "/nodes/0/weights/0"}}}}], "samplers": [{"input": 5, "output": 6}]}])
+            self.assertEqual(self.middle(model, "--camera", FULL), (0, 255, 0))  # 1 − 2 + 0.5
+            self.assertEqual(self.middle(model, "--camera", FULL, "--time", "0"), (255, 255, 0))
+            self.assertEqual(self.middle(model, "--camera", FULL, "--time", "1"), (188, 255, 0))  # 1 − 1 + 0.5
+
+    def test_three_sets_of_coordinates(self):
+        """The maps use any two sets; a map with a third set is omitted, but never the base colour."""
+        info = [{"index": 0, "texCoord": i} for i in (5, 6, 7)]
+        picture = base64.b64encode(write_png(1, 1, bytes([0, 255, 0, 255]))).decode()
+        done = self.good(self.model(
+            textures=[{"source": 0}], images=[{"uri": "data:image/png;base64," + picture}],
+            materials=[{"pbrMetallicRoughness": {"baseColorTexture": info[0]}, "normalTexture": info[1],
+                        "emissiveTexture": info[2], "emissiveFactor": [1, 1, 1]}] * 3), "-o", "a.png", "-s", "16")
+        self.assertEqual(done.stderr.count(b"its emission map is not drawn: it uses a third set"), 1, done.stderr)
+
     def test_one_warning_for_one_cause(self):
         """Each file is drawn with exactly the warnings listed: a consequence of a wrong value is not reported again, and nothing is left out in silence."""
         triangle = {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}

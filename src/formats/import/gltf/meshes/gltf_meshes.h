@@ -59,8 +59,8 @@ struct gltf_deformation {
     const struct gltf_skin *skin; // may be NULL
 };
 
-// Replaces the mesh's positions, normals, tangents and texture coordinates with changed copies, if a skin or morph
-// targets with nonzero weights change them. Sets *skinned to true if the positions are now in the file's space,
+// Replaces the mesh's positions, normals, tangents, colours and texture coordinates with changed copies, if a skin or
+// morph targets with nonzero weights change them. Sets *skinned to true if the positions are now in the file's space,
 // otherwise to false.
 bool gltf_deform(struct gltf *gltf, const struct place *place, const json_t *primitive,
                  const struct gltf_deformation *deformation, lam_mesh *mesh, bool *skinned);

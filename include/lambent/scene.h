@@ -231,8 +231,15 @@ typedef struct lam_object {
     bool one_sided;
     lam_cull cull; // the culled side
     bool hidden;   // true: not drawn (lam_scene_hide_object)
+    int group;     // 1 + the index of the innermost group (lam_scene_group); 0: none
     LAM_RESERVED(15);
 } lam_object;
+
+// An assembly of a STEP file, or a node of a glTF file above other nodes. A group contains objects and other groups.
+typedef struct lam_group {
+    const char *name; // UTF-8, not empty
+    int parent;       // 1 + the index of the group that contains this group; 0: none. A parent precedes its groups.
+} lam_group;
 
 // Returns an object with mesh 0, the identity transform, and −1 for both materials.
 LAM_API lam_object lam_object_default(void);
@@ -295,6 +302,7 @@ LAM_API const lam_mesh *lam_scene_mesh(const lam_scene *scene, int index);
 LAM_API const lam_material *lam_scene_material(const lam_scene *scene, int index);
 LAM_API const lam_object *lam_scene_object(const lam_scene *scene, int index);
 LAM_API const lam_light *lam_scene_light(const lam_scene *scene, int index);
+LAM_API const lam_group *lam_scene_group(const lam_scene *scene, int index);
 
 // These functions return the number of triangles, lines, points and vertices over all objects.
 LAM_API uint64_t lam_scene_triangle_count(const lam_scene *scene);

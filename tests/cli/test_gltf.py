@@ -191,6 +191,33 @@ class Gltf(GltfCase):
             done = self.good(self.moving(pointer, [0] * count, [1] * count, kind), "--time", "1", "-o", "a.png", "-s", "16")
             self.assertEqual(done.stderr.count(says.encode()), 1, (pointer, done.stderr))
 
+    def test_nodes_above_objects(self):
+        """The name of a node stands for the objects below it too; other names keep their meaning."""
+        red, blue = {"mesh": 0, "name": "red", "translation": [-1.5, 0, 0]}, {"mesh": 1, "name": "blue", "translation": [1.5, 0, 0]}
+        model = self.model(nodes=[{"name": "arm", "children": [1, 2]}, red, {"name": "hand", "children": [3]}, blue],
+                           scenes=[{"nodes": [0]}])
+
+        def left_and_right(*words):
+            self.good(model, "--camera", FULL.replace("20", "50"), *words, "-o", "a.png", "-s", "32", "-q", "-b", "black")
+            picture = read_png((self.folder / "a.png").read_bytes())
+            return [pixel(picture, x, 16)[:3] for x in (5, 27)]
+
+        black, both = (0, 0, 0), [(255, 0, 0), (0, 0, 255)]
+        self.assertEqual(left_and_right(), both)
+        self.assertEqual(left_and_right("--hide", "hand"), [both[0], black])
+        self.assertEqual(left_and_right("--only", "hand"), [black, both[1]])
+        self.assertEqual(left_and_right("--only", "arm"), both)
+        self.assertEqual(left_and_right("--material", "diffuse=0/1/0@hand"), [both[0], (0, 255, 0)])
+        self.bad(1, model, "--hide", "hant", says="did you mean 'hand'?")
+        (self.folder / "two.json").write_text(json.dumps({"lambent": 1, "objects": [
+            {"file": model, "scene": "0", "transform": [["translate", 0, 9, 0]]}, {"file": model}]}))
+        self.good("two.json", "--hide", "hand", "--camera", FULL.replace("20", "50"), "-o", "b.png", "-s", "32", "-q", "-b", "black")
+        picture = read_png((self.folder / "b.png").read_bytes())
+        self.assertEqual(pixel(picture, 27, 16)[:3], black)
+        names = json.loads(self.good("info", model, "--json").stdout)["names"]
+        self.assertEqual([(n["name"], n["objects"], n["groups"]) for n in names if n["name"]],
+                         [("red", 1, 0), ("blue", 1, 0), ("arm", 0, 1), ("hand", 0, 1)])
+
     def test_morphed_colors(self):
         """Morph targets and animated weights change colours, which are clamped after all targets are added."""
         for kind, format_, white in ((5121, "<16B", 255), (5126, "<16f", 1)):

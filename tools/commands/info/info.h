@@ -29,7 +29,7 @@ const char *info_color_space(const struct info_texture *texture);    // "srgb" o
 // A name, and how many objects and parts have this name.
 struct info_name {
     const char *name;
-    int objects, parts;
+    int objects, parts, groups;
     int order; // the position at which the name first occurs
 };
 struct info_names {

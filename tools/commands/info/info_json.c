@@ -199,7 +199,7 @@ static void write_model(struct json *json, const struct info *info)
     for (int i = 0; i < info->names->count; i++)
         json_put(json,
                  OBJECT(NULL, TEXT("name", info->names->items[i].name), COUNT("objects", info->names->items[i].objects),
-                        COUNT("parts", info->names->items[i].parts)));
+                        COUNT("parts", info->names->items[i].parts), COUNT("groups", info->names->items[i].groups)));
     json_close(json, ']');
     json_open(json, "materials", '[');
     for (int i = 0; i < lam_scene_material_count(scene); i++)

@@ -205,17 +205,19 @@ static void print_factors(const lam_material *m)
         printf(", alpha blended");
 }
 
-// Prints the names of objects and parts that --hide accepts.
+// Prints the names of objects, groups and parts that --hide accepts.
 static void print_names_to_hide(const struct info_names *names)
 {
     char name[NAME_BYTES + 12];
     for (int i = 0; i < names->count && !omitted(i, names->count); i++) {
         const struct info_name *row = &names->items[i];
-        printf("%-12s%s, ", label("names", i), shown(row->name, name));
+        printf("%-12s%s", label("names", i), shown(row->name, name));
         if (row->objects)
-            printf("%d object%s", row->objects, plural((uint64_t)row->objects));
+            printf(", %d object%s", row->objects, plural((uint64_t)row->objects));
+        if (row->groups)
+            printf(", %d group%s", row->groups, plural((uint64_t)row->groups));
         if (row->parts)
-            printf("%s%d part%s", row->objects ? ", " : "", row->parts, plural((uint64_t)row->parts));
+            printf(", %d part%s", row->parts, plural((uint64_t)row->parts));
         printf("\n");
     }
 }

@@ -144,6 +144,7 @@ struct gltf_node {
     double translation[3], rotation[4], scale[3];
     double *weights; // weights of morph targets; NULL means the mesh's weights
     size_t weight_count;
+    int group;      // lam_object.group of the objects below the node
     bool visible;   // KHR_node_visibility: the node and all its ancestors are visible
     bool in_scene;  // the node belongs to the scene that is drawn
     lam_mat4 world; // transform from the node's space to the file's space

@@ -136,6 +136,8 @@ typedef struct lam_load_params {
     double time_s;
     // OBJ and PLY: marks the edges that splitting polygons into triangles added (lam_mesh.inner_edges), for wireframes.
     bool polygon_edges;
+    // STEP, IGES and BREP: computes lam_mesh.exact_area and exact_volume, which may take longer than the triangles.
+    bool measure;
     // Folders and files that a model or a scene file may refer to, in addition to its own folder. Without them, a name
     // that leads out of that folder, such as "../textures/wood.png", is reduced to its last component.
     const char *const *allowed_paths;
@@ -371,7 +373,9 @@ typedef struct lam_file_info {
     int extension_count; // elements of `extensions`
     // Metres per unit of length in the file: 1 for glTF, 0.001 for millimetres; 0: the format does not state it.
     double unit_m;
-    LAM_RESERVED(15);
+    // The largest memory in bytes of the process that read the file for the library (lambent-formats); 0: there was none.
+    uint64_t reader_memory;
+    LAM_RESERVED(14);
 } lam_file_info;
 
 // Returns information about the file of a loaded scene. The information is valid until the scene is freed. All fields

@@ -95,6 +95,7 @@ struct info_unit info_unit(const lam_scene *scene);
 
 // The surface of all objects, in the model's units.
 struct info_measure {
+    bool exact; // of the exact shape (STEP), not of the triangles
     double area;
     // True if the triangles traverse every edge equally often in each direction. The surface then encloses a volume.
     bool closed;

@@ -236,6 +236,27 @@ class Assimp(Modules):
         done = self.good("model/lone/box.fbx", "-s", 16)
         self.assertEqual(done.stderr.count(b"warning"), 1)
 
+    def test_fbx_warnings(self):
+        """What Assimp loses without a word, and data that contradict each other, cost one warning."""
+        lost = (' NodeAttribute: 500, "NodeAttribute::lamp", "Light" { TypeFlags: "Light"\n'
+                '  Properties70: { P: "LightType", "enum", "", "",3 } }\n Model: 501, "Model::lamp", "Light" { Version: 232 }\n'
+                ' NodeAttribute: 600, "NodeAttribute::eye", "Camera" { TypeFlags: "Camera"\n'
+                '  Properties70: { P: "CameraProjectionType", "enum", "", "",1\n   P: "FieldOfView", "FieldOfView", "", "A",40 } }\n'
+                ' Model: 601, "Model::eye", "Camera" { Version: 232 }\n}\n',
+                'Connections: {\n C: "OO",500,501\n C: "OO",501,0\n C: "OO",600,601\n C: "OO",601,0\n')
+        self.file("lost.fbx", fbx().replace("}\nConnections: {\n", "".join(lost)))
+        done = self.good("lost.fbx", "-s", 16)
+        self.assertIn(b"lost.fbx: its area lights are not drawn; its orthographic cameras show perspective\n", done.stderr)
+        self.assertAlmostEqual(self.info("lost.fbx")["cameras"][0]["fovy_deg"], 40, places=3)
+        self.file("point.fbx", fbx().replace("}\nConnections: {\n", "".join(lost)).replace('"enum", "", "",3', '"enum", "", "",0')
+                  .replace('"enum", "", "",1', '"enum", "", "",0'))
+        self.assertNotIn(b"not drawn", self.good("point.fbx", "-s", 16).stderr)
+        self.file("twice.fbx", fbx().replace(' C: "OO",100,200\n', ' C: "OO",100,200\n' * 2))
+        done = self.good("twice.fbx", "-s", 16)
+        self.assertIn(b"twice.fbx: it contains an error, and is drawn as far as possible: Validation failed: aiNode::mMeshes", done.stderr)
+        self.assertEqual([round(n, 4) for n in self.info("twice.fbx")["size"]], [1, 2, 3])
+        self.assertTrue(1 << 20 < self.info("twice.fbx")["reader_memory_bytes"] < 1 << 32)
+
     def test_crash(self):
         """One sentence and exit 2; in a batch, the other models are drawn, and the worker lives."""
         crash = self.file("b.x", (SHAPES / "crash.x").read_bytes())

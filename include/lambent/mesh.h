@@ -99,7 +99,10 @@ typedef struct lam_mesh {
     // edges of the model.
     const uint8_t *inner_edges;
     bool hidden; // true: objects of this mesh are hidden (lam_scene_hide_mesh)
-    LAM_RESERVED(29);
+    // The area of an exact shape (STEP, IGES, BREP) and the volume that it encloses if it is closed, in square and cubic
+    // units of the mesh, to about six digits. 0: unknown (lam_load_params.measure).
+    double exact_area, exact_volume;
+    LAM_RESERVED(27);
 } lam_mesh;
 
 // Parameters of a built-in shape. All zero: the defaults of the shape.

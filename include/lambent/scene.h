@@ -141,6 +141,8 @@ typedef struct lam_load_params {
     double time_s;
     // OBJ and PLY: marks the edges that splitting polygons into triangles added (lam_mesh.inner_edges), for wireframes.
     bool polygon_edges;
+    // STEP, IGES and BREP: computes lam_mesh.exact_area and exact_volume, which may take longer than the triangles.
+    bool measure;
     // Folders and files that a model or a scene file may refer to, in addition to its own folder. Without them, a name
     // that leads out of that folder, such as "../textures/wood.png", is reduced to its last component.
     const char *const *allowed_paths;
@@ -236,8 +238,15 @@ typedef struct lam_object {
     bool one_sided;
     lam_cull cull; // the culled side
     bool hidden;   // true: not drawn (lam_scene_hide_object)
+    int group;     // 1 + the index of the innermost group (lam_scene_group); 0: none
     LAM_RESERVED(15);
 } lam_object;
+
+// An assembly of a STEP file, or a node of a glTF file above other nodes. A group contains objects and other groups.
+typedef struct lam_group {
+    const char *name; // UTF-8, not empty
+    int parent;       // 1 + the index of the group that contains this group; 0: none. A parent precedes its groups.
+} lam_group;
 
 // Returns an object with mesh 0, the identity transform, and −1 for both materials.
 LAM_API lam_object lam_object_default(void);
@@ -300,6 +309,7 @@ LAM_API const lam_mesh *lam_scene_mesh(const lam_scene *scene, int index);
 LAM_API const lam_material *lam_scene_material(const lam_scene *scene, int index);
 LAM_API const lam_object *lam_scene_object(const lam_scene *scene, int index);
 LAM_API const lam_light *lam_scene_light(const lam_scene *scene, int index);
+LAM_API const lam_group *lam_scene_group(const lam_scene *scene, int index);
 
 // These functions return the number of triangles, lines, points and vertices over all objects.
 LAM_API uint64_t lam_scene_triangle_count(const lam_scene *scene);
@@ -368,7 +378,9 @@ typedef struct lam_file_info {
     int extension_count; // elements of `extensions`
     // Metres per unit of length in the file: 1 for glTF, 0.001 for millimetres; 0: the format does not state it.
     double unit_m;
-    LAM_RESERVED(15);
+    // The largest memory in bytes of the process that read the file for the library (lambent-formats); 0: there was none.
+    uint64_t reader_memory;
+    LAM_RESERVED(14);
 } lam_file_info;
 
 // Returns information about the file of a loaded scene. The information is valid until the scene is freed. All fields

@@ -650,9 +650,9 @@ struct option option_table[OPTIONS_MAX] = {
      "values.",
      NULL, .kind = VALUE_MATERIAL, .store = store_material, FIELD(material.back_materials)},
     {"hide", 0, GROUP_MATERIALS, "NAME", NULL, "Hide the objects, parts or materials of this name; repeatable.",
-     "Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then for surfaces "
-     "whose material has that name. Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent "
-     "view` and the web page list the names.",
+     "Lambent first looks for objects of that name, and for objects in an assembly (STEP) or below a node (glTF) of "
+     "that name. Then it looks for parts (OBJ groups, STL solids), and then for surfaces whose material has that name. "
+     "Lambent does not draw the hidden surfaces, and they cast no shadows. `lambent info` lists the names.",
      .store = store_texts, .others = "invisible omit remove without", .also = "exclude", FIELD(material.hidden)},
     {"only", 0, GROUP_MATERIALS, "NAME", NULL, "Show only the objects, parts or materials of this name; repeatable.",
      "The camera fits what is shown. The names are those that `--hide` accepts.", .store = store_texts,

@@ -5,7 +5,7 @@ import json
 import math
 import struct
 
-from harness import Case, pixel, read_png
+from harness import Case, pixel, read_png, write_png
 
 CORNERS = struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
 FULL = "eye=0/0/4,target=0/0/0,fovy=20"
@@ -109,6 +109,150 @@ class Gltf(GltfCase):
         self.assertEqual((self.folder / "a.png").read_bytes(), first)
         self.bad(1, model, "--animation", "fly", says="there is no animation 'fly'; expected one of 0 ('still'), 1 ('slide')")
         self.bad(1, model, "--animation", "slid", says="there is no animation 'slid'; did you mean 'slide'? expected one of")
+
+    def moving(self, pointer, first, last, kind="SCALAR", **changes):
+        """The square, with an animation of two seconds that changes one property."""
+        flag = isinstance(first, bool)
+        keys = struct.pack("<2f", 0, 2) + (bytes([first, last]) if flag else struct.pack(f"<{2 * len(first)}f", *first, *last))
+        return self.model(
+            "moving.gltf", extensionsUsed=["KHR_animation_pointer"],
+            accessors=[{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                       {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                       {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                       {"bufferView": 2, "byteOffset": 8, "componentType": 5121 if flag else 5126,
+                        "count": 2 if flag else 2 * len(first) // {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[kind],
+                        "type": kind},
+                       {"bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC2"}],
+            bufferViews=[{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12},
+                         {"buffer": 1, "byteLength": len(keys)}, {"buffer": 0, "byteLength": 48, "byteStride": 12}],
+            buffers=[{"byteLength": 60, "uri": "data:;base64," + base64.b64encode(CORNERS).decode()},
+                     {"byteLength": len(keys), "uri": "data:;base64," + base64.b64encode(keys).decode()}],
+            animations=[{"channels": [{"sampler": 0, "target": {"path": "pointer", "extensions": {
+                "KHR_animation_pointer": {"pointer": pointer}}}}],
+                "samplers": [{"input": 2, "output": 3, "interpolation": "STEP" if flag else "LINEAR"}]}], **changes)
+
+    def test_animation_pointers(self):
+        """An animated property draws the picture of a file that states the property's value, and differs without it."""
+        metal = {"pbrMetallicRoughness": {"metallicFactor": 1.0, "roughnessFactor": 0.25}}
+        picture = base64.b64encode(write_png(2, 2, bytes.fromhex("ff0000ff00ff00ff0000ffffffff00ff"))).decode()
+        mapped = {"textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64," + picture}],
+                  "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+                                 "extensions": {"KHR_materials_unlit": {}}}] * 3,
+                  "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 4}, "indices": 1, "material": 0}]}] * 2}
+        lamp = {"extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 90.0, "spot": {}}]}},
+                "nodes": [{"mesh": 0}, {"mesh": 0}, {"translation": [0.0, 0.0, 3.0], "extensions": {
+                    "KHR_lights_punctual": {"light": 0}}}, {}],
+                "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0.0}}] * 3}
+        three = {"materials": [metal] * 3}
+        light = "/extensions/KHR_lights_punctual/lights/0/"
+        rows = (("/nodes/0/translation", "VEC3", (0, 0, 0), (1, 0.5, 0), {}),
+                ("/nodes/0/rotation", "VEC4", (0, 0, 0, 1), (0, 0, math.sqrt(0.5), math.sqrt(0.5)), {}),
+                ("/nodes/0/scale", "VEC3", (1, 1, 1), (0.5, 2, 1), {}),
+                ("/materials/0/pbrMetallicRoughness/baseColorFactor", "VEC4", (1, 0, 0, 1), (0, 0, 1, 1), {}),
+                ("/materials/0/pbrMetallicRoughness/roughnessFactor", "SCALAR", (0.1,), (0.9,), three),
+                ("/materials/0/pbrMetallicRoughness/metallicFactor", "SCALAR", (1,), (0,), three),
+                ("/materials/0/emissiveFactor", "VEC3", (0, 0, 0), (1, 0.5, 0), three),
+                ("/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", "SCALAR", (0,), (1,), three),
+                ("/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset", "VEC2",
+                 (0, 0), (1, 0.5), mapped),
+                ("/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation", "SCALAR",
+                 (0,), (3,), mapped),
+                (light + "color", "VEC3", (1, 1, 1), (1, 0, 0), lamp), (light + "intensity", "SCALAR", (0,), (50,), lamp),
+                (light + "spot/outerConeAngle", "SCALAR", (0.1,), (0.5,), lamp),
+                ("/cameras/0/perspective/yfov", "SCALAR", (0.4,), (0.8,), {}),
+                ("/cameras/1/orthographic/ymag", "SCALAR", (2,), (3,), {}))
+        for pointer, kind, first, last, more in rows:
+            with self.subTest(pointer):
+                camera = "0" if "perspective" in pointer else "1" if "orthographic" in pointer else "eye=2/1/5,target=0/0/0,fovy=60"
+                view = ("--camera", camera, "-s", "24", "-q", "-o")
+                model = self.moving(pointer, first, last, kind, **more)
+                file = json.loads((self.folder / model).read_text())
+                *path, key = pointer.strip("/").split("/")
+                owner = file
+                for step in path:
+                    owner = owner[int(step)] if isinstance(owner, list) else owner.setdefault(step, {})
+                middle = [(a + b) / 2 for a, b in zip(first, last)]
+                middle = [0, 0, math.sin(math.pi / 8), math.cos(math.pi / 8)] if key == "rotation" and kind == "VEC4" else middle
+                owner[key] = middle if len(middle) > 1 else middle[0]
+                (self.folder / "still.gltf").write_text(json.dumps(file))
+                for name, words in (("moved", (model, "--time", "1")), ("still", ("still.gltf",)), ("first", (model,))):
+                    self.good(*words, *view, f"{name}.png")
+                self.assertEqual((self.folder / "moved.png").read_bytes(), (self.folder / "still.png").read_bytes())
+                self.assertNotEqual((self.folder / "moved.png").read_bytes(), (self.folder / "first.png").read_bytes())
+        visible = self.moving("/nodes/0/extensions/KHR_node_visibility/visible", True, False)
+        self.bad(2, visible, "--time", "2", says="contains no triangles in its scene")
+        self.assertEqual(self.middle(visible, "--time", "1", "--camera", FULL), (255, 0, 0))
+        for pointer, says in (
+                ("/materials/0/doubleSided", "channels[0].target: '/materials/0/doubleSided' is no property that this"),
+                ("/materials/7/emissiveFactor", "'/materials/7/emissiveFactor' names nothing in the file"),
+                ("/materials/0/emissiveTexture/extensions/KHR_texture_transform/rotation", "names nothing in the file"),
+                ("/cameras/0/perspective/yfov/0", "is no property"), ("", "expected"), ("/nodes/0/weights/0", "names nothing")):
+            kind, count = ("VEC3", 3) if "emissiveFactor" in pointer else ("SCALAR", 1)
+            done = self.good(self.moving(pointer, [0] * count, [1] * count, kind), "--time", "1", "-o", "a.png", "-s", "16")
+            self.assertEqual(done.stderr.count(says.encode()), 1, (pointer, done.stderr))
+
+    def test_nodes_above_objects(self):
+        """The name of a node stands for the objects below it too; other names keep their meaning."""
+        red, blue = {"mesh": 0, "name": "red", "translation": [-1.5, 0, 0]}, {"mesh": 1, "name": "blue", "translation": [1.5, 0, 0]}
+        model = self.model(nodes=[{"name": "arm", "children": [1, 2]}, red, {"name": "hand", "children": [3]}, blue],
+                           scenes=[{"nodes": [0]}])
+
+        def left_and_right(*words):
+            self.good(model, "--camera", FULL.replace("20", "50"), *words, "-o", "a.png", "-s", "32", "-q", "-b", "black")
+            picture = read_png((self.folder / "a.png").read_bytes())
+            return [pixel(picture, x, 16)[:3] for x in (5, 27)]
+
+        black, both = (0, 0, 0), [(255, 0, 0), (0, 0, 255)]
+        self.assertEqual(left_and_right(), both)
+        self.assertEqual(left_and_right("--hide", "hand"), [both[0], black])
+        self.assertEqual(left_and_right("--only", "hand"), [black, both[1]])
+        self.assertEqual(left_and_right("--only", "arm"), both)
+        self.assertEqual(left_and_right("--material", "diffuse=0/1/0@hand"), [both[0], (0, 255, 0)])
+        self.bad(1, model, "--hide", "hant", says="did you mean 'hand'?")
+        (self.folder / "two.json").write_text(json.dumps({"lambent": 1, "objects": [
+            {"file": model, "scene": "0", "transform": [["translate", 0, 9, 0]]}, {"file": model}]}))
+        self.good("two.json", "--hide", "hand", "--camera", FULL.replace("20", "50"), "-o", "b.png", "-s", "32", "-q", "-b", "black")
+        picture = read_png((self.folder / "b.png").read_bytes())
+        self.assertEqual(pixel(picture, 27, 16)[:3], black)
+        names = json.loads(self.good("info", model, "--json").stdout)["names"]
+        self.assertEqual([(n["name"], n["objects"], n["groups"]) for n in names if n["name"]],
+                         [("red", 1, 0), ("blue", 1, 0), ("arm", 0, 1), ("hand", 0, 1)])
+
+    def test_morphed_colors(self):
+        """Morph targets and animated weights change colours, which are clamped after all targets are added."""
+        for kind, format_, white in ((5121, "<16B", 255), (5126, "<16f", 1)):
+            base = struct.pack(format_, *([white, 0, 0, white] * 4))
+            deltas = struct.pack("<24f", *([-2, 0, 0] * 4), *([0.5, 1, 0] * 4))
+            data = CORNERS + base + deltas + struct.pack("<4f", 0, 2, 0, 1)
+            views, at = [], 0
+            for size in (48, 12, len(base), 48, 48, 8, 8):
+                views.append({"buffer": 0, "byteOffset": at, "byteLength": size})
+                at += size
+            model = self.model(
+                nodes=[{"mesh": 0}] * 4, bufferViews=views,
+                accessors=[{"bufferView": i, "componentType": c, "count": n, "type": t, "normalized": c == 5121}
+                           for i, (c, n, t) in enumerate(((5126, 4, "VEC3"), (5123, 6, "SCALAR"), (kind, 4, "VEC4"),
+                                                          (5126, 4, "VEC3"), (5126, 4, "VEC3"), (5126, 2, "SCALAR"),
+                                                          (5126, 2, "SCALAR")))],
+                buffers=[{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+                materials=[unlit(1, 1, 1)] * 3, meshes=[{"weights": [1, 1], "primitives": [{
+                    "attributes": {"POSITION": 0, "COLOR_0": 2}, "indices": 1, "material": 0,
+                    "targets": [{"COLOR_0": 3}, {"COLOR_0": 4}]}]}],
+                animations=[{"channels": [{"sampler": 0, "target": {"path": "pointer", "extensions": {
+                    "KHR_animation_pointer": {"pointer": "/nodes/0/weights/0"}}}}], "samplers": [{"input": 5, "output": 6}]}])
+            self.assertEqual(self.middle(model, "--camera", FULL), (0, 255, 0))  # 1 − 2 + 0.5
+            self.assertEqual(self.middle(model, "--camera", FULL, "--time", "0"), (255, 255, 0))
+            self.assertEqual(self.middle(model, "--camera", FULL, "--time", "1"), (188, 255, 0))  # 1 − 1 + 0.5
+
+    def test_three_sets_of_coordinates(self):
+        """The maps use any two sets; a map with a third set is omitted, but never the base colour."""
+        info = [{"index": 0, "texCoord": i} for i in (5, 6, 7)]
+        picture = base64.b64encode(write_png(1, 1, bytes([0, 255, 0, 255]))).decode()
+        done = self.good(self.model(
+            textures=[{"source": 0}], images=[{"uri": "data:image/png;base64," + picture}],
+            materials=[{"pbrMetallicRoughness": {"baseColorTexture": info[0]}, "normalTexture": info[1],
+                        "emissiveTexture": info[2], "emissiveFactor": [1, 1, 1]}] * 3), "-o", "a.png", "-s", "16")
+        self.assertEqual(done.stderr.count(b"its emission map is not drawn: it uses a third set"), 1, done.stderr)
 
     def test_one_warning_for_one_cause(self):
         """Each file is drawn with exactly the warnings listed: a consequence of a wrong value is not reported again, and nothing is left out in silence."""

@@ -46,8 +46,8 @@ class Info(GltfCase):
     def test_names(self):
         """Each name of an object or a part is listed once, and --hide accepts it."""
         (self.folder / "names.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\no body\ng door\nf 1 2 3\ng window\nf 1 3 2\ng door\nf 1 2 3\n")
-        self.assertEqual(self.info("names.obj")[0]["names"], [{"name": "body", "objects": 1, "parts": 0}, {"name": "body/door", "objects": 0, "parts": 2},
-                                                              {"name": "body/window", "objects": 0, "parts": 1}])
+        self.assertEqual(self.info("names.obj")[0]["names"], [{"name": "body", "objects": 1, "parts": 0, "groups": 0}, {"name": "body/door", "objects": 0, "parts": 2, "groups": 0},
+                                                              {"name": "body/window", "objects": 0, "parts": 1, "groups": 0}])
         text = self.good("info", "names.obj").stdout.decode()
         self.assertIn("names       'body', 1 object\n            'body/door', 2 parts\n            'body/window', 1 part\n", text)
         self.assertEqual([row["name"] for row in self.info("cube")[0]["names"]], ["cube"])

@@ -9,7 +9,7 @@ import struct
 import subprocess
 import unittest
 
-from harness import Case, long, HAS_SANDBOX, PROGRAM, read_png, write_png
+from harness import Case, long, HAS_SANDBOX, PROGRAM, pixel, read_png, write_png
 
 BUILD = pathlib.Path(PROGRAM).resolve().parent
 HAS_ASSIMP, HAS_OCCT = ((BUILD / f"lambent-{name}.so").exists() for name in ("assimp", "occt"))
@@ -236,6 +236,27 @@ class Assimp(Modules):
         done = self.good("model/lone/box.fbx", "-s", 16)
         self.assertEqual(done.stderr.count(b"warning"), 1)
 
+    def test_fbx_warnings(self):
+        """What Assimp loses without a word, and data that contradict each other, cost one warning."""
+        lost = (' NodeAttribute: 500, "NodeAttribute::lamp", "Light" { TypeFlags: "Light"\n'
+                '  Properties70: { P: "LightType", "enum", "", "",3 } }\n Model: 501, "Model::lamp", "Light" { Version: 232 }\n'
+                ' NodeAttribute: 600, "NodeAttribute::eye", "Camera" { TypeFlags: "Camera"\n'
+                '  Properties70: { P: "CameraProjectionType", "enum", "", "",1\n   P: "FieldOfView", "FieldOfView", "", "A",40 } }\n'
+                ' Model: 601, "Model::eye", "Camera" { Version: 232 }\n}\n',
+                'Connections: {\n C: "OO",500,501\n C: "OO",501,0\n C: "OO",600,601\n C: "OO",601,0\n')
+        self.file("lost.fbx", fbx().replace("}\nConnections: {\n", "".join(lost)))
+        done = self.good("lost.fbx", "-s", 16)
+        self.assertIn(b"lost.fbx: its area lights are not drawn; its orthographic cameras show perspective\n", done.stderr)
+        self.assertAlmostEqual(self.info("lost.fbx")["cameras"][0]["fovy_deg"], 40, places=3)
+        self.file("point.fbx", fbx().replace("}\nConnections: {\n", "".join(lost)).replace('"enum", "", "",3', '"enum", "", "",0')
+                  .replace('"enum", "", "",1', '"enum", "", "",0'))
+        self.assertNotIn(b"not drawn", self.good("point.fbx", "-s", 16).stderr)
+        self.file("twice.fbx", fbx().replace(' C: "OO",100,200\n', ' C: "OO",100,200\n' * 2))
+        done = self.good("twice.fbx", "-s", 16)
+        self.assertIn(b"twice.fbx: it contains an error, and is drawn as far as possible: Validation failed: aiNode::mMeshes", done.stderr)
+        self.assertEqual([round(n, 4) for n in self.info("twice.fbx")["size"]], [1, 2, 3])
+        self.assertTrue(1 << 20 < self.info("twice.fbx")["reader_memory_bytes"] < 1 << 32)
+
     def test_crash(self):
         """One sentence and exit 2; in a batch, the other models are drawn, and the worker lives."""
         crash = self.file("b.x", (SHAPES / "crash.x").read_bytes())
@@ -289,11 +310,11 @@ class Assimp(Modules):
 def true_edges(name):
     """The edges of the shape that lambent-import marks: chains of sides between points at which not just two sides meet."""
     data = (SHAPES / name).read_bytes()
-    request = struct.pack("<I16s16sIQQQdI4x", 2, b"occt", name.split(".")[-1].encode(), 60, 1 << 30, len(data), 1 << 30, 0.001, 0)
+    request = struct.pack("<I16s16sIQQQdII", 3, b"occt", name.split(".")[-1].encode(), 60, 1 << 30, len(data), 1 << 30, 0.001, 0, 0)
     process = subprocess.Popen([BUILD / "lambent-import"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     process.stdin.write(request + data)
     process.stdin.flush()
-    result, size = struct.unpack("<4xIQ408x", process.stdout.read(424))
+    result, size = struct.unpack("<4xIQ416x", process.stdout.read(432))
     scene = process.stdout.read(size)
     process.communicate()
     length = struct.unpack_from("<I", scene, 12)[0]
@@ -328,7 +349,8 @@ def true_edges(name):
 
 
 # Made with OpenCASCADE: "stand" is a plate of 40 × 20 × 5 mm with a hole, orange with a blue top, and two pins of one part, in inches. "rounded" is a box
-# of 40 × 30 × 20 with a fillet of radius 4 on each edge.
+# of 40 × 30 × 20 with a fillet of radius 4 on each edge. "machine" has two instances, left and right, of the assembly "pair" of a red block and a pin, and
+# a blue instance of the block; the pin of the right pair is green (a SHUO). "boxes" are two named solids of one group.
 @unittest.skipUnless(HAS_OCCT, "this build has no OpenCASCADE")
 class OpenCascade(Modules):
     STAND = {ending: (SHAPES / f"stand.{ending}").read_bytes() for ending in ("step", "iges", "brep")}
@@ -358,6 +380,47 @@ class OpenCascade(Modules):
         self.assertTrue(counts[0] < counts[1] == counts[2] < counts[3], counts)
         self.bad(1, path, "--deflection", 0.5, says="--deflection")
         self.assertIn(b"'--deflection' applies only to STEP", self.good("cube.obj", "--deflection", 0.01, "-s", 16, "-o", "a.png").stderr)
+
+    def test_measures(self):
+        """Area and volume of the exact shape: the triangles of the pins and the hole deviate by 0.1 percent."""
+        area = 2 * (40 * 20 - math.pi * 16) + 120 * 5 + 40 * math.pi + 2 * (2 * math.pi * 9 + 90 * math.pi)
+        for ending in ("step", "iges", "brep"):
+            info = self.info(self.file("stand." + ending, self.STAND[ending]))
+            pins = 1 if ending == "brep" else 2
+            scale = 1 if info["unit"] is None else 25.4
+            self.assertTrue(info["measure"]["exact"] and info["measure"]["closed"])
+            self.assertAlmostEqual(info["measure"]["volume"] * scale**3 / (self.VOLUME - (2 - pins) * math.pi * 135), 1, delta=1e-6)
+            self.assertAlmostEqual(info["measure"]["area"] * scale**2 / (area - (2 - pins) * math.pi * 108), 1, delta=1e-6)
+        self.assertIn("volume 4.597 cm\u00b3 (of the exact shape)", self.good("info", "stand.step").stdout.decode())
+        self.assertFalse(self.info("cube.obj")["measure"]["exact"])
+
+    def test_assemblies(self):
+        """The names of assemblies and of their instances stand for all parts; a style of one instance changes no other."""
+        self.file("machine.step", (SHAPES / "machine.step").read_bytes())
+        info = self.info("machine.step")
+        self.assertEqual({n["name"]: (n["objects"], n["groups"]) for n in info["names"]},
+                         {"block:1": (2, 0), "pin:1": (2, 0), "lone": (1, 0), "machine": (0, 1), "left": (0, 1), "right": (0, 1),
+                          "pair": (0, 2), "block": (0, 0), "pin": (0, 0)})
+
+        def shown(*words):
+            picture = read_png(self.good("machine.step", "-s", 96, "--view", "front", "-b", "white", *words, "-o", "-").stdout)
+            return {name for name, seen in {"red": lambda r, g, b: r > 2 * g and r > 2 * b, "green": lambda r, g, b: g > 2 * r and g > 2 * b,
+                                            "blue": lambda r, g, b: b > 2 * r and b > 2 * g, "grey": lambda r, g, b: r == g == b < 250}.items()
+                    if any(seen(*pixel(picture, x, y)[:3]) for x in range(96) for y in range(96))}
+
+        self.assertEqual(shown(), {"red", "green", "blue", "grey"})
+        self.assertEqual(shown("--only", "left"), {"red", "grey"})
+        self.assertEqual(shown("--only", "right"), {"red", "green"})
+        self.assertEqual(shown("--hide", "pair"), {"blue"})  # the blue instance of the red block
+        self.assertEqual(shown("--hide", "right", "--hide", "lone"), {"red", "grey"})
+        self.bad(1, "machine.step", "--hide", "lefd", says="did you mean 'left'?")
+
+    def test_iges_names(self):
+        """Names of solids within one shape: by a property (406), and by a label of eight characters."""
+        self.file("boxes.iges", (SHAPES / "boxes.iges").read_bytes())
+        self.assertEqual([(n["name"], n["parts"]) for n in self.info("boxes.iges")["names"] if n["parts"]], [("large box", 1), ("small", 1)])
+        both, large = (self.good("boxes.iges", "-s", 64, "--view", "front", *words, "-o", "-").stdout for words in ((), ("--hide", "small")))
+        self.assertNotEqual(both, large)
 
     def test_names(self):
         self.file("stand.step", self.STAND["step"])

@@ -76,8 +76,10 @@ int main(int count, char **words)
         answer.result = (uint32_t)atoi(mode + 6);
     if (strncmp(mode, "note", 4) == 0)
         memset(answer.note, '\33', sizeof answer.note); // without an end
-    if (strncmp(mode, "unit", 4) == 0)
+    if (strncmp(mode, "unit", 4) == 0) {
         answer.unit_m = -1;
+        answer.memory = UINT64_MAX;
+    }
     put(&answer, sizeof answer);
     put(bytes, strncmp(mode, "short", 5) == 0 ? 5 : request.size - HEAD);
     return 0;

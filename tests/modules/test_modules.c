@@ -17,7 +17,7 @@ static const char json[] =
     "\"byteOffset\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":1}],\"nodes\":[{\"mesh\":0,"
     "\"name\":\"part\","
     "\"children\":[1]},{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],\"meshes\":[{\"primitives\":["
-    "{\"attributes\":{\"POSITION\":0},\"mode\":4,\"extensions\":{\"LAMBENT_faces\":{\"inner\":1,\"parts\":"
+    "{\"attributes\":{\"POSITION\":0},\"mode\":4,\"extensions\":{\"LAMBENT_faces\":{\"inner\":1,\"area\":7,\"parts\":"
     "[{\"material\":0,\"triangles\":1}]}}}]}],\"materials\":[{\"name\":\"red\",\"extensions\":"
     "{\"LAMBENT_material\":{\"diffuse\":[1,0.5,0,1],\"specular\":[0,0,0],\"shininess\":20}}}],\"extensions\":"
     "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"extensions\":{\"LAMBENT_light\":"
@@ -75,6 +75,7 @@ TEST(test_scene)
     SUCCEEDS(scene);
     assert_int_equal(lam_scene_mesh(scene, 0)->triangle_count, 1);
     assert_int_equal(lam_scene_mesh(scene, 0)->inner_edges[0], 10);
+    assert_true(lam_scene_mesh(scene, 0)->exact_area == 7 && lam_scene_mesh(scene, 0)->exact_volume == 0);
     assert_int_equal(lam_scene_mesh(scene, 0)->parts[0].material, 0);
     assert_string_equal(lam_scene_object(scene, 0)->name, "part");
     const lam_material *material = lam_scene_material(scene, 0);
@@ -87,7 +88,7 @@ TEST(test_scene)
     lam_scene_free(scene);
     scene = load("unit", made, made_size, NULL, &error);
     SUCCEEDS(scene);
-    assert_true(lam_scene_file_info(scene)->unit_m == 0);
+    assert_true(lam_scene_file_info(scene)->unit_m == 0 && lam_scene_file_info(scene)->reader_memory == 0);
     lam_scene_free(scene);
     scene = load("note", made, made_size, NULL, &error);
     SUCCEEDS(scene);

@@ -65,6 +65,7 @@ struct job_frames {
 struct job {
     const struct options *options;
     const char *model;            // as typed
+    bool measure;                 // lam_load_params.measure
     const lam_bytes *model_bytes; // the bytes of the model that `model` names; NULL if the model is a file
     const char *output;           // path of the picture; "-" means standard output
     lam_bytes *picture_bytes;     // receives the picture in the format of `output`; NULL if a file is written

@@ -176,6 +176,7 @@ static lam_scene *load_one(const struct job *job, const char *name, bool only, c
                               .variant = o->model.variant,
                               .lenient = o->model.lenient,
                               .deflection = o->model.deflection,
+                              .measure = job->measure,
                               .animation = o->model.animation  ? o->model.animation
                                            : o->model.has_time ? "0"
                                                                : NULL,

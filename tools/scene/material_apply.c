@@ -113,13 +113,24 @@ static bool set_back(const struct material_option *option, const char *name, int
 
 static bool same(const char *a, const char *b) { return a && strcmp(a, b) == 0; }
 
-// Applies the option to the objects with this name. Returns their number, or −1 on failure.
-static int set_objects(const struct material_option *option, bool back, const char *name, lam_scene *scene,
+// Returns whether an object is below an assembly or a node of this name.
+static bool is_below(const lam_scene *scene, const lam_object *object, const char *name)
+{
+    const lam_group *group = lam_scene_group(scene, object->group - 1);
+    while (group && !same(group->name, name))
+        group = lam_scene_group(scene, group->parent - 1);
+    return group;
+}
+
+// Applies the option to the objects with this name, or to those below a node with it. Returns their number, or −1 on
+// failure.
+static int set_objects(const struct material_option *option, bool back, bool below, const char *name, lam_scene *scene,
                        lam_error *error)
 {
     int found = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
-        if (option->target && !same(lam_scene_object(scene, i)->name, option->target))
+        const lam_object *object = lam_scene_object(scene, i);
+        if (option->target && !(below ? is_below(scene, object, option->target) : same(object->name, option->target)))
             continue;
         found++;
         if (!(back ? set_back(option, name, i, scene, error) : set_front(option, name, i, scene, error)))
@@ -183,6 +194,8 @@ static bool not_found(const struct material_option *option, bool back, const cha
     struct target_names names = {.nearest = suggest_start(option->target)};
     for (int i = 0; i < lam_scene_object_count(scene); i++)
         offer(&names, lam_scene_object(scene, i)->name);
+    for (int i = 0; !back && lam_scene_group(scene, i); i++)
+        offer(&names, lam_scene_group(scene, i)->name);
     for (int m = 0; !back && m < lam_scene_mesh_count(scene); m++)
         for (uint32_t p = 0; p < lam_scene_mesh(scene, m)->part_count; p++)
             offer(&names, lam_scene_mesh(scene, m)->parts[p].name);
@@ -200,7 +213,9 @@ static bool not_found(const struct material_option *option, bool back, const cha
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error)
 {
-    int found = set_objects(option, back, name, scene, error);
+    int found = set_objects(option, back, false, name, scene, error);
+    if (found == 0 && option->target)
+        found = set_objects(option, back, true, name, scene, error);
     if (found == 0 && !back && option->target)
         found = set_parts(option, scene, error);
     if (found == 0 && !back && option->target)
@@ -210,12 +225,13 @@ bool material_option_set(const struct material_option *option, bool back, const 
     return found > 0;
 }
 
-// Hides the objects with this name. Returns their number, or −1 and an error.
+// Hides the objects with this name, and all below an assembly or a node of this name. Returns their number, or −1 and an error.
 static int hide_objects(const char *target, lam_scene *scene, lam_error *error)
 {
     int found = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
-        if (!same(lam_scene_object(scene, i)->name, target))
+        const lam_object *object = lam_scene_object(scene, i);
+        if (!same(object->name, target) && !is_below(scene, object, target))
             continue;
         if (!lam_scene_hide_object(scene, i, true, error))
             return -1;
@@ -258,7 +274,8 @@ bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, l
 static bool is_named(const lam_scene *scene, const lam_object *object, const char *name)
 {
     const int material = front_of(scene, object);
-    return same(object->name, name) || (material >= 0 && same(lam_scene_material(scene, material)->name, name));
+    return same(object->name, name) || is_below(scene, object, name) ||
+           (material >= 0 && same(lam_scene_material(scene, material)->name, name));
 }
 
 bool material_option_only(const struct texts *names, bool may_lack, lam_scene *scene, lam_error *error)

@@ -264,14 +264,21 @@ static bool add_items(struct reader *r, const struct model *model, bool field_ta
 {
     struct lam_scene *scene = r->scene;
     const struct lam_scene *inner = &model->inner;
-    int meshes = scene->meshes.count, materials = scene->materials.count, objects = scene->objects.count;
+    int meshes = scene->meshes.count, materials = scene->materials.count, objects = scene->objects.count,
+        groups = scene->groups.count;
     bool ok = true;
     for (int i = 0; ok && i < inner->materials.count; i++)
         ok = scene_adopt_material(scene, (const lam_material *)inner->materials.items + i, r->json.error) >= 0;
     for (int i = 0; ok && i < inner->meshes.count; i++)
         ok = add_mesh(r, model, i, materials, field_tangents);
+    for (int i = 0; ok && i < inner->groups.count; i++) {
+        lam_group group = ((const lam_group *)inner->groups.items)[i];
+        group.parent += group.parent ? groups : 0;
+        ok = scene_append(scene, &scene->groups, &group, sizeof group, r->json.error) >= 0;
+    }
     for (int i = 0; ok && i < inner->objects.count; i++) {
         lam_object object = *scene_object(inner, i);
+        object.group += object.group ? groups : 0;
         object.mesh += meshes;
         object.material += object.material >= 0 ? materials : 0;
         object.back_material += object.back_material >= 0 ? materials : 0;

@@ -300,6 +300,11 @@ const lam_light *lam_scene_light(const lam_scene *scene, int index)
     return scene ? item(&scene->lights, index, sizeof(lam_light)) : NULL;
 }
 
+const lam_group *lam_scene_group(const lam_scene *scene, int index)
+{
+    return scene ? item(&scene->groups, index, sizeof(lam_group)) : NULL;
+}
+
 // Returns the sum of a count, such as the number of a mesh's triangles, over all objects. `offset` is the position of
 // the count in lam_mesh.
 static uint64_t sum_of(const lam_scene *scene, size_t offset)

@@ -326,6 +326,8 @@ static bool check_object(const struct lam_scene *scene, const lam_object *object
     if (object->back_material < -1 || object->back_material >= scene->materials.count)
         return fail(error, LAM_BAD_ARGUMENT, "object: back_material %d of %d", object->back_material,
                     scene->materials.count);
+    if (object->group < 0 || object->group > scene->groups.count)
+        return fail(error, LAM_BAD_ARGUMENT, "object: group %d of %d", object->group, scene->groups.count);
     if ((unsigned)object->cull > LAM_CULL_FRONT)
         return fail(error, LAM_BAD_ARGUMENT, "object: cull is %d, expected 0 to 2", object->cull);
     const double(*m)[4] = object->transform.m;

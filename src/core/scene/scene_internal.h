@@ -89,6 +89,7 @@ struct lam_scene {
     struct scene_list extents;   // struct scene_extent: one element for each measured mesh, in the order of the meshes
     struct scene_list materials; // lam_material
     struct scene_list objects;   // lam_object
+    struct scene_list groups;    // lam_group
     struct scene_list lights;    // lam_light
     struct scene_list cameras;   // struct scene_camera
     struct scene_list textures;  // lam_texture *: each element is one reference

@@ -277,6 +277,7 @@ bool mesh_cut_make(const struct mesh_cut *cut, const int *materials, struct aren
     if (total > UINT32_MAX / 3)
         return fail(error, LAM_LIMIT, "a section has more than %u triangles", UINT32_MAX / 3);
     *out = *mesh;
+    out->exact_area = out->exact_volume = 0;
     uint32_t *count = mesh->line_count    ? &out->line_count
                       : mesh->point_count ? &out->point_count
                                           : &out->triangle_count;

@@ -29,7 +29,7 @@ const char *info_color_space(const struct info_texture *texture);    // "srgb" o
 // A name, and how many objects and parts have this name.
 struct info_name {
     const char *name;
-    int objects, parts;
+    int objects, parts, groups;
     int order; // the position at which the name first occurs
 };
 struct info_names {
@@ -95,6 +95,7 @@ struct info_unit info_unit(const lam_scene *scene);
 
 // The surface of all objects, in the model's units.
 struct info_measure {
+    bool exact; // of the exact shape (STEP), not of the triangles
     double area;
     // True if the triangles traverse every edge equally often in each direction. The surface then encloses a volume.
     bool closed;

@@ -43,7 +43,7 @@ static void write_geometry(struct json *json, const struct info *info)
              TEXT("up", lam_up_name(lam_scene_up(scene))), TEXT("unit", unit.name),
              OBJECT("bounds", VECTOR("min", low), VECTOR("max", high)), VECTOR("size", size));
     json_open(json, "measure", '{');
-    json_put(json, FLAG("closed", measure.closed), NUMBER("area", measure.area),
+    json_put(json, FLAG("closed", measure.closed), FLAG("exact", measure.exact), NUMBER("area", measure.area),
              NUMBER("volume", KNOWN(measure.closed, measure.volume)));
     if (known)
         json_put(json, NUMBERS("size_mm", 3, size.x * mm, size.y * mm, size.z * mm));
@@ -199,7 +199,7 @@ static void write_model(struct json *json, const struct info *info)
     for (int i = 0; i < info->names->count; i++)
         json_put(json,
                  OBJECT(NULL, TEXT("name", info->names->items[i].name), COUNT("objects", info->names->items[i].objects),
-                        COUNT("parts", info->names->items[i].parts)));
+                        COUNT("parts", info->names->items[i].parts), COUNT("groups", info->names->items[i].groups)));
     json_close(json, ']');
     json_open(json, "materials", '[');
     for (int i = 0; i < lam_scene_material_count(scene); i++)
@@ -219,6 +219,8 @@ static void write_model(struct json *json, const struct info *info)
     json_close(json, ']');
     write_file(json, file);
     json_put(json, FLAG("needs_lenient", info->needs_lenient), COUNT("memory_bytes", lam_scene_memory(scene)));
+    if (lam_scene_file_info(scene)->reader_memory)
+        json_put(json, COUNT("reader_memory_bytes", lam_scene_file_info(scene)->reader_memory));
     if (info->drawing_bytes)
         json_put(json, OBJECT("drawing", COUNT("memory_bytes", info->drawing_bytes), COUNT("width", INFO_SIDE),
                               COUNT("height", INFO_SIDE), COUNT("threads", info->drawing_threads)));

@@ -71,9 +71,23 @@ static bool is_closed(const lam_mesh *mesh)
     return sum == 0;
 }
 
+// Returns the factor by which a transform changes all lengths, or 0 if it also changes angles.
+static double scale_of(const lam_mat4 *m)
+{
+    const double(*r)[4] = m->m;
+    const double scale = cbrt(fabs(r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
+                                   r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
+                                   r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0])));
+    for (int i = 0; i < 3; i++) // the determinant is the product of three lengths only if the axes are orthogonal
+        if (!(fabs(hypot(hypot(r[0][i], r[1][i]), r[2][i]) - scale) < 1e-6 * scale))
+            return 0;
+    return scale;
+}
+
 struct info_measure info_measure(const lam_scene *scene)
 {
     struct info_measure all = {.closed = lam_scene_triangle_count(scene) > 0};
+    all.exact = lam_scene_object_count(scene) > 0;
     lam_vec3 low, high;
     lam_scene_bounds(scene, &low, &high);
     lam_vec3 center = {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
@@ -83,7 +97,14 @@ struct info_measure info_measure(const lam_scene *scene)
         const lam_object *object = lam_scene_object(scene, i);
         const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
         double area = 0, volume = 0; // twice the area and six times the volume
-        for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const double scale = scale_of(&object->transform);
+        const bool exact = scale > 0 && mesh->exact_area > 0 && (!all.closed || mesh->exact_volume > 0);
+        all.exact &= exact;
+        if (exact) {
+            area = 2 * mesh->exact_area * scale * scale;
+            volume = 6 * mesh->exact_volume * scale * scale * scale;
+        }
+        for (uint32_t t = 0; !exact && t < mesh->triangle_count; t++) {
             uint32_t vertices[3];
             info_vertices(mesh, t, vertices);
             lam_vec3 a = corner_of(mesh, &object->transform, center, vertices[0]);

@@ -77,13 +77,14 @@ static void print_measure(const lam_scene *scene, double millimetres, double lar
     struct info_measure measure = info_measure(scene);
     const char *unit = " units";
     double scale = largest_mm > 0 ? millimetres / readable_unit(largest_mm, false, &unit) : 1;
+    const char *shape = measure.exact ? " (of the exact shape)" : "";
     if (!lam_scene_triangle_count(scene))
         return;
     printf("%-12sarea %.4g%s²", "surface", measure.area * scale * scale, unit);
     if (measure.closed)
-        printf(", closed: volume %.4g%s³\n", measure.volume * scale * scale * scale, unit);
+        printf(", closed: volume %.4g%s³%s\n", measure.volume * scale * scale * scale, unit, shape);
     else
-        printf(", not closed\n");
+        printf(", not closed%s\n", shape);
 }
 
 static void print_sections(const struct info *info, double millimetres)
@@ -164,6 +165,9 @@ static void print_geometry(const struct info *info)
         printf("; stored: %" PRIu64 " triangles, %" PRIu64 " vertices", stored.triangles, stored.vertices);
     printf("\n%-12s%.1f MB; loaded in %.*f ms\n", "memory", (double)lam_scene_memory(scene) / 1e6,
            job->times.read + job->times.prepare < 10 ? 1 : 0, job->times.read + job->times.prepare);
+    const uint64_t reader = lam_scene_file_info(scene)->reader_memory;
+    if (reader)
+        printf("%-12s%.1f MB at most in the process that read the file\n", "", (double)reader / 1e6);
     if (info->drawing_bytes)
         printf("%-12s%.1f MB more to draw %d×%d pixels by %d thread%s\n", "", (double)info->drawing_bytes / 1e6,
                INFO_SIDE, INFO_SIDE, info->drawing_threads, info->drawing_threads == 1 ? "" : "s");
@@ -205,17 +209,19 @@ static void print_factors(const lam_material *m)
         printf(", alpha blended");
 }
 
-// Prints the names of objects and parts that --hide accepts.
+// Prints the names of objects, groups and parts that --hide accepts.
 static void print_names_to_hide(const struct info_names *names)
 {
     char name[NAME_BYTES + 12];
     for (int i = 0; i < names->count && !omitted(i, names->count); i++) {
         const struct info_name *row = &names->items[i];
-        printf("%-12s%s, ", label("names", i), shown(row->name, name));
+        printf("%-12s%s", label("names", i), shown(row->name, name));
         if (row->objects)
-            printf("%d object%s", row->objects, plural((uint64_t)row->objects));
+            printf(", %d object%s", row->objects, plural((uint64_t)row->objects));
+        if (row->groups)
+            printf(", %d group%s", row->groups, plural((uint64_t)row->groups));
         if (row->parts)
-            printf("%s%d part%s", row->objects ? ", " : "", row->parts, plural((uint64_t)row->parts));
+            printf(", %d part%s", row->parts, plural((uint64_t)row->parts));
         printf("\n");
     }
 }

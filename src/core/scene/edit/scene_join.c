@@ -37,7 +37,7 @@ static bool append_all(lam_scene *scene, struct scene_list *to, struct scene_lis
 }
 
 // Makes the indices of the other scene refer to the lists of both scenes. Its default material becomes a material.
-static void shift_indices(lam_scene *other, int meshes, int materials, int plain)
+static void shift_indices(lam_scene *other, int meshes, int materials, int groups, int plain)
 {
     for (int i = 0; i < other->meshes.count; i++) {
         lam_mesh *mesh = (lam_mesh *)other->meshes.items + i;
@@ -54,6 +54,11 @@ static void shift_indices(lam_scene *other, int meshes, int materials, int plain
             object->material += materials;
         object->back_material += object->back_material >= 0 ? materials : 0;
         object->mesh += meshes;
+        object->group += object->group ? groups : 0;
+    }
+    for (int i = 0; i < other->groups.count; i++) {
+        lam_group *group = (lam_group *)other->groups.items + i;
+        group->parent += group->parent ? groups : 0;
     }
     for (int i = 0; i < other->origins.count; i++) {
         struct scene_origin *origin = (struct scene_origin *)other->origins.items + i;
@@ -71,7 +76,7 @@ static bool join(lam_scene *scene, lam_scene *other, lam_error *error)
     const int plain = scene_adopt_material(scene, other->default_material, error);
     if (plain < 0 || !take_memory(scene, other, error))
         return false;
-    shift_indices(other, meshes, materials, plain);
+    shift_indices(other, meshes, materials, scene->groups.count, plain);
     scene->object_items += other->object_items;
     scene->input_bytes += other->input_bytes;
     scene->read_ms += other->read_ms;
@@ -79,6 +84,7 @@ static bool join(lam_scene *scene, lam_scene *other, lam_error *error)
     return append_all(scene, &scene->extents, &other->extents, sizeof(struct scene_extent), error) &&
            append_all(scene, &scene->meshes, &other->meshes, sizeof(lam_mesh), error) &&
            append_all(scene, &scene->objects, &other->objects, sizeof(lam_object), error) &&
+           append_all(scene, &scene->groups, &other->groups, sizeof(lam_group), error) &&
            append_all(scene, &scene->lights, &other->lights, sizeof(lam_light), error) &&
            append_all(scene, &scene->cameras, &other->cameras, sizeof(struct scene_camera), error) &&
            append_all(scene, &scene->textures, &other->textures, sizeof(lam_texture *), error) &&

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-// The lists that are restored, with the size of their items. Cameras and origins come from files and are never removed.
+// The lists that are restored, with the size of their items. Cameras, groups and origins come from files and are never removed.
 static const struct {
     size_t list, item;
 } lists[] = {
@@ -16,6 +16,7 @@ static const struct {
     {offsetof(struct lam_scene, extents), sizeof(struct scene_extent)},
     {offsetof(struct lam_scene, materials), sizeof(lam_material)},
     {offsetof(struct lam_scene, objects), sizeof(lam_object)},
+    {offsetof(struct lam_scene, groups), sizeof(lam_group)},
     {offsetof(struct lam_scene, lights), sizeof(lam_light)},
     {offsetof(struct lam_scene, origins), sizeof(struct scene_origin)},
     {offsetof(struct lam_scene, cameras), sizeof(struct scene_camera)},

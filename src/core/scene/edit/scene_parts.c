@@ -39,6 +39,7 @@ static bool part_mesh(lam_scene *scene, const lam_mesh *mesh, const lam_part *pa
     uint32_t range[2], *indices = NULL;
     find_range(mesh, first, count, range);
     *out = *mesh;
+    out->exact_area = out->exact_volume = 0;
     if (mesh->indices) {
         out->indices = indices = arena_array(&scene->arena, count, sizeof *indices);
         for (size_t i = 0; indices && i < count; i++)

@@ -123,9 +123,9 @@ static bool build(struct gltf *gltf)
     size_t size;
     return gltf_container_read(gltf, &text, &size) && gltf_json_parse(gltf, text, size) && gltf_check_asset(gltf) &&
            gltf_file_info_note(gltf) && gltf_check_extensions(gltf) && gltf_buffers_start(gltf) &&
-           gltf_accessors_start(gltf) && gltf_meshes_start(gltf) && gltf_textures_start(gltf) &&
-           gltf_materials_read(gltf) && gltf_textures_finish(gltf) && gltf_nodes_read(gltf) &&
-           gltf_animation_apply(gltf) && gltf_objects_add(gltf) && gltf_lights_add(gltf) && gltf_cameras_add(gltf) &&
+           gltf_accessors_start(gltf) && gltf_animation_apply(gltf) && gltf_meshes_start(gltf) &&
+           gltf_textures_start(gltf) && gltf_materials_read(gltf) && gltf_textures_finish(gltf) &&
+           gltf_nodes_read(gltf) && gltf_objects_add(gltf) && gltf_lights_add(gltf) && gltf_cameras_add(gltf) &&
            report_skipped(gltf);
 }
 

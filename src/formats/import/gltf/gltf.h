@@ -4,9 +4,8 @@
 // gltf_accessors.c, gltf_meshopt.c) and typed arrays in them (gltf_accessors.c, gltf_numbers.c). The arrays become meshes
 // (gltf_primitives.c, gltf_triangles.c, gltf_draco.c). The tree of nodes (gltf_nodes.c) places the meshes
 // (gltf_objects.c), the lights (gltf_lights.c) and the cameras (gltf_nodes.c). Materials (gltf_materials.c) request
-// textures, whose pictures are decoded together (gltf_textures.c). An animation first sets the transforms of the nodes
-// (gltf_animation.c). If a mesh has morph targets or a skin (gltf_deform.c), its positions are copied and
-// changed.
+// textures, whose pictures are decoded together (gltf_textures.c). An animation first changes the values in the JSON
+// tree (gltf_animation.c). If a mesh has morph targets or a skin (gltf_deform.c), its positions are copied and changed.
 //
 // Every count and index is checked when it is read. Errors name the position in the file: "ship.gltf:
 // meshes[3].primitives[0].attributes.POSITION: found 12, …". Section numbers refer to the specification,
@@ -145,6 +144,7 @@ struct gltf_node {
     double translation[3], rotation[4], scale[3];
     double *weights; // weights of morph targets; NULL means the mesh's weights
     size_t weight_count;
+    int group;      // lam_object.group of the objects below the node
     bool visible;   // KHR_node_visibility: the node and all its ancestors are visible
     bool in_scene;  // the node belongs to the scene that is drawn
     lam_mat4 world; // transform from the node's space to the file's space

@@ -21,6 +21,7 @@ static const struct {
     {"EXT_texture_avif",
      READ}, // without libavif, a texture without a picture in another format is omitted with a warning
     {"EXT_texture_webp", READ},
+    {"KHR_animation_pointer", READ},
     {"KHR_draco_mesh_compression", READ},
     {"KHR_lights_punctual", READ},
     {"KHR_materials_anisotropy", READ},

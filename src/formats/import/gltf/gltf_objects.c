@@ -11,7 +11,8 @@
 
 // Adds the primitives of a mesh with a transform. If the transform flattens space to a line or a point, the primitives
 // are invisible and are not added.
-static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char *name, const lam_mat4 *transform)
+static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char *name, int group,
+                     const lam_mat4 *transform)
 {
     double cofactors[3][3], determinant = mat4_determinant3(transform);
     mat4_normal_matrix(transform, cofactors);
@@ -30,6 +31,7 @@ static bool add_mesh(struct gltf *gltf, const struct gltf_mesh *mesh, const char
         lam_object object = lam_object_default();
         object.mesh = mesh->primitives[i].mesh;
         object.name = name;
+        object.group = group;
         if (!mesh->primitives[i].skinned) // the node transform of a skinned mesh is ignored
             object.transform = *transform;
         int32_t material = scene_mesh(gltf->scene, object.mesh)->parts->material;
@@ -116,7 +118,7 @@ static lam_mat4 instance_transform(const struct instances *instances, size_t i)
 }
 
 static bool add_instances(struct gltf *gltf, const struct place *place, const json_t *extension,
-                          const struct gltf_mesh *mesh, const char *name, const lam_mat4 *world)
+                          const struct gltf_mesh *mesh, const char *name, int group, const lam_mat4 *world)
 {
     struct instances instances = {0};
     const json_t *attributes = gltf_take_object(gltf, place, extension, "attributes");
@@ -127,11 +129,11 @@ static bool add_instances(struct gltf *gltf, const struct place *place, const js
         return false;
     if (!instances.count) {
         gltf_note(gltf, here, "found no TRANSLATION, ROTATION or SCALE; the mesh is drawn once");
-        return add_mesh(gltf, mesh, name, world);
+        return add_mesh(gltf, mesh, name, group, world);
     }
     for (size_t i = 0; i < instances.count; i++) {
         lam_mat4 own = instance_transform(&instances, i), transform = mat4_mul(world, &own);
-        if (!continues(gltf, i) || !add_mesh(gltf, mesh, name, &transform))
+        if (!continues(gltf, i) || !add_mesh(gltf, mesh, name, group, &transform))
             return false;
     }
     return true;
@@ -164,8 +166,23 @@ static bool add_node(struct gltf *gltf, int index)
         name = scene_mesh(gltf->scene, mesh->primitives[0].mesh)->name;
     const json_t *instancing = gltf_extension(object, "EXT_mesh_gpu_instancing");
     const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "EXT_mesh_gpu_instancing");
-    return instancing ? add_instances(gltf, here, instancing, mesh, name, &node->world) || gltf_skip(gltf)
-                      : add_mesh(gltf, mesh, name, &node->world);
+    const int group = node->parent < 0 ? 0 : gltf->nodes[node->parent].group;
+    return instancing ? add_instances(gltf, here, instancing, mesh, name, group, &node->world) || gltf_skip(gltf)
+                      : add_mesh(gltf, mesh, name, group, &node->world);
+}
+
+// Makes a group of a node with a name and children.
+static bool add_group(struct gltf *gltf, int index)
+{
+    struct gltf_node *node = &gltf->nodes[index];
+    const json_t *object = gltf_list_item(gltf, "nodes", index);
+    bool ok = true;
+    lam_group group = {.parent = node->parent < 0 ? 0 : gltf->nodes[node->parent].group};
+    node->group = group.parent;
+    if (!json_array_size(json_object_get(object, "children")) || !(group.name = gltf_name(gltf, object, &ok)))
+        return ok;
+    node->group = 1 + scene_append(gltf->scene, &gltf->scene->groups, &group, sizeof group, gltf->json.error);
+    return node->group > 0;
 }
 
 bool gltf_objects_add(struct gltf *gltf)
@@ -173,7 +190,8 @@ bool gltf_objects_add(struct gltf *gltf)
     gltf_nodes_place(gltf);
     for (int i = 0; i < gltf->node_count; i++) {
         const struct gltf_node *node = &gltf->nodes[gltf->node_order[i]];
-        if (!continues(gltf, (size_t)i) || (node->in_scene && node->visible && !add_node(gltf, gltf->node_order[i])))
+        if (!continues(gltf, (size_t)i) || !add_group(gltf, gltf->node_order[i]) ||
+            (node->in_scene && node->visible && !add_node(gltf, gltf->node_order[i])))
             return false;
     }
     return true;

@@ -72,8 +72,7 @@ class builder
             animation(*in.mAnimations[i]);
     }
 
-    bool morphs = false;  // the file has morph targets, which are not read
-    bool rasters = false; // the file contains pictures as raw pixels, which are not read
+    std::set<std::string> lost; // what the file contains but the scene does not, as warnings
 
   private:
     const aiScene &in;
@@ -125,7 +124,7 @@ class builder
         auto mesh_of = [&](const std::string &p) {
             return add(out.meshes, object({{"name", name}, {"primitives", p}}));
         };
-        for (unsigned i = 0; i < node.mNumMeshes; i++) {
+        for (unsigned i = 0; i < node.mNumMeshes && node.mMeshes[i] < in.mNumMeshes; i++) {
             const aiMesh &mesh = *in.mMeshes[node.mMeshes[i]];
             const std::string own = primitive(mesh);
             if (!own.empty() && mesh.HasBones()) // a mesh with bones has its own skin, so it is a node of its own
@@ -159,8 +158,11 @@ class builder
 
     std::string camera(const aiCamera &from)
     {
+        // Since Assimp 5.3, the angle of FBX cameras is the half one; that of all other cameras is whole.
+        const bool half = format == "fbx" && (aiGetVersionMajor() > 5 || aiGetVersionMinor() > 2);
         const double aspect = from.mAspect > 0 ? static_cast<double>(from.mAspect) : 1,
-                     high = 2 * std::atan(std::tan(static_cast<double>(from.mHorizontalFOV) / 2) / aspect);
+                     angle = static_cast<double>(from.mHorizontalFOV) / (half ? 1 : 2),
+                     high = 2 * std::atan(std::tan(angle) / aspect);
         const std::string near = number(std::max(from.mClipPlaneNear, 1e-4F)),
                           lens = object({{"yfov", number(high)}, {"znear", near}}),
                           own = add(out.cameras, object({{"type", "\"perspective\""},
@@ -176,6 +178,8 @@ class builder
         const float fading[3] = {from.mAttenuationConstant, from.mAttenuationLinear, from.mAttenuationQuadratic};
         const bool fades = format != "fbx" && fading[0] + fading[1] + fading[2] > 0;
         const aiColor3D color = from.mColorDiffuse * (1 / brightest);
+        if (from.mType == aiLightSource_UNDEFINED || from.mType == aiLightSource_AREA)
+            lost.insert("its area lights are not drawn");
         if (!sun && !spot && from.mType != aiLightSource_POINT)
             return;
         const std::string own = object({{"diffuse", numbers(&color.r, 3)},
@@ -229,7 +233,8 @@ class builder
         }
         if (mesh.HasBones())
             put_weights(mesh, all);
-        morphs |= mesh.mNumAnimMeshes != 0;
+        if (mesh.mNumAnimMeshes)
+            lost.insert("its morph targets are not drawn");
         return object({{"attributes", object(all)},
                        {"indices", out.accessor(indices.data(), indices.size(), U32, 1)},
                        {"mode", corners == 3 ? "4" : std::to_string(corners - 1)},
@@ -326,7 +331,7 @@ class builder
     std::string material_of(const aiMesh &mesh)
     {
         const bool white = mesh.HasVertexColors(0);
-        const aiMaterial &m = *in.mMaterials[mesh.mMaterialIndex];
+        const aiMaterial &m = *in.mMaterials[std::min(mesh.mMaterialIndex, in.mNumMaterials - 1)];
         const bool none = format == "off" || std::strcmp(m.GetName().C_Str(), AI_DEFAULT_MATERIAL_NAME) == 0;
         std::string &own = none ? plain[white] : materials[mesh.mMaterialIndex];
         const std::string base = object({{"specular", "[0,0,0]"}, {"diffuse", white ? "[1,1,1,1]" : ""}});
@@ -355,7 +360,7 @@ class builder
             const aiTexture *own = in.GetEmbeddedTexture(name.C_Str());
             const bool address = std::strncmp(name.C_Str(), "file://", 7) == 0;
             if (own && own->mHeight) {
-                rasters = true;
+                lost.insert("its pictures of raw pixels are not drawn");
                 return "";
             }
             const std::string image =
@@ -431,6 +436,18 @@ double unit_of(const aiScene &scene, const std::string &format, const std::strin
     return format == "dae" ? 1 : format == "amf" ? 1e-3 : 0;
 }
 
+// Returns whether a file has orthographic cameras, which Assimp reads as perspective ones.
+bool has_orthographic(const std::string &format, const uint8_t *bytes, size_t size)
+{
+    using namespace std::string_literals;
+    const std::string in_text = "\"CameraProjectionType\", \"enum\", \"\", \"\",1",
+                      in_binary = "CameraProjectionTypeS\4\0\0\0enumS\0\0\0\0S\0\0\0\0I\1"s;
+    auto contains = [&](const std::string &what) {
+        return std::search(bytes, bytes + size, what.begin(), what.end()) != bytes + size;
+    };
+    return format == "fbx" ? contains(in_text) || contains(in_binary) : format == "dae" && contains("<orthographic>");
+}
+
 int convert(const import_request &request, const uint8_t *bytes, flat::scene &out, char *note)
 {
     auto *importer = new Assimp::Importer;
@@ -439,13 +456,16 @@ int convert(const import_request &request, const uint8_t *bytes, flat::scene &ou
                       aiGetVersionMinor(), request.format);
         return IMPORT_NO_MODULE;
     }
-    const aiScene *scene = importer->ReadFileFromMemory(
-        bytes, request.size,
-        aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType | aiProcess_LimitBoneWeights |
-            aiProcess_GenUVCoords | aiProcess_TransformUVCoords | aiProcess_ValidateDataStructure,
-        request.format);
+    const unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType |
+                           aiProcess_LimitBoneWeights | aiProcess_GenUVCoords | aiProcess_TransformUVCoords;
+    const aiScene *scene =
+        importer->ReadFileFromMemory(bytes, request.size, steps | aiProcess_ValidateDataStructure, request.format);
+    std::string reason = importer->GetErrorString();
+    const bool refused = !scene && reason.compare(0, 17, "Validation failed") == 0;
+    if (refused) // the rest of the file is drawn: the glTF importer checks it again
+        scene = importer->ReadFileFromMemory(bytes, request.size, steps, request.format);
     if (!scene || !scene->mRootNode) {
-        const std::string reason = importer->GetErrorString();
+        reason = importer->GetErrorString();
         std::snprintf(note, IMPORT_NOTE_SIZE, "%s", reason.c_str());
         return reason.find("alloc") != std::string::npos ? IMPORT_NO_MEMORY : IMPORT_DAMAGED;
     }
@@ -455,10 +475,15 @@ int convert(const import_request &request, const uint8_t *bytes, flat::scene &ou
     out.generator = text(generator.C_Str());
     out.unit_m = unit_of(*scene, request.format,
                          std::string(reinterpret_cast<const char *>(bytes), std::min<size_t>(request.size, 1000)));
-    const builder made(*scene, out, request);
-    std::snprintf(note, IMPORT_NOTE_SIZE, "%s%s%s", made.morphs ? "its morph targets are not drawn" : "",
-                  made.morphs && made.rasters ? "; " : "",
-                  made.rasters ? "its pictures of raw pixels are not drawn" : "");
+    std::set<std::string> lost = builder(*scene, out, request).lost;
+    if (refused)
+        lost.insert("it contains an error, and is drawn as far as possible: " + reason);
+    if (scene->mNumCameras && has_orthographic(request.format, bytes, request.size))
+        lost.insert("its orthographic cameras show perspective");
+    std::string all;
+    for (const std::string &one : lost)
+        all += (all.empty() ? "" : "; ") + one;
+    std::snprintf(note, IMPORT_NOTE_SIZE, "%s", all.c_str());
     return IMPORT_READ;
 }
 

@@ -31,6 +31,8 @@ static _Noreturn void answer(int result, const char *note, const struct import_s
     const size_t json = scene ? (scene->json_size + 3) & ~(size_t)3 : 0, binary = scene ? scene->binary_size : 0;
     answer.size = scene ? 28 + (uint64_t)json + binary : 0;
     answer.unit_m = scene ? scene->unit_m : 0;
+    struct rusage used;
+    answer.memory = getrusage(RUSAGE_SELF, &used) == 0 ? (uint64_t)used.ru_maxrss * 1024 : 0;
     if (answer.size > UINT32_MAX) {
         answer.size = 0;
         result = IMPORT_NO_MEMORY;

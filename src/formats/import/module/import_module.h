@@ -17,7 +17,7 @@ extern "C" {
 #endif
 
 // Increment this version with every change in this file.
-enum { IMPORT_MODULE_VERSION = 2 };
+enum { IMPORT_MODULE_VERSION = 3 };
 
 enum { IMPORT_NOTE_SIZE = 400, IMPORT_NAME_SIZE = 16 };
 
@@ -42,6 +42,7 @@ struct import_request {
     uint64_t triangles;            // more are refused: a module may stop making them
     double deflection;             // lam_load_params.deflection; never 0
     uint32_t raw;                  // colours are linear already
+    uint32_t measure;              // lam_load_params.measure
 };
 
 enum import_result {
@@ -55,6 +56,7 @@ struct import_answer {
     uint32_t version, result;    // IMPORT_MODULE_VERSION, enum import_result
     uint64_t size;               // bytes of binary glTF that follow; 0 unless the result is IMPORT_READ
     double unit_m;               // as in struct import_scene
+    uint64_t memory;             // the largest memory of the process, in bytes
     char note[IMPORT_NOTE_SIZE]; // the reason, or after IMPORT_READ a warning ("" if there is none)
 };
 

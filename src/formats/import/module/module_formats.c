@@ -73,7 +73,9 @@ static bool module_load(struct import_source *source, struct lam_scene *scene, l
         importer++;
     struct import_answer answer = {0};
     struct file_bytes glb = {0};
-    struct import_request request = {.version = IMPORT_MODULE_VERSION, .raw = source->params->color == LAM_COLOR_RAW};
+    struct import_request request = {.version = IMPORT_MODULE_VERSION,
+                                     .raw = source->params->color == LAM_COLOR_RAW,
+                                     .measure = source->params->measure};
     if (!module_is_installed(importer))
         return fail(error, LAM_UNSUPPORTED,
                     "%s: this is %s, which the package " MODULES_PACKAGE " reads (apt install " MODULES_PACKAGE ")",
@@ -107,6 +109,7 @@ static bool module_load(struct import_source *source, struct lam_scene *scene, l
     if (!importer_gltf.load(source, scene, error))
         return false;
     scene->file.version = NULL; // of the binary glTF
+    scene->file.reader_memory = answer.memory < 1ULL << 50 ? answer.memory : 0;
     scene->file.unit_m = answer.unit_m > 0 && answer.unit_m < 1e9 ? answer.unit_m : 0;
     return true;
 }

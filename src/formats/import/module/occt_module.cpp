@@ -3,15 +3,18 @@
 #include "flat_scene.h"
 
 #include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
 #include <GeomLib.hxx>
 #include <Geom_Surface.hxx>
 #include <IGESCAFControl_Reader.hxx>
+#include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <NCollection_DataMap.hxx>
@@ -30,9 +33,14 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_GraphNode.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
 
 #include <algorithm>
 #include <map>
@@ -50,6 +58,8 @@ struct surface {
     std::vector<uint8_t> inner; // lam_mesh.inner_edges
 };
 
+using group = std::pair<std::string, std::string>; // of faces: their material and name
+
 void put(std::vector<float> &to, const gp_XYZ &v, double factor)
 {
     for (int i = 1; i <= 3; i++)
@@ -61,7 +71,8 @@ class builder
   public:
     // `unit` is the number of millimetres in a unit of the file: OpenCASCADE converts all lengths to millimetres.
     builder(const Handle(TDocStd_Document) & from, flat::scene &to, const import_request &request, double unit)
-        : out(to), colors(XCAFDoc_DocumentTool::ColorTool(from->Main())), most(request.triangles), scale(1 / unit)
+        : out(to), colors(XCAFDoc_DocumentTool::ColorTool(from->Main())), most(request.triangles), scale(1 / unit),
+          measured(request.measure != 0)
     {
         TDF_LabelSequence shapes;
         Bnd_Box box;
@@ -87,11 +98,13 @@ class builder
     const Handle(XCAFDoc_ColorTool) colors;
     const uint64_t most; // triangles
     const double scale;
+    const bool measured;
     IMeshTools_Parameters how;
     bool solid = false; // there are surfaces; curves beside them are construction geometry
     uint64_t count = 0; // triangles so far, each mesh once
     std::map<std::string, std::string> materials;
     std::map<std::pair<const void *, std::string>, std::string> meshes; // of a shape with an inherited material
+    TDF_LabelSequence path;                                             // from the root to the current node
 
     // --- names and colours
 
@@ -140,20 +153,45 @@ class builder
         return t.Form() == gp_Identity ? "" : numbers(m.data(), m.size());
     }
 
-    // `inherited` is the material of parts without a colour. A part is named like its instance in the assembly.
+    // Returns the label with the style that an assembly gives to the instance at the end of the path (SHUO). The
+    // outermost assembly comes first. Without such a style, returns the instance's own label.
+    TDF_Label styled() const
+    {
+        for (int first = 1; first < path.Length(); first++) {
+            TDF_AttributeSequence any;
+            TDF_LabelSequence labels;
+            Handle(XCAFDoc_GraphNode) style;
+            if (!XCAFDoc_ShapeTool::GetAllComponentSHUO(path(first), any))
+                continue;
+            for (int i = first; i <= path.Length(); i++)
+                labels.Append(path(i));
+            if (XCAFDoc_ShapeTool::FindSHUO(labels, style))
+                return style->Label();
+        }
+        return path.Last();
+    }
+
+    // `inherited` is the material of parts without a colour. A part is named like its instance in the assembly; an
+    // assembly has a node for the name of its instance and one for its own name.
     std::string node(const TDF_Label &label, const std::string &inherited)
     {
         TDF_Label part = label;
         XCAFDoc_ShapeTool::GetReferredShape(label, part);
-        const std::string color = material_of(part, material_of(label, inherited)), own = name_of(label),
-                          name = own.empty() ? name_of(part) : own;
+        path.Append(label);
+        const TDF_Label style = styled();
+        const std::string color = material_of(style, material_of(label, material_of(part, inherited))),
+                          own = name_of(label), product = name_of(part), name = own.empty() ? product : own;
         list children;
         TDF_LabelSequence components;
-        if (!colors->IsVisible(label) || !colors->IsVisible(part))
-            return add(out.nodes, "{}");
-        if (XCAFDoc_ShapeTool::GetComponents(part, components))
+        const bool visible = colors->IsVisible(label) && colors->IsVisible(part) && colors->IsVisible(style);
+        if (visible && XCAFDoc_ShapeTool::GetComponents(part, components))
             for (const TDF_Label &component : components)
                 children.push_back(node(component, color));
+        path.Remove(path.Length());
+        if (!visible)
+            return add(out.nodes, "{}");
+        if (!children.empty() && name != product)
+            children = {add(out.nodes, object({{"name", product}, {"children", array(children)}}))};
         return add(out.nodes, object({{"name", name},
                                       {"children", children.empty() ? "" : array(children)},
                                       {"mesh", children.empty() ? mesh(part, color) : ""},
@@ -170,28 +208,41 @@ class builder
         std::string &known = meshes[{shape.TShape().get(), material}];
         if (!known.empty())
             return known;
-        NCollection_DataMap<TopoDS_Shape, std::string, TopTools_ShapeMapHasher> faces; // materials of faces
+        NCollection_DataMap<TopoDS_Shape, group, TopTools_ShapeMapHasher> faces; // with a material or name of their own
         TDF_LabelSequence parts;
         XCAFDoc_ShapeTool::GetSubShapes(label, parts);
         for (int type = TopAbs_COMPOUND; type <= TopAbs_FACE; type++) // a face's own colour replaces its body's
             for (const TDF_Label &part : parts) {
                 const TopoDS_Shape of = XCAFDoc_ShapeTool::GetShape(part);
-                const std::string own = material_of(part, "");
-                for (TopExp_Explorer e(of, TopAbs_FACE); !own.empty() && of.ShapeType() == type && e.More(); e.Next())
-                    faces.Bind(e.Current(), own);
+                const std::string color = material_of(part, ""), name = name_of(part);
+                for (TopExp_Explorer e(of, TopAbs_FACE); of.ShapeType() == type && e.More(); e.Next()) {
+                    const group *before = faces.Seek(e.Current());
+                    group own = before ? *before : group(material, "");
+                    faces.Bind(e.Current(), {color.empty() ? own.first : color, name.empty() ? own.second : name});
+                }
             }
         BRepMesh_IncrementalMesh(shape, how);
-        std::map<std::string, std::vector<TopoDS_Face>> groups; // by material
+        std::map<group, std::vector<TopoDS_Face>> groups;
         for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next()) {
-            const std::string *own = faces.Seek(e.Current());
-            groups[own ? *own : material].push_back(TopoDS::Face(e.Current()));
+            const group *own = faces.Seek(e.Current());
+            groups[own ? *own : group(material, "")].push_back(TopoDS::Face(e.Current()));
         }
-        list primitives = surface_of(groups);
+        list primitives = surface_of(groups, measured ? measure(shape) : std::pair<double, double>());
         for (TopExp_Explorer e(shape, TopAbs_EDGE); !solid && e.More(); e.Next())
             put_curve(TopoDS::Edge(e.Current()), primitives);
         if (!primitives.empty())
             known = add(out.meshes, object({{"name", name_of(label)}, {"primitives", array(primitives)}}));
         return known;
+    }
+
+    // The area of the exact shape and the volume that its faces enclose, to about six digits.
+    std::pair<double, double> measure(const TopoDS_Shape &shape) const
+    {
+        const double precision = 1e-6;
+        GProp_GProps area, volume;
+        BRepGProp::SurfaceProperties(shape, area, precision);
+        BRepGProp::VolumeProperties(shape, volume, precision);
+        return {area.Mass() * scale * scale, std::abs(volume.Mass()) * scale * scale * scale};
     }
 
     // The pairs of consecutive nodes along a face's edges. The seam of a closed surface and the pole of a sphere are no
@@ -257,16 +308,18 @@ class builder
     }
 
     // Returns a primitive with the triangles of all faces, whose materials are in LAMBENT_faces.
-    list surface_of(const std::map<std::string, std::vector<TopoDS_Face>> &groups)
+    list surface_of(const std::map<group, std::vector<TopoDS_Face>> &groups, std::pair<double, double> size)
     {
         surface s;
         list parts;
-        for (const auto &group : groups) {
+        for (const auto &part : groups) {
             const size_t before = s.inner.size();
-            for (const TopoDS_Face &face : group.second)
+            const std::string &color = part.first.first;
+            for (const TopoDS_Face &face : part.second)
                 put_face(face, s);
             if (s.inner.size() > before)
-                parts.push_back(object({{"material", group.first.empty() ? material("") : group.first},
+                parts.push_back(object({{"material", color.empty() ? material("") : color},
+                                        {"name", part.first.second},
                                         {"triangles", std::to_string(s.inner.size() - before)}}));
         }
         if (parts.empty())
@@ -274,8 +327,10 @@ class builder
         const std::string attributes =
             object({{"POSITION", out.accessor(s.positions.data(), s.positions.size() / 3, F32, 3)},
                     {"NORMAL", out.accessor(s.normals.data(), s.normals.size() / 3, F32, 3)}});
-        const std::string own =
-            object({{"inner", out.accessor(s.inner.data(), s.inner.size(), U8, 1)}, {"parts", array(parts)}});
+        const std::string own = object({{"inner", out.accessor(s.inner.data(), s.inner.size(), U8, 1)},
+                                        {"parts", array(parts)},
+                                        {"area", size.first > 0 ? number(size.first) : ""},
+                                        {"volume", size.second > 0 ? number(size.second) : ""}});
         return {object({{"attributes", attributes},
                         {"indices", out.accessor(s.indices.data(), s.indices.size(), U32, 1)},
                         {"extensions", object({{"LAMBENT_faces", own}})}})};
@@ -294,6 +349,24 @@ class builder
         primitives.push_back(object({{"attributes", object({{"POSITION", positions}})}, {"mode", "3"}}));
     }
 };
+
+// Gives the names of entities with faces to their shapes. OpenCASCADE's reader names only whole shapes.
+void name_shapes(const Handle(IGESData_IGESModel) & model, const Handle(Transfer_TransientProcess) & results,
+                 const Handle(XCAFDoc_ShapeTool) & shapes)
+{
+    for (int i = 1; i <= model->NbEntities(); i++) {
+        const Handle(IGESData_IGESEntity) entity = model->Entity(i);
+        const TopoDS_Shape shape = TransferBRep::ShapeResult(results, entity);
+        TDF_Label label;
+        if (!entity->HasName() || !TopExp_Explorer(shape, TopAbs_FACE).More() ||
+            !shapes->SearchUsingMap(shape, label, false, true) || label.IsAttribute(TDataStd_Name::GetID()))
+            continue;
+        TCollection_AsciiString name = entity->NameValue()->String();
+        name.LeftAdjust();
+        name.RightAdjust();
+        TDataStd_Name::Set(label, TCollection_ExtendedString(name));
+    }
+}
 
 // Returns the millimetres in a unit of a STEP file, or 0.
 double step_unit(STEPControl_Reader &reader)
@@ -325,7 +398,7 @@ int read_shapes(const import_request &request, const uint8_t *bytes, flat::scene
         reader.SetLayerMode(false);
         reader.SetMatMode(false);
         reader.SetPropsMode(false);
-        reader.SetSHUOMode(false);
+        reader.SetSHUOMode(true);
         reader.SetViewMode(false);
         whole = reader.ChangeReader().ReadStream("", stream) == IFSelect_RetDone && reader.Transfer(document);
         unit = whole ? step_unit(reader.ChangeReader()) : 0;
@@ -339,6 +412,9 @@ int read_shapes(const import_request &request, const uint8_t *bytes, flat::scene
         whole = reader.ReadFile(IMPORT_FILE) == IFSelect_RetDone && reader.Transfer(document);
         const Handle(IGESData_IGESModel) model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
         unit = model.IsNull() ? 0 : model->GlobalSection().UnitValue();
+        if (whole)
+            name_shapes(model, reader.WS()->TransferReader()->TransientProcess(),
+                        XCAFDoc_DocumentTool::ShapeTool(document->Main()));
     } else {
         TopoDS_Shape shape;
         if (stream.str().compare(0, 7, "Open CA") == 0 || stream.str().compare(0, 8, "\nOpen CA") == 0)

@@ -192,14 +192,15 @@ static bool take_maps(struct gltf *gltf, const struct place *place, const json_t
                                   glow = {index, LAM_MAP_EMISSION, LAM_TEXTURE_COLOR, 0, 1, 0},
                                   hidden = {index, LAM_MAP_OCCLUSION, LAM_TEXTURE_NUMBERS,
                                             0,     (float)strength,   (float)(1 - strength)};
-    // A scale or strength of 0 disables the map.
-    return (scale == 0 || gltf_take_map(gltf, place, object, "normalTexture", bent)) &&
-           (strength == 0 || gltf_take_map(gltf, place, object, "occlusionTexture", hidden)) &&
-           gltf_take_map(gltf, place, object, "emissiveTexture", glow) &&
-           (glossy ? take_glossy_maps(gltf, in_glossy, glossy, index, glossiness)
+    // The most important maps come first, because a material has only two sets of texture coordinates. A scale or
+    // strength of 0 disables the map.
+    return (glossy ? take_glossy_maps(gltf, in_glossy, glossy, index, glossiness)
                    : gltf_take_map(gltf, in_pbr, pbr, "baseColorTexture", color) &&
                          gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", metallic) &&
-                         gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness));
+                         gltf_take_map(gltf, in_pbr, pbr, "metallicRoughnessTexture", roughness)) &&
+           (scale == 0 || gltf_take_map(gltf, place, object, "normalTexture", bent)) &&
+           gltf_take_map(gltf, place, object, "emissiveTexture", glow) &&
+           (strength == 0 || gltf_take_map(gltf, place, object, "occlusionTexture", hidden));
 }
 
 // Reads LAMBENT_material, in which the modules for other formats describe a material (docs/internals/import.md): any

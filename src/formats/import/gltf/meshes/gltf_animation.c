@@ -1,12 +1,17 @@
-// gltf_animation.c: evaluates an animation at one time (section 3.11) and stores the results in the nodes.
+// gltf_animation.c: evaluates an animation at one time (section 3.11, KHR_animation_pointer). The results replace values
+// of the JSON tree before the readers of nodes, materials, lights and cameras get them.
 #include "gltf_meshes.h"
 
 #include "gltf_data.h"
 #include "gltf_json.h"
 #include "gltf.h"
 
+#include "khr_layers.h"
 #include "linear.h"
 
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { STEP, LINEAR, CUBIC_SPLINE };
@@ -20,8 +25,130 @@ struct sampler {
     size_t keys, width;
 };
 
-// The property that a channel animates.
-enum path { TRANSLATION, ROTATION, SCALE, WEIGHTS };
+// --- properties (https://github.com/KhronosGroup/glTF/blob/main/specification/2.0/ObjectModel.adoc)
+
+enum kind { NUMBERS, ROTATION, WEIGHTS, FLAG };
+
+// The properties that a channel can animate, and their numbers. In a pattern, # is an index, and * is any text before the
+// end. The numbers in khr_layers.h are properties too.
+struct property {
+    const char *pattern;
+    enum kind kind;
+    int width;
+};
+static const struct property properties[] = {
+    {"/nodes/#/translation", NUMBERS, 3},
+    {"/nodes/#/rotation", ROTATION, 4},
+    {"/nodes/#/scale", NUMBERS, 3},
+    {"/nodes/#/weights", WEIGHTS, 1},
+    {"/nodes/#/weights/#", NUMBERS, 1},
+    {"/nodes/#/extensions/KHR_node_visibility/visible", FLAG, 1},
+    {"/materials/#/pbrMetallicRoughness/baseColorFactor", NUMBERS, 4},
+    {"/materials/#/pbrMetallicRoughness/metallicFactor", NUMBERS, 1},
+    {"/materials/#/pbrMetallicRoughness/roughnessFactor", NUMBERS, 1},
+    {"/materials/#/emissiveFactor", NUMBERS, 3},
+    {"/materials/#/extensions/KHR_materials_emissive_strength/emissiveStrength", NUMBERS, 1},
+    {"/materials/#/alphaCutoff", NUMBERS, 1},
+    {"/materials/#/occlusionTexture/strength", NUMBERS, 1},
+    {"/materials/#/normalTexture/scale", NUMBERS, 1},
+    {"/materials/#/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", NUMBERS, 1},
+    {"/materials/#/*Texture/extensions/KHR_texture_transform/offset", NUMBERS, 2},
+    {"/materials/#/*Texture/extensions/KHR_texture_transform/rotation", NUMBERS, 1},
+    {"/materials/#/*Texture/extensions/KHR_texture_transform/scale", NUMBERS, 2},
+    {"/cameras/#/perspective/yfov", NUMBERS, 1},
+    {"/cameras/#/perspective/znear", NUMBERS, 1},
+    {"/cameras/#/perspective/zfar", NUMBERS, 1},
+    {"/cameras/#/orthographic/ymag", NUMBERS, 1},
+    {"/cameras/#/orthographic/znear", NUMBERS, 1},
+    {"/cameras/#/orthographic/zfar", NUMBERS, 1},
+    {"/extensions/KHR_lights_punctual/lights/#/color", NUMBERS, 3},
+    {"/extensions/KHR_lights_punctual/lights/#/intensity", NUMBERS, 1},
+    {"/extensions/KHR_lights_punctual/lights/#/range", NUMBERS, 1},
+    {"/extensions/KHR_lights_punctual/lights/#/spot/innerConeAngle", NUMBERS, 1},
+    {"/extensions/KHR_lights_punctual/lights/#/spot/outerConeAngle", NUMBERS, 1},
+};
+
+static bool matches(const char *pattern, const char *pointer)
+{
+    for (; *pattern; pattern++) {
+        const size_t left = strlen(pattern + 1), length = strlen(pointer), digits = strspn(pointer, "0123456789");
+        if (*pattern == '*')
+            return length >= left && strcmp(pointer + length - left, pattern + 1) == 0;
+        if (*pattern == '#' ? digits == 0 : *pointer != *pattern)
+            return false;
+        pointer += *pattern == '#' ? digits : 1;
+    }
+    return !*pointer;
+}
+
+static bool find_property(const char *pointer, struct property *out)
+{
+    char pattern[100];
+    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
+        *out = properties[i];
+        if (matches(out->pattern, pointer))
+            return true;
+    }
+    for (size_t i = 0; i < KHR_NUMBERS; i++) {
+        snprintf(pattern, sizeof pattern, "/materials/#/extensions/%s/%s", khr_numbers[i].extension,
+                 khr_numbers[i].key);
+        *out = (struct property){NULL, NUMBERS, khr_numbers[i].count};
+        if (matches(pattern, pointer))
+            return true;
+    }
+    return false;
+}
+
+// Returns the weights of a node's mesh, which are the defaults of the node's weights.
+static json_t *default_weights(const struct gltf *gltf, const json_t *node)
+{
+    const double index = json_number_value(json_object_get(node, "mesh"));
+    const json_t *mesh = gltf_list_item(gltf, "meshes", index >= 0 && index < INT_MAX ? (int)index : -1);
+    const json_t *targets = json_object_get(json_array_get(json_object_get(mesh, "primitives"), 0), "targets");
+    json_t *weights = json_deep_copy(json_object_get(mesh, "weights"));
+    weights = weights ? weights : json_array();
+    while (json_array_size(weights) < json_array_size(targets) && json_array_append_new(weights, json_real(0)) == 0)
+        continue;
+    return weights;
+}
+
+// Returns the object or list with the pointer's property, and the property's key or index in it. Adds missing objects
+// that have defaults. Returns NULL if the file does not contain the owner.
+static json_t *find_owner(const struct gltf *gltf, const char *pointer, char key[64])
+{
+    json_t *owner = gltf->root;
+    for (;;) {
+        const size_t length = strcspn(++pointer, "/");
+        snprintf(key, 64, "%.*s", (int)length, pointer);
+        pointer += length;
+        const bool list = json_is_array(owner);
+        json_t *next = list ? json_array_get(owner, strtoul(key, NULL, 10)) : json_object_get(owner, key);
+        if (!*pointer)
+            return json_is_object(owner) || next ? owner : NULL;
+        if (!next && json_is_object(owner) && owner != gltf->root && !strstr(key, "Texture") &&
+            strcmp(key, "lights") != 0) {
+            next = strcmp(key, "weights") == 0 ? default_weights(gltf, owner) : json_object();
+            json_object_set_new(owner, key, next);
+        }
+        owner = next;
+    }
+}
+
+// Puts a value into the tree.
+static bool set_property(struct gltf *gltf, const struct place *place, const char *pointer, json_t *value)
+{
+    char key[64], shown[SHOWN_NAME_SIZE];
+    json_t *owner = find_owner(gltf, pointer, key);
+    if (!owner) {
+        json_decref(value);
+        return json_fail(&gltf->json, place, "'%s' names nothing in the file", shown_file(pointer, shown));
+    }
+    int failed = json_is_array(owner) ? json_array_set_new(owner, strtoul(key, NULL, 10), value)
+                                      : json_object_set_new(owner, key, value);
+    return !failed || gltf_no_memory(gltf, sizeof *value);
+}
+
+// --- samplers
 
 static bool take_times(struct gltf *gltf, const struct place *place, const json_t *object, struct sampler *sampler)
 {
@@ -43,36 +170,32 @@ static bool take_times(struct gltf *gltf, const struct place *place, const json_
     return sampler->times;
 }
 
-static bool take_values(struct gltf *gltf, const struct place *place, const json_t *object, enum path path,
-                        struct sampler *sampler)
+static bool take_values(struct gltf *gltf, const struct place *place, const json_t *object,
+                        const struct property *property, struct sampler *sampler)
 {
+    static const char *const expected[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     struct gltf_accessor *output;
     char words[64];
     const struct place *here = KEY_OF(place, "output");
-    int width = path == ROTATION ? 4 : path == WEIGHTS ? 1 : 3;
+    bool list = property->kind == WEIGHTS;
     if (!gltf_take_accessor(gltf, place, object, "output", &output))
         return false;
     if (!output)
         return json_fail(&gltf->json, place, "output is missing");
-    bool floats = output->component == GLTF_F32,
-         numbers = output->normalized && output->component != GLTF_U32 && (path == ROTATION || path == WEIGHTS);
-    if (output->width != width || output->type[0] == 'M' || (!floats && !numbers))
-        return json_fail(&gltf->json, here, "found %s, expected %s", gltf_accessor_words(output, words),
-                         path == ROTATION  ? "VEC4 of FLOAT or of a normalized type"
-                         : path == WEIGHTS ? "SCALAR of FLOAT or of a normalized type"
-                                           : "VEC3 of FLOAT");
+    if (output->width != property->width || output->type[0] == 'M' || output->component == GLTF_U32)
+        return json_fail(&gltf->json, here, "found %s, expected %s of FLOAT", gltf_accessor_words(output, words),
+                         expected[property->width - 1]);
     size_t entries = sampler->keys * (sampler->interpolation == CUBIC_SPLINE ? 3 : 1);
-    bool fits = path == WEIGHTS ? output->count % entries == 0 : output->count == entries;
-    if (!fits)
+    if (list ? output->count % entries != 0 : output->count != entries)
         return json_fail(&gltf->json, here, "found %zu elements for %zu keys, expected %s%zu", output->count,
-                         sampler->keys, path == WEIGHTS ? "a multiple of " : "", entries);
+                         sampler->keys, list ? "a multiple of " : "", entries);
     sampler->values = gltf_floats(gltf, here, output, GLTF_REQUIRED);
-    sampler->width = path == WEIGHTS ? output->count / entries : (size_t)width;
+    sampler->width = list ? output->count / entries : (size_t)property->width;
     return sampler->values;
 }
 
 static bool take_sampler(struct gltf *gltf, const struct place *place, const json_t *animation, size_t index,
-                         enum path path, struct sampler *sampler)
+                         const struct property *property, struct sampler *sampler)
 {
     const json_t *list = json_object_get(animation, "samplers");
     const struct place *here = ELEMENT_OF(KEY_OF(place, "samplers"), index);
@@ -81,7 +204,7 @@ static bool take_sampler(struct gltf *gltf, const struct place *place, const jso
         return json_fail(&gltf->json, place, "a channel names sampler %zu of %zu", index, json_array_size(list));
     const json_t *object = json_array_get(list, index);
     return json_take_word(&gltf->json, here, object, "interpolation", interpolation_words, &sampler->interpolation) &&
-           take_times(gltf, here, object, sampler) && take_values(gltf, here, object, path, sampler);
+           take_times(gltf, here, object, sampler) && take_values(gltf, here, object, property, sampler);
 }
 
 // --- evaluation (appendix C)
@@ -125,7 +248,7 @@ static void slerp(const double a[4], const double b[4], double t, double out[4])
 
 // Evaluates a sampler at a time. Before the first keyframe, the result is the first keyframe's value; after the last
 // keyframe, it is the last keyframe's value.
-static void evaluate(const struct sampler *s, double time, enum path path, double *out)
+static void evaluate(const struct sampler *s, double time, enum kind kind, double *out)
 {
     double t, length;
     size_t key = find_key(s, time, &t, &length);
@@ -138,7 +261,7 @@ static void evaluate(const struct sampler *s, double time, enum path path, doubl
             out[i] = (2 * t3 - 3 * t2 + 1) * a + length * (t3 - 2 * t2 + t) * value_of(s, key, 2, i) +
                      (3 * t2 - 2 * t3) * b + length * (t3 - t2) * value_of(s, next, 0, i);
     }
-    if (path == ROTATION && s->interpolation == LINEAR) {
+    if (kind == ROTATION && s->interpolation == LINEAR) {
         double a[4], b[4];
         for (size_t i = 0; i < 4; i++) {
             a[i] = value_of(s, key, 0, i);
@@ -146,57 +269,83 @@ static void evaluate(const struct sampler *s, double time, enum path path, doubl
         }
         gltf_unit_quaternion(a);
         gltf_unit_quaternion(b);
-        slerp(a, b, t, out);
+        slerp(a, b, t, out); // read_node normalizes the rotation
     }
-    if (path == ROTATION)
-        gltf_unit_quaternion(out);
 }
 
 // --- channels
 
-static bool set_weights(struct gltf *gltf, const struct sampler *sampler, double time, struct gltf_node *node)
+// Converts the numbers of a property to JSON.
+static bool value_at(struct gltf *gltf, const struct place *place, const struct sampler *sampler,
+                     const struct property *property, json_t **value)
 {
-    node->weights = GLTF_ALLOC(gltf, sampler->width, double);
-    if (!node->weights)
-        return gltf_no_memory(gltf, sampler->width * sizeof *node->weights);
-    node->weight_count = sampler->width;
-    evaluate(sampler, time, WEIGHTS, node->weights);
+    enum { BYTES_OF_A_NUMBER = 64 };
+    const size_t bytes = sampler->width * BYTES_OF_A_NUMBER;
+    const bool list = property->kind == WEIGHTS || property->width > 1;
+    const double time = gltf->source->params->time_s;
+    double *numbers = GLTF_ALLOC(gltf, sampler->width, double);
+    if (!numbers || !call_charge(gltf->source->call, bytes))
+        return gltf_no_memory(gltf, bytes);
+    gltf->json_bytes += bytes;
+    evaluate(sampler, time, property->kind, numbers);
+    for (size_t i = 0; i < sampler->width; i++)
+        if (!math_finite(numbers[i]))
+            return json_fail(&gltf->json, place, "its value at %g s is not finite", time);
+    *value = list ? json_array() : property->kind == FLAG ? json_boolean(numbers[0] != 0) : json_real(numbers[0]);
+    for (size_t i = 0; list && i < sampler->width; i++)
+        json_array_append_new(*value, json_real(numbers[i]));
+    if (*value && json_array_size(*value) == (list ? sampler->width : 0))
+        return true;
+    json_decref(*value);
+    return gltf_no_memory(gltf, bytes);
+}
+
+// Finds the property of a channel. Sets *pointer to NULL if the channel names none, or one of an unknown extension.
+static bool take_target(struct gltf *gltf, const struct place *place, const json_t *channel, char own[64],
+                        const char **pointer)
+{
+    const json_t *target = gltf_take_object(gltf, place, channel, "target"),
+                 *extension = gltf_extension(target, "KHR_animation_pointer");
+    const struct place *here = KEY_OF(place, "target");
+    const char *path = json_string_value(json_object_get(target, "path"));
+    int node = gltf_take_link(gltf, here, target, "node", "nodes");
+    *pointer = NULL;
+    if (extension)
+        return json_take_text(&gltf->json, KEY_OF(KEY_OF(here, "extensions"), "KHR_animation_pointer"), extension,
+                              "pointer", pointer);
+    if (node < 0 || !path || strlen(path) > 20)
+        return true;
+    snprintf(own, 64, "/nodes/%d/%s", node, path);
+    *pointer = own;
+    if (strcmp(path, "weights") != 0 && json_is_array(json_object_get(gltf_list_item(gltf, "nodes", node), "matrix")))
+        return json_fail(&gltf->json, KEY_OF(here, "node"),
+                         "node %d has a matrix, expected translation, rotation and scale", node);
     return true;
 }
 
 static bool apply_channel(struct gltf *gltf, const struct place *place, const json_t *animation, const json_t *channel,
                           const struct place *here)
 {
-    static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
+    char own[64], shown[SHOWN_NAME_SIZE];
+    const char *pointer;
     size_t index = SIZE_MAX;
-    const json_t *target = gltf_take_object(gltf, here, channel, "target");
-    const struct place *in_target = KEY_OF(here, "target");
-    const char *name = json_string_value(json_object_get(target, "path"));
-    int node_index = gltf_take_link(gltf, in_target, target, "node", "nodes");
-    if (!gltf_take_whole(gltf, here, channel, "sampler", 0, 1e9, &index))
+    struct property property;
+    struct sampler sampler;
+    json_t *value = NULL;
+    if (!gltf_take_whole(gltf, here, channel, "sampler", 0, 1e9, &index) ||
+        !take_target(gltf, here, channel, own, &pointer))
         return false;
-    enum path path = TRANSLATION;
-    while (name && path <= WEIGHTS && strcmp(paths[path], name) != 0)
-        path++;
-    if (node_index < 0 || !name || path > WEIGHTS) // the target belongs to an extension
+    if (!pointer)
         return true;
+    if (!find_property(pointer, &property))
+        return pointer == own ||
+               json_fail(&gltf->json, KEY_OF(here, "target"), "'%s' is no property that this version animates",
+                         shown_file(pointer, shown));
     if (index == SIZE_MAX)
         return json_fail(&gltf->json, here, "sampler is missing");
-    struct gltf_node *node = &gltf->nodes[node_index];
-    if (path != WEIGHTS && node->has_matrix)
-        return json_fail(&gltf->json, KEY_OF(in_target, "node"),
-                         "node %d has a matrix, expected translation, rotation and scale", node_index);
-    struct sampler sampler;
-    if (!take_sampler(gltf, place, animation, index, path, &sampler))
-        return false;
-    double time = gltf->source->params->time_s;
-    if (path == WEIGHTS)
-        return set_weights(gltf, &sampler, time, node);
-    evaluate(&sampler, time, path,
-             path == TRANSLATION ? node->translation
-             : path == ROTATION  ? node->rotation
-                                 : node->scale);
-    return true;
+    return take_sampler(gltf, place, animation, index, &property, &sampler) &&
+           value_at(gltf, here, &sampler, &property, &value) &&
+           set_property(gltf, KEY_OF(here, "target"), pointer, value);
 }
 
 bool gltf_animation_apply(struct gltf *gltf)

@@ -91,8 +91,40 @@ static bool add_target(const struct morph_target *t, const char *name, int width
 
 // Whether the mesh owns the array of each attribute. Only such an array may be changed in place.
 struct owned {
-    bool positions, normals, tangents, texcoords[2];
+    bool positions, normals, tangents, colors, texcoords[2];
 };
+
+// Morphs the colours, which become four floats each.
+static bool morph_colors(const struct morph_target *t, lam_mesh *mesh, bool *own)
+{
+    struct gltf_accessor *accessor = NULL;
+    const float *values = mesh->colors;
+    if (!values || !gltf_take_accessor(t->gltf, t->place, t->target, "COLOR_0", &accessor))
+        return !values || gltf_forgive(t->gltf);
+    if (!accessor)
+        return true;
+    if (mesh->colors_format == LAM_COLORS_LINEAR8) {
+        float *floats = arena_array(&t->gltf->scene->arena, t->count, 4 * sizeof *floats);
+        if (!floats)
+            return gltf_no_memory(t->gltf, t->count * 4 * sizeof *floats);
+        for (size_t i = 0; i < 4 * t->count; i++)
+            floats[i] = (float)((const uint8_t *)mesh->colors)[i] / 255.0f;
+        values = floats;
+        *own = true;
+    }
+    bool ok = add_target(t, "COLOR_0", accessor->width == 3 ? 3 : 4, 4, &values, own);
+    mesh->colors = values;
+    mesh->colors_format = LAM_COLORS_LINEAR_F32;
+    return ok;
+}
+
+// Clamps morphed colours to 0…1 (section 3.7.2.2).
+static void clamp_colors(lam_mesh *mesh, bool opaque)
+{
+    float *colors = (float *)(uintptr_t)mesh->colors;
+    for (size_t i = 0; i < 4 * (size_t)mesh->color_count; i++)
+        colors[i] = opaque && i % 4 == 3 ? 1.0f : colors[i] < 0.0f ? 0.0f : colors[i] > 1.0f ? 1.0f : colors[i];
+}
 
 // Morphs the mesh's sets of texture coordinates.
 static bool morph_texcoords(const struct morph_target *target, lam_mesh *mesh, struct owned *own)
@@ -122,8 +154,10 @@ static bool morph(struct gltf *gltf, const struct place *place, const json_t *pr
         ok = target.weight == 0 || (add_target(&target, "POSITION", 3, 3, &mesh->positions, &own->positions) &&
                                     add_target(&target, "NORMAL", 3, 3, &mesh->normals, &own->normals) &&
                                     add_target(&target, "TANGENT", 3, 4, &mesh->tangents, &own->tangents) &&
-                                    morph_texcoords(&target, mesh, own));
+                                    morph_colors(&target, mesh, &own->colors) && morph_texcoords(&target, mesh, own));
     }
+    if (ok && own->colors)
+        clamp_colors(mesh, gltf_material_is_opaque(gltf, mesh->parts->material));
     return ok;
 }
 

@@ -46,8 +46,8 @@ const struct gltf_mesh *gltf_mesh_deformed(struct gltf *gltf, int index, const s
 
 // --- evaluates an animation at one time (section 3.11).
 
-// Sets the transforms and weights of nodes for the requested time. If no animation is requested, the transforms and
-// weights remain as in the file.
+// Sets the animated values of the JSON tree for the requested time: transforms and weights of nodes, and the properties
+// that KHR_animation_pointer names. If no animation is requested, the values remain as in the file.
 bool gltf_animation_apply(struct gltf *gltf);
 
 // --- applies morph targets (section 3.7.2.2) and skins (section 3.7.3.3) to a primitive.
@@ -59,8 +59,8 @@ struct gltf_deformation {
     const struct gltf_skin *skin; // may be NULL
 };
 
-// Replaces the mesh's positions, normals, tangents and texture coordinates with changed copies, if a skin or morph
-// targets with nonzero weights change them. Sets *skinned to true if the positions are now in the file's space,
+// Replaces the mesh's positions, normals, tangents, colours and texture coordinates with changed copies, if a skin or
+// morph targets with nonzero weights change them. Sets *skinned to true if the positions are now in the file's space,
 // otherwise to false.
 bool gltf_deform(struct gltf *gltf, const struct place *place, const json_t *primitive,
                  const struct gltf_deformation *deformation, lam_mesh *mesh, bool *skinned);

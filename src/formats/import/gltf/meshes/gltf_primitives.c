@@ -134,14 +134,16 @@ static bool add_parts(struct gltf *gltf, const struct place *place, const json_t
     const struct place *here = own ? KEY_OF(KEY_OF(KEY_OF(place, "extensions"), "LAMBENT_faces"), "parts") : place;
     size_t left = mesh_items(mesh), count = own ? json_array_size(json_object_get(own, "parts")) : 1;
     lam_part *parts = arena_array(&gltf->scene->arena, count, sizeof *parts);
+    bool named = true;
     if (!parts)
         return gltf_no_memory(gltf, count * sizeof *parts);
     for (size_t i = 0; i < count; i++) {
         const json_t *part = own ? json_array_get(json_object_get(own, "parts"), i) : primitive;
+        const char *name = own ? gltf_name(gltf, part, &named) : NULL;
         size_t size = left;
         if (own && !gltf_take_whole(gltf, ELEMENT_OF(here, i), part, "triangles", 0, (double)left, &size))
             return false;
-        parts[i] = (lam_part){.name = mesh->name,
+        parts[i] = (lam_part){.name = name ? name : mesh->name,
                               .first_triangle = (uint32_t)(mesh_items(mesh) - left),
                               .triangle_count = (uint32_t)size};
         left -= size;
@@ -150,16 +152,19 @@ static bool add_parts(struct gltf *gltf, const struct place *place, const json_t
     }
     mesh->parts = parts;
     mesh->part_count = (uint32_t)count;
-    return (count && !left) || json_fail(&gltf->json, here, "found %zu triangles of no part", left);
+    return named && ((count && !left) || json_fail(&gltf->json, here, "found %zu triangles of no part", left));
 }
 
-// Reads LAMBENT_faces, in which the modules for exact shapes mark the edges of the shape (docs/internals/import.md): a
-// number for each triangle as in lam_mesh.inner_edges.
-static bool take_edges(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
+// Reads LAMBENT_faces, in which the modules for exact shapes mark the edges of the shape (docs/internals/import.md), with
+// a number for each triangle as in lam_mesh.inner_edges, and state the area and volume of the shape.
+static bool take_faces(struct gltf *gltf, const struct place *place, const json_t *primitive, lam_mesh *mesh)
 {
     struct gltf_accessor *accessor = NULL;
     const struct place *here = KEY_OF(KEY_OF(place, "extensions"), "LAMBENT_faces");
-    bool ok = gltf_take_accessor(gltf, here, gltf_extension(primitive, "LAMBENT_faces"), "inner", &accessor);
+    const json_t *own = gltf_extension(primitive, "LAMBENT_faces");
+    bool ok = gltf_take_accessor(gltf, here, own, "inner", &accessor);
+    gltf_take_factors(gltf, here, own, "area", 1, 0, 1e300, &mesh->exact_area);
+    gltf_take_factors(gltf, here, own, "volume", 1, 0, 1e300, &mesh->exact_volume);
     if (!accessor)
         return ok;
     const uint32_t *numbers = gltf_indices(gltf, KEY_OF(here, "inner"), accessor);
@@ -196,7 +201,7 @@ static bool make_primitive(struct gltf *gltf, const struct place *place, const j
         return false;
     bool ok = mode < GLTF_TRIANGLES ? gltf_strokes(gltf, place, primitive, mode, &mesh)
                                     : gltf_triangles(gltf, place, primitive, mode, &mesh);
-    if (!ok || !take_edges(gltf, place, primitive, &mesh) || !add_parts(gltf, place, primitive, &mesh) ||
+    if (!ok || !take_faces(gltf, place, primitive, &mesh) || !add_parts(gltf, place, primitive, &mesh) ||
         !take_attributes(gltf, here, attributes, gltf_material_is_opaque(gltf, mesh.parts->material), &mesh))
         return false;
     if (!mesh_items(&mesh))

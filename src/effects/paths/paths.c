@@ -16,8 +16,8 @@ const struct path_kernels *path_kernels_of(int lanes) { return CPU_WIDEST_OF_ALL
 
 // --- the sources of light
 
-// The environment is sampled in half as many fixed directions, which each pixel visits in its own order.
-enum { ENVIRONMENT_DIRECTIONS = 1 << 16 };
+// The environment is sampled in fixed directions, which each pixel visits in its own order.
+enum { ENVIRONMENT_DIRECTIONS = 1 << 15 };
 
 // A kind of source has at least this share of the rays, so that a wrong estimate costs little.
 #define SHARE_LEAST 0.1

@@ -66,6 +66,12 @@ static double set_lights(struct path_frame *f, uint64_t *keys)
             at[c] = light->kind == LIGHT_DIRECTIONAL ? -DIRECTIONAL_AT * light->world_axis[c] : at[c];
             node->low[c] = (float)(at[c] - light->radius * scale);
             node->high[c] = (float)(at[c] + light->radius * scale);
+            node->axis[c] = (float)light->world_axis[c];
+        }
+        node->is_sun = light->kind == LIGHT_DIRECTIONAL;
+        if (light->kind == LIGHT_SPOT_CUTOFF || light->kind == LIGHT_SPOT_CONES) {
+            node->cosine = light->kind == LIGHT_SPOT_CONES ? light->cos_outer : light->cos_cutoff;
+            node->sine = (float)math_sqrt(1 - (double)node->cosine * (double)node->cosine);
         }
         const double range =
             light->inverse_range > 0 ? 1.001 * scale / (double)light->inverse_range : (double)__builtin_inff();

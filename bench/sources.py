@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""sources.py: time and noise of traced paths under 10 and 10,000 lamps or emitting triangles over a floor.
+"""sources.py: time and noise of traced paths under 10 and 10,000 lamps, spots or emitting triangles over a floor.
 
     sources.py LAMBENT [OTHER]      one line for each scene and program
 
@@ -26,6 +26,10 @@ def scenes():
         places = [(chance.uniform(-9, 9), chance.uniform(0.15, 0.6), chance.uniform(-9, 9)) for _ in range(count)]
         lamps = [{"type": "point", "position": p, "attenuation": [0, 0, 1], "color": [40 / count * chance.uniform(0.2, 2) for _ in range(3)]} for p in places]
         yield "%d lamps" % count, {**scene, "objects": floor, "lights": lamps}, ""
+        spots = [{"type": "spot", "position": [x, 4 * y, z], "direction": [chance.uniform(-0.3, 0.3), -1, chance.uniform(-0.3, 0.3)], "inner": 10, "outer": 25,
+                  "attenuation": [0, 0, 1], "color": [400 / count * chance.uniform(0.2, 2) for _ in range(3)]} for x, y, z in places]
+        if count > 10: # ten spots would light almost nothing of the picture
+            yield "%d spots" % count, {**scene, "objects": floor, "lights": spots}, ""
         side = 0.5 / count ** 0.5
         text = "".join("v %g %g %g\n" % (x + a * side, y, z + b * side) for x, y, z in places for a, b in ((-1, -1), (1, -1), (0, 1)))
         text += "".join("f %d %d %d\n" % (3 * i + 1, 3 * i + 2, 3 * i + 3) for i in range(count))

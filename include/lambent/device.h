@@ -360,9 +360,9 @@ typedef struct lam_draw_params {
     // LAM_OUTPUT_LIGHT, LAM_OUTPUT_N_L, LAM_OUTPUT_N_H: the index of the light in lam_draw_lights.
     int output_light;
     lam_tone tone; // applied after exposure, in 8-bit pictures
-    // Physical materials under an environment: integrates over this many directions at each lit point, 16..1048576, and
-    // a quarter more for a coat and for sheen, instead of the split sum (docs/lighting/environment.md). 0: the split sum.
-    // CPU device only; other devices fail with LAM_UNSUPPORTED.
+    // Physical materials under an environment: integrates over this many directions at each lit point, 16..1048576,
+    // instead of the split sum (docs/lighting/environment.md). 0: the split sum. CPU device only; other devices fail
+    // with LAM_UNSUPPORTED.
     int reference;
     // Light between surfaces, by path tracing (docs/lighting/bounces.md). 0: local lighting. 1: the light of lamps, of
     // the environment and of emitting surfaces, with shadows. N: also light that surfaces have reflected up to N times,

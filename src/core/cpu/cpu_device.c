@@ -198,7 +198,7 @@ static bool set_up_environment(struct cpu_frame *cpu, struct frame_memory *memor
     }
     cpu->shade.reference = &memory->samples;
     return environment_samples_make(&memory->samples, frame->environment, frame->to_environment,
-                                    frame->settings.reference, &memory->reference, cpu->call, error);
+                                    frame->settings.reference / 2, &memory->reference, cpu->call, error);
 }
 
 // All pictures with fewer pixels than this have the same work limit, because a small picture takes little time with any

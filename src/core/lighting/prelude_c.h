@@ -18,6 +18,7 @@ STRUCT(vec3) { num x, y, z; };
 STRUCT(vec4) { num x, y, z, w; };
 
 FN vec3 vec3_of(num x, num y, num z) { return (vec3){x, y, z}; }
+LANE_FN vec3 vec3_from(const float v[3]) { return vec3_of(num_of(v[0]), num_of(v[1]), num_of(v[2])); }
 FN vec4 vec4_of(num x, num y, num z, num w) { return (vec4){x, y, z, w}; }
 FN vec3 xyz(vec4 a) { return (vec3){a.x, a.y, a.z}; }
 

@@ -76,15 +76,7 @@ const struct environment_light *environment_light_without_lamp(const struct lam_
                                                                struct pool *pool, struct call_control *call,
                                                                lam_error *error);
 
-// --- fixed directions for summing an environment's light over lobes
-//
-// Several methods of importance sampling are combined. Half of the directions follow the brightness of the environment, a quarter follow the base's
-// microfacets that the eye sees, and a quarter follow the cosine. A clear coat and sheen add as many
-// directions each. All of these use the points of `disc`. The sum weights each direction by the densities of all methods (multiple importance sampling). The weights are
-// the balance heuristic (Veach and Guibas, "Optimally combining sampling techniques for Monte Carlo rendering", 1995).
-//
-// Each method uses the points of a Hammersley set. The directions are the same for all points of a picture, and on
-// every machine.
+// --- fixed directions that follow the brightness of an environment, computed from a Hammersley set
 
 // A direction towards a bright region of the environment.
 struct sampled_light {
@@ -93,15 +85,9 @@ struct sampled_light {
     float color[3];     // the light from this direction
 };
 
-// A point in the unit disc. The points are evenly distributed.
-struct disc_point {
-    float x, y;
-};
-
 struct environment_samples {
     struct sampled_light *light;
-    struct disc_point *disc;
-    int light_count, disc_count;
+    int light_count;
     int size; // texels per side of the density's faces
     // 6 faces, row by row: the probability density of the directions in `light`, per area; a side of a face has length
     // 2.
@@ -116,15 +102,12 @@ bool environment_samples_make(struct environment_samples *samples, const struct 
 
 // --- lookups for a batch of points
 
-struct physical_point;
-struct returned_light;
-
 // The environment of a frame, for lookups.
 struct environment_view {
     const struct lam_environment *cube;
     const float (*to_environment)[3];          // from the axes of the caller's directions to the environment's axes
     const struct environment_light *light;     // needed by `irradiance` and `prefiltered`
-    const struct environment_samples *samples; // needed by `reference`
+    const struct environment_samples *samples; // needed by `densities`
 };
 
 // Rows of vectors, one row for each coordinate or channel. `count` is rounded up to a multiple of the lanes.
@@ -140,9 +123,6 @@ struct environment_lookups {
     // The light around each direction, prefiltered for a level (prefilter_level).
     void (*prefiltered)(const struct environment_view *view, environment_rows direction, const float *level, int count,
                         environment_rows out);
-    // Sums the light over the lobes of a physical material, at as many points as there are lanes (lighting.h).
-    void (*reference)(const struct environment_view *view, const struct physical_point *point,
-                      struct returned_light *out);
     // The probability density of the directions in `samples`, per solid angle, in each direction.
     void (*densities)(const struct environment_view *view, environment_rows direction, int count, float *out);
 };

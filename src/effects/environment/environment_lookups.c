@@ -1,12 +1,10 @@
 // environment_lookups.c: looks up an environment in LANES directions at a time. This file is compiled once for each
 // instruction set, with LANES and ISA defined (meson.build).
 #include "environment.h"
-#include "lobe_sampling.h"
+#include "lighting.h"
 #include "prefiltered_lookup.h"
 
 _Static_assert((int)PREFILTERED_LAST == ENVIRONMENT_LEVELS - 1, "lobes.h and environment_light.h use the same levels");
-
-LANE_FN vec3 vec3_from(const float v[3]) { return (vec3){num_of(v[0]), num_of(v[1]), num_of(v[2])}; }
 
 LANE_FN vec3 load_rows(environment_rows rows, int at)
 {
@@ -83,6 +81,22 @@ static void prefiltered(const struct environment_view *view, environment_rows di
     }
 }
 
-#include "reference.inc"
+static void densities(const struct environment_view *view, environment_rows direction, int count, float *out)
+{
+    const struct environment_samples *e = view->samples;
+    const float half = 0.5f * (float)e->size;
+    const num last = num_of((float)(e->size - 1)), zero = num_of(0.0f);
+    for (int first = 0; first < count; first += LANES) {
+        vec3 d = to_environment_axes(view, load_rows(direction, first));
+        struct cube_position at = cube_point(d.x, d.y, d.z);
+        inum column = int_of(min_of(max_of((at.s + 1.0f) * half, zero), last));
+        inum row = int_of(min_of(max_of((at.t + 1.0f) * half, zero), last));
+        float density[LANES];
+        for (int i = 0; i < LANES; i++)
+            density[i] = e->density[(ilane(at.face, i) * e->size + ilane(row, i)) * e->size + ilane(column, i)];
+        num square = 1.0f + at.s * at.s + at.t * at.t;
+        num_store(out + first, num_load(density) * (square * square_root(square)));
+    }
+}
 
-const struct environment_lookups FOR_ISA(environment_lookups) = {colors, irradiance, prefiltered, reference, densities};
+const struct environment_lookups FOR_ISA(environment_lookups) = {colors, irradiance, prefiltered, densities};

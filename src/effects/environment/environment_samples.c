@@ -1,4 +1,4 @@
-// environment_samples.c: selects fixed directions for the integral of an environment's light.
+// environment_samples.c: selects fixed directions towards the light of an environment.
 #define LANES 1
 #include "cube_lookup.h"
 
@@ -15,14 +15,6 @@ static double radical_inverse(uint32_t i)
     for (; i; i >>= 1, digit /= 2)
         value += i & 1 ? digit : 0;
     return value;
-}
-
-static void draw_disc(struct disc_point *points, int count)
-{
-    for (int i = 0; i < count; i++) {
-        double radius = math_sqrt((i + 0.5) / count), angle = 2 * PI * radical_inverse((uint32_t)i);
-        points[i] = (struct disc_point){(float)(radius * math_cos(angle)), (float)(radius * math_sin(angle))};
-    }
 }
 
 // For each texel in a row of a face, stores the brightness times the solid angle in `weights`. Returns the sum.
@@ -110,21 +102,17 @@ bool environment_samples_make(struct environment_samples *samples, const struct 
     if (!cube_chain_make(&chain, cube, NULL, call, error))
         return false;
     struct drawing d = {.cube = cube, .small = cube_chain_near(&chain, DENSITY_SIZE), .to_environment = to_environment};
-    size_t size = (size_t)d.small->size, rows = LAM_FACE_COUNT * size, quarter = (size_t)count / 4;
-    *samples = (struct environment_samples){
-        .light_count = count - 2 * (int)quarter, .disc_count = (int)quarter, .size = (int)size};
-    size_t lights = (size_t)samples->light_count;
-    size_t bytes = (rows + size) * sizeof(double) + lights * sizeof(struct sampled_light) +
-                   quarter * sizeof(struct disc_point) + rows * size * sizeof(float);
+    size_t size = (size_t)d.small->size, rows = LAM_FACE_COUNT * size;
+    *samples = (struct environment_samples){.light_count = count, .size = (int)size};
+    size_t bytes =
+        (rows + size) * sizeof(double) + (size_t)count * sizeof(struct sampled_light) + rows * size * sizeof(float);
     bool ok = buffer_reserve(storage, bytes, call, error);
     if (ok) {
         d.rows = storage->data;
         d.weights = d.rows + rows;
         samples->light = (struct sampled_light *)(d.weights + size);
-        samples->disc = (struct disc_point *)(samples->light + lights);
-        float *density = (float *)(samples->disc + quarter);
+        float *density = (float *)(samples->light + count);
         samples->density = density;
-        draw_disc(samples->disc, samples->disc_count);
         weigh(&d, density);
         if (!(d.total > 0)) // a black environment has no directions towards light
             samples->light_count = 0;

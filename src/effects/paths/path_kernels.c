@@ -117,7 +117,7 @@ LANE_FN struct lobe_mixture mixture_of(const struct lit_point *p, mask straight)
     num all = (sum + through) + mirrored;
     m.passes = pick(all > 0.0f, through / all, zero);
     m.mirrors = pick(all > 0.0f, mirrored / all, zero);
-    m.reflects = pick(all > 0.0f, sum / all, zero);
+    m.reflects = pick(all > 0.0f, sum / all, num_of(1.0f));
     if (p->inside) {
         m.passes = num_of(1.0f);
         m.mirrors = m.reflects = zero;
@@ -134,27 +134,40 @@ LANE_FN num mixture_density(const struct lobe_mixture *m, vec3 v, vec3 l)
     return density * m->reflects;
 }
 
-// Returns a direction of the lobe that `choice` selects. `at` is a point of the unit disc.
-LANE_FN vec3 mixture_direction(const struct lobe_mixture *m, vec3 v, num choice, num x, num y)
+// Returns a point of the unit disc.
+LANE_FN vec3 disc_point(num u, num v)
 {
-    vec3 l = direction_by_lobe(&m->lobe[0], v, x, y);
+    num radius = square_root(u);
+    return vec3_of(radius * cosine_of_turns(v), radius * cosine_of_turns(v + 0.75f), num_of(0.0f));
+}
+
+// Returns a direction of the lobe that `choice` selects. `at` is a point of the unit disc.
+LANE_FN vec3 mixture_direction(const struct lobe_mixture *m, vec3 v, num choice, vec3 at)
+{
+    vec3 l = direction_by_lobe(&m->lobe[0], v, at.x, at.y);
     num before = m->share[0];
     for (int i = 1; i < m->count; i++) {
-        l = pick3(choice < before, l, direction_by_lobe(&m->lobe[i], v, x, y));
+        l = pick3(choice < before, l, direction_by_lobe(&m->lobe[i], v, at.x, at.y));
         before = before + m->share[i];
     }
     return l;
 }
 
-// Returns the light towards the eye that arrives from t.l, as a sum of all terms.
-LANE_FN vec3 reflected_light(const struct lit_point *p, vec3 diffuse, vec3 specular, light_source light, light_sample t)
+// Returns light from l that was sampled with a density. `density` contains the factor pi.
+LANE_FN light_sample sample_of(vec3 l, num density)
 {
-    light.diffuse = mul3(p->base.kd, diffuse);
-    light.specular = mul3(p->ks, specular);
+    return (light_sample){
+        .l = l, .attenuation = pick(density > 0.0f, 1.0f / density, num_of(0.0f)), .spot = num_of(1.0f)};
+}
+
+// Returns the diffuse and the specular light towards the eye that arrives from t.l.
+LANE_FN terms lit_terms(const struct lit_point *p, vec3 diffuse, vec3 specular, light_sample t)
+{
+    light_source light = {.diffuse = mul3(p->base.kd, diffuse), .specular = mul3(p->ks, specular)};
     terms sum = reflected_terms(&p->base, light, t);
     sum.diffuse = mul3(scale3(sum.diffuse, p->matt), p->diffuse);
     sum.specular = pick3(present(p->base.s.v), mul3(sum.specular, p->specular), black3());
-    return sum_terms(sum);
+    return sum;
 }
 
 #include "path_sources.inc"
@@ -193,21 +206,18 @@ LANE_FN struct next_ray next_ray_of(const struct lit_point *p, const struct lobe
 {
     surface s = p->base.s;
     num event = num_load(n->u[CHOOSE_EVENT]), choice = num_load(n->v[CHOOSE_EVENT]);
-    num radius = square_root(num_load(n->u[CHOOSE_DIRECTION])), turn = num_load(n->v[CHOOSE_DIRECTION]);
-    num x = radius * cosine_of_turns(turn), y = radius * cosine_of_turns(turn + 0.75f);
+    vec3 at = disc_point(num_load(n->u[CHOOSE_DIRECTION]), num_load(n->v[CHOOSE_DIRECTION]));
     struct next_ray r;
     vec3 white = grey3(num_of(1.0f));
-    r.l = mixture_direction(m, s.v, choice, x, y);
+    r.l = mixture_direction(m, s.v, choice, at);
     r.density = mixture_density(m, s.v, r.l);
-    light_sample all = {
-        .l = r.l, .attenuation = pick(r.density > 0.0f, 1.0f / r.density, num_of(0.0f)), .spot = num_of(1.0f)};
-    r.factor = reflected_light(p, white, white, (light_source){.constant = num_of(1.0f)}, all);
+    r.factor = sum_terms(lit_terms(p, white, white, sample_of(r.l, r.density)));
     r.passes = event < m->passes;
     r.mirrored = both(negate(r.passes), event < m->passes + m->mirrors);
     mask returned = r.passes;
     if (any_lane(r.passes)) {
         const struct sampled_lobe *facets = &m->lobe[0];
-        vec3 h = seen_facet(facets->facets, x, y);
+        vec3 h = seen_facet(facets->facets, at.x, at.y);
         vec3 l = passing_direction(p, from_lobe_axes(facets, h.x, h.y, h.z), choice, &returned);
         r.l = pick3(r.passes, l, r.l);
         r.factor = pick3(r.passes, p->inside ? white : scale3(p->through, 1.0f / m->passes), r.factor);
@@ -326,4 +336,58 @@ static void scatter(const struct path_frame *f, struct path_stream *stream, cons
     send(&s, &next, straight, alive);
 }
 
-const struct path_kernels FOR_ISA(path_kernels) = {scatter};
+// --- the integral of the environment's light
+
+// Returns the position of `choice` within the share of its lobe, from 0 to 1.
+LANE_FN num mixture_rest(const struct lobe_mixture *m, num choice)
+{
+    num before = num_of(0.0f), rest = before;
+    for (int i = 0; i < m->count; i++) {
+        rest = pick(choice < before, rest, (choice - before) / max_of(m->share[i], num_of(1.0e-9f)));
+        before = before + m->share[i];
+    }
+    return min_of(rest, num_of(1.0f));
+}
+
+// Adds light from l, weighted by the balance heuristic. `density` contains the factor pi.
+LANE_FN returned_light add_from(const struct lit_point *p, vec3 l, vec3 light, num density, returned_light sum)
+{
+    terms t = lit_terms(p, light, light, sample_of(l, density));
+    return (returned_light){add3(sum.diffuse, t.diffuse), add3(sum.specular, t.specular)};
+}
+
+enum { INTEGRAL_PART = 32 }; // pairs of directions per partial sum, which keeps rounding errors below 1e-6
+
+static void integrate(const struct environment_view *view, const struct environment_lookups *lookups,
+                      const struct lit_point *p, int count, returned_light *out)
+{
+    const struct environment_samples *samples = view->samples;
+    const struct lobe_mixture m = mixture_of(p, mask_of_bits(0));
+    const returned_light none = {black3(), black3()};
+    const float lights = PI_F * (float)samples->light_count, lobes = (float)count;
+    returned_light part = *out = none;
+    for (int i = 0; i < count; i++) {
+        // The directions of each lobe are consecutive points of a Hammersley set.
+        _Alignas(64) float rows[3][LANES], density[LANES];
+        float *const each[3] = {rows[0], rows[1], rows[2]};
+        num choice = num_of(((float)i + 0.5f) / lobes), turn = num_of(unit_number(reversed_bits((uint32_t)i)));
+        vec3 l = mixture_direction(&m, p->base.s.v, choice, disc_point(mixture_rest(&m, choice), turn));
+        store_vector(rows, l);
+        lookups->densities(view, each, LANES, density);
+        lookups->colors(view, each, LANES, each);
+        num all = lobes * mixture_density(&m, p->base.s.v, l) + lights * num_load(density);
+        part = add_from(p, l, load_vector(rows), all, part);
+        if (i < samples->light_count) {
+            const struct sampled_light *from = &samples->light[i];
+            l = vec3_from(from->direction);
+            all = lobes * mixture_density(&m, p->base.s.v, l) + num_of(lights * from->density);
+            part = add_from(p, l, vec3_from(from->color), all, part);
+        }
+        if (i + 1 == count || i % INTEGRAL_PART == INTEGRAL_PART - 1) {
+            *out = (returned_light){add3(out->diffuse, part.diffuse), add3(out->specular, part.specular)};
+            part = none;
+        }
+    }
+}
+
+const struct path_kernels FOR_ISA(path_kernels) = {scatter, integrate};

@@ -67,17 +67,52 @@ static void split(struct path_tree *t, uint64_t *keys, uint32_t count, uint32_t 
     split(t, keys + half, count - half, 2 * node + 1);
 }
 
+// Sets the cone that contains the cones of two nodes.
+static void join_cones(struct path_node *both, const struct path_node *const nodes[2])
+{
+    float square = 0;
+    for (int c = 0; c < 3; c++) {
+        both->axis[c] = nodes[0]->axis[c] + nodes[1]->axis[c];
+        square += both->axis[c] * both->axis[c];
+    }
+    bool all = !(square > 0);
+    for (int c = 0; c < 3 && !all; c++)
+        both->axis[c] /= __builtin_sqrtf(square);
+    both->cosine = 1;
+    for (int i = 0; i < 2; i++) { // the sums of two angles: between the axes, and half the opening
+        const struct path_node *n = nodes[i];
+        float between = 0;
+        for (int c = 0; c < 3; c++)
+            between += both->axis[c] * n->axis[c];
+        between = between < 1 ? between : 1;
+        float apart = __builtin_sqrtf(1 - between * between), cosine = between * n->cosine - apart * n->sine,
+              sine = apart * n->cosine + between * n->sine;
+        all |= sine < 0 || (n->cosine == 0 && n->sine == 0);
+        both->sine = cosine < both->cosine ? sine : both->sine;
+        both->cosine = cosine < both->cosine ? cosine : both->cosine;
+    }
+    if (all)
+        both->cosine = both->sine = 0;
+}
+
 // Returns the node above two others.
 static struct path_node joined(const struct path_node *a, const struct path_node *b)
 {
+    const struct path_node sun_a = {.suns = a->power}, sun_b = {.suns = b->power};
+    a = a->is_sun ? &sun_a : a;
+    b = b->is_sun ? &sun_b : b;
+    struct path_node both = a->power > 0 ? *a : *b;
+    both.suns = a->suns + b->suns;
     if (!(a->power > 0) || !(b->power > 0))
-        return a->power > 0 ? *a : *b;
-    struct path_node both = {.power = a->power + b->power, .reach = a->reach > b->reach ? a->reach : b->reach};
+        return both;
+    both.power = a->power + b->power;
+    both.reach = a->reach > b->reach ? a->reach : b->reach;
     for (int c = 0; c < 3; c++) {
         both.low[c] = a->low[c] < b->low[c] ? a->low[c] : b->low[c];
         both.high[c] = a->high[c] > b->high[c] ? a->high[c] : b->high[c];
         both.attenuation[c] = (a->attenuation[c] * a->power + b->attenuation[c] * b->power) / both.power;
     }
+    join_cones(&both, (const struct path_node *const[2]){a, b});
     return both;
 }
 

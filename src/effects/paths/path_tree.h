@@ -17,6 +17,9 @@
 // In a group of up to 16 leaves, all sources are compared at once.
 enum { TREE_FEW = 16 };
 
+// The distance to a cone is rounded by less than this share of the distance to its source.
+#define CONE_MARGIN 0.001f
+
 // A point in a box has this part of the box's half diagonal as its least distance, squared.
 #define NEAREST 0.001f
 
@@ -26,6 +29,12 @@ struct path_node {
     float power;
     float attenuation[3]; // the mean, weighted by power
     float reach;          // the square of the distance beyond which no source has light; may be infinite
+    // The cone of all directions of the light: its axis, and the cosine and sine of its half angle. Both 0: all directions.
+    float axis[3], cosine, sine;
+    // A directional light, far outside the scene. Above the leaves, the members describe all other sources, and `suns` is
+    // the power of the directional lights, which is the same everywhere.
+    bool is_sun;
+    float suns;
 };
 
 // Fills the tree. The caller sets `leaves` (a power of two, at least `count`), allocates `nodes` (2 · leaves), `item`
@@ -45,13 +54,26 @@ static inline double path_triangle_area(const struct ray_triangle *t)
     return 0.5 * __builtin_sqrt(square);
 }
 
+// Returns whether a node's cone lights no point at d from the middle of the box, whose half diagonal is `radius`.
+static inline bool tree_cone_misses(const struct path_node *n, const float d[3], float radius)
+{
+    float along = 0, square = 0;
+    for (int c = 0; c < 3; c++) {
+        along += n->axis[c] * d[c];
+        square += d[c] * d[c];
+    }
+    float across = square - along * along, margin = radius + CONE_MARGIN * __builtin_sqrtf(square);
+    return __builtin_sqrtf(across > 0 ? across : 0) * n->cosine - along * n->sine > margin;
+}
+
 // Returns the light of a node at x. `normal` is the normal of a surface that reflects light only from the front, or 0.
 static inline float tree_light(const struct path_node *n, const double x[3], const float normal[3])
 {
-    float least = 0, most = 0, size = 0, above = 0, facing = 0;
+    float least = 0, most = 0, size = 0, above = 0, facing = 0, away[3];
     for (int c = 0; c < 3; c++) {
         float half = 0.5f * (n->high[c] - n->low[c]), d = path_node_middle(n, c) - (float)x[c];
         float far = __builtin_fabsf(d) + half, near = far - 2 * half;
+        away[c] = -d;
         least += near > 0 ? near * near : 0;
         most += far * far;
         size += half * half;
@@ -59,20 +81,22 @@ static inline float tree_light(const struct path_node *n, const double x[3], con
         facing += normal[c] * normal[c];
     }
     if (least > n->reach)
-        return 0;
+        return n->suns;
+    if ((n->cosine != 0 || n->sine != 0) && tree_cone_misses(n, away, __builtin_sqrtf(size)))
+        return n->suns;
     float square = __builtin_sqrtf((least + NEAREST * size) * most), distance = __builtin_sqrtf(square);
     float cosine = facing > 0 && above < distance ? above / distance : 1;
     cosine = cosine > COSINE_LEAST ? cosine : COSINE_LEAST;
     float weakening = (n->attenuation[0] + n->attenuation[1] * distance) + (n->attenuation[2] * square + 0x1p-40f);
-    return n->power * cosine / weakening;
+    return n->suns + n->power * cosine / weakening;
 }
 
 // Returns the probability of the left child of a node.
 static inline float tree_left(const struct path_tree *t, uint32_t node, const double x[3], const float normal[3])
 {
     const struct path_node *left = &t->nodes[2 * node], *right = left + 1;
-    if (!(left->power > 0) || !(right->power > 0))
-        return left->power > 0;
+    if (!(left->power + left->suns > 0) || !(right->power + right->suns > 0))
+        return left->power + left->suns > 0;
     float a = tree_light(left, x, normal), b = tree_light(right, x, normal), share = a / (a + b);
     return share >= 0 ? share : 0.5f; // NaN becomes ½
 }

@@ -16,8 +16,8 @@ const struct path_kernels *path_kernels_of(int lanes) { return CPU_WIDEST_OF_ALL
 
 // --- the sources of light
 
-// The environment is sampled in half as many fixed directions, which each pixel visits in its own order.
-enum { ENVIRONMENT_DIRECTIONS = 1 << 16 };
+// The environment is sampled in fixed directions, which each pixel visits in its own order.
+enum { ENVIRONMENT_DIRECTIONS = 1 << 15 };
 
 // A kind of source has at least this share of the rays, so that a wrong estimate costs little.
 #define SHARE_LEAST 0.1
@@ -66,6 +66,12 @@ static double set_lights(struct path_frame *f, uint64_t *keys)
             at[c] = light->kind == LIGHT_DIRECTIONAL ? -DIRECTIONAL_AT * light->world_axis[c] : at[c];
             node->low[c] = (float)(at[c] - light->radius * scale);
             node->high[c] = (float)(at[c] + light->radius * scale);
+            node->axis[c] = (float)light->world_axis[c];
+        }
+        node->is_sun = light->kind == LIGHT_DIRECTIONAL;
+        if (light->kind == LIGHT_SPOT_CUTOFF || light->kind == LIGHT_SPOT_CONES) {
+            node->cosine = light->kind == LIGHT_SPOT_CONES ? light->cos_outer : light->cos_cutoff;
+            node->sine = (float)math_sqrt(1 - (double)node->cosine * (double)node->cosine);
         }
         const double range =
             light->inverse_range > 0 ? 1.001 * scale / (double)light->inverse_range : (double)__builtin_inff();

@@ -88,11 +88,16 @@ struct path_stream {
 };
 
 struct lit_point;
+struct returned_light;
 struct path_kernels {
     // Advances paths at as many points as there are lanes: adds the emission, sends a ray to a source, and chooses the
     // next ray. `paths` lists the path of each point; `left` is the number of points, if smaller than the lanes.
     void (*scatter)(const struct path_frame *frame, struct path_stream *stream, const struct lit_point *points,
                     const struct ray_starts *starts, int at, const uint32_t *paths, int left);
+    // Sums the light that as many points as there are lanes reflect of an environment that nothing blocks, over `count`
+    // directions of their lobes and all directions of `samples` (lam_draw_params.reference).
+    void (*integrate)(const struct environment_view *view, const struct environment_lookups *lookups,
+                      const struct lit_point *points, int count, struct returned_light *out);
 };
 // Returns the version with the given number of lanes (1, 4, 8, 16). NULL if the build has no effects.
 const struct path_kernels *path_kernels_of(int lanes);

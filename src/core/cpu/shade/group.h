@@ -63,8 +63,6 @@ static inline struct light_rays light_rays_of(const struct group *g)
                                .layers = &g->shading->ray_layers};
 }
 
-LANE_FN vec3 vec3_from(const float v[3]) { return (vec3){num_of(v[0]), num_of(v[1]), num_of(v[2])}; }
-
 LANE_FN num row3(const float row[3], vec3 v) { return (row[0] * v.x + row[1] * v.y) + row[2] * v.z; }
 
 // Loads and stores vectors in the rows of a batch.

@@ -238,14 +238,17 @@ typedef struct lam_object {
     bool one_sided;
     lam_cull cull; // the culled side
     bool hidden;   // true: not drawn (lam_scene_hide_object)
-    int group;     // 1 + the index of the innermost group (lam_scene_group); 0: none
+    // 1 + the index of the innermost group (lam_scene_group); 0: none
+    int group;
     LAM_RESERVED(15);
 } lam_object;
 
 // An assembly of a STEP file, or a node of a glTF file above other nodes. A group contains objects and other groups.
 typedef struct lam_group {
     const char *name; // UTF-8, not empty
-    int parent;       // 1 + the index of the group that contains this group; 0: none. A parent precedes its groups.
+    // 1 + the index of the group that contains this group; 0: none. A parent precedes its groups.
+    int parent;
+    LAM_RESERVED(4);
 } lam_group;
 
 // Returns an object with mesh 0, the identity transform, and −1 for both materials.

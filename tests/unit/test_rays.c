@@ -178,7 +178,7 @@ static unsigned every_triangle(const struct soup *s, const struct ray_lanes *ray
     for (uint32_t i = 0; i < s->count; i++) {
         const struct ray_triangle *t = triangle_of(s, i);
         unsigned crossed = crosses(t, ray, &view, active, NULL, NULL);
-        crossed &= ~through_points(s->hierarchy, t, ray, crossed);
+        crossed &= ~through_points(s->hierarchy, t, ray->point, crossed);
         for (unsigned rest = crossed & ~hit; rest; rest &= rest - 1)
             hit |= (unsigned)passes_near(t, ray, __builtin_ctz(rest)) << __builtin_ctz(rest);
     }
@@ -200,7 +200,7 @@ static void check_nearest(const struct soup *s, const struct ray_lanes *ray)
             for (uint32_t i = 0; i < s->count; i++) {
                 const struct ray_triangle *triangle = triangle_of(s, i);
                 if (crosses(triangle, ray, &search.view, 1u << lane, NULL, t) && passes_near(triangle, ray, lane) &&
-                    !through_points(s->hierarchy, triangle, ray, 1u << lane) && t[lane] < nearest &&
+                    !through_points(s->hierarchy, triangle, ray->point, 1u << lane) && t[lane] < nearest &&
                     (t[lane] > after || (t[lane] == after && (int64_t)i > (int32_t)after_number))) {
                     nearest = t[lane];
                     number = triangle->number;
@@ -551,7 +551,7 @@ TEST(test_coplanar)
             for (uint32_t t = 0; t <= PLANE; t++) {
                 const struct ray_triangle *other = triangle_of(&soup, t);
                 unsigned found_here = crosses(other, &ray, &view, 0xff, NULL, NULL), through;
-                through = through_points(soup.hierarchy, other, &ray, found_here);
+                through = through_points(soup.hierarchy, other, ray.point, found_here);
                 if (other->number == PLANE)
                     assert_int_equal(through, 0);
                 else

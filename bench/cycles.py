@@ -138,7 +138,7 @@ def lambent(program, folder, name, paths):
     """The linear colours, bottom row first, and the seconds of drawing."""
     with open(os.path.join(folder, "scene.json"), "w") as file:
         json.dump(scene_of(name), file)
-    done = subprocess.run([program, "scene.json", "--bounces", str(BOUNCES), "--paths", str(paths), "--denoise", "off", "--threads", "2", "-o", "l.pfm", "--json"],
+    done = subprocess.run([program, "scene.json", "--bounces", str(BOUNCES), "--paths", str(paths), "--denoise", "off", "--threads", "2", "--time-limit", "none", "-o", "l.pfm", "--json"],
                           cwd=folder, check=True, stdout=subprocess.PIPE)
     data = open(os.path.join(folder, "l.pfm"), "rb").read()
     return struct.unpack("<%df" % (3 * SIZE * SIZE), data[-12 * SIZE * SIZE:]), json.loads(done.stdout)["times_ms"]["steps"]["tiles"] / 1000

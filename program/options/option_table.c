@@ -498,8 +498,8 @@ struct option option_table[OPTIONS_MAX] = {
      "Lambent reads STL and 3MF files as Z up, as in CAD and 3D printing, and other formats as Y up. Lambent also "
      "reads OBJ and PLY files as Z up if they contain a terrain in the xy plane. `--up auto` also turns a PLY or STL "
      "model upright if it cannot stand on this axis, but on exactly one of the other two, such as a scan that lies on "
-     "its back. A warning names the axis. `--up file`, `convert` and several models joined with ` + ` do not turn "
-     "models. Lambent also accepts capital letters and a plus sign (`+Z`).",
+     "its back. A warning names the axis. `--up file`, `convert`, `info` and several models joined with ` + ` do not "
+     "turn models. Lambent also accepts capital letters and a plus sign (`+Z`).",
      up_words, .brief = "the file's up axis: y, z, -z ...", .store = store_up, .others = "axis",
      .also = "up-axis upaxis z-up=z zup=z y-up=y yup=y", FIELD(view.up), .single = TAKES_UP, .not_in = KEEPS_MODEL},
     {"rotate", 0, GROUP_VIEW, "AXIS:DEGREES", NULL, "Rotate the model about its centre, for example y:30; repeatable.",
@@ -630,8 +630,10 @@ struct option option_table[OPTIONS_MAX] = {
      "`specular_color` sets the specular colour. The factors `ka`, `kd` and `ks` multiply the ambient, diffuse and "
      "specular colour. The factor `kr` multiplies `reflectivity`. Without the key `reflectivity`, the reflectivity is "
      "`kr` times `specular_color` (default: white).\n`@NAME` limits the option to the surfaces of that name: "
-     "`ruby@handle`. Lambent first looks for objects of that name, then for parts (OBJ groups, STL solids), and then "
-     "for materials of the model. If several options match a surface, the last one wins.",
+     "`ruby@handle`. Lambent first looks for objects of that name, and for objects in an assembly (STEP) or below a "
+     "node "
+     "(glTF) of that name. Then it looks for parts (OBJ groups, STL solids), and then for materials of the model. If "
+     "several options match a surface, the last one wins.",
      .kind = VALUE_MATERIAL, .brief = "gold, ruby ... (lambent materials)", .store = store_material,
      .others = "m specular diffuse",
      .also = "mat metallic=metallic=* metalness=metallic=* roughness=roughness=* gold=gold silver=silver chrome=chrome "

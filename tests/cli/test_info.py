@@ -125,7 +125,8 @@ class Info(GltfCase):
             for up, turn in turns.items():
                 name = f"animal-{up}.{ending}"
                 write(name, boxes(turn, animal))
-                self.assertEqual(self.info(name)[0]["up"], up, name)
+                self.assertEqual(self.info(name)[0]["up"], usual, name)
+                self.assertEqual(self.report(name, "-s", "32")["model"]["up"], up, name)
                 said = self.good(name, "-s", "32", "-o", f"{name}.png").stderr
                 self.assertEqual(f"{up} is assumed to be up".encode() in said, up != usual, name)
                 for words, same in ((("--up", up), True), (("--up", "file"), up == usual), (("--up", usual), up == usual)):
@@ -134,9 +135,10 @@ class Info(GltfCase):
         # Models that stand on no axis, on two, or on the usual one, and low ones, are not turned.
         roof = [((0, 0, .6), (1, .4, 1)), ((.1, .05, 0), (.2, .15, .6))]
         low = [((0, 0, .1), (1, .4, .2))] + [((x, y, 0), (x + .1, y + .1, .1)) for x in (.1, .8) for y in (.05, .25)]
-        for name, parts in (("one-leg", roof), ("low", low), ("cube", [((0, 0, 0), (1, 1, 1))])):
-            write(f"{name}.ply", boxes(turns["z"], parts))
-            self.assertEqual(self.info(f"{name}.ply")[0]["up"], "y", name)
+        for name, triangles in (("one-leg", boxes(turns["z"], roof)), ("low", boxes(turns["z"], low)), ("cube", boxes(turns["z"], [((0, 0, 0), (1, 1, 1))])),
+                                ):
+            write(f"{name}.ply", triangles)
+            self.assertEqual(self.report(f"{name}.ply", "-s", "32")["model"]["up"], "y", name)
         said = self.good("animal-z.ply + cube.ply", "-s", "32", "-o", "two.png").stderr + self.good("convert", "animal-z.ply", "out.glb").stderr
         self.assertNotIn(b"is assumed to be up", said)
 

@@ -411,6 +411,7 @@ class OpenCascade(Modules):
         self.assertEqual(shown(), {"red", "green", "blue", "grey"})
         self.assertEqual(shown("--only", "left"), {"red", "grey"})
         self.assertEqual(shown("--only", "right"), {"red", "green"})
+        self.assertEqual(shown("--only", "pin"), {"green", "grey"})  # the name of a part
         self.assertEqual(shown("--hide", "pair"), {"blue"})  # the blue instance of the red block
         self.assertEqual(shown("--hide", "right", "--hide", "lone"), {"red", "grey"})
         self.bad(1, "machine.step", "--hide", "lefd", says="did you mean 'left'?")

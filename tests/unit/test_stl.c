@@ -299,6 +299,14 @@ TEST(test_colors_viscam)
     scene = load_with(file.bytes, file.size, "a.stl", &(lam_load_params){.color = LAM_COLOR_RAW});
     assert_int_equal(lam_scene_mesh(scene, 0)->colors_format, LAM_COLORS_LINEAR8);
     lam_scene_free(scene);
+
+    file = (struct made){0}; // some programs set only bit 15, in every facet
+    put_header(&file, "viscam", 2);
+    put_facet(&file, 0, 0x8000);
+    put_facet(&file, 1, 0x8000);
+    scene = load(&file, "a.stl");
+    assert_null(lam_scene_mesh(scene, 0)->colors);
+    lam_scene_free(scene);
 }
 
 TEST(test_colors_magics)

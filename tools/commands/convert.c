@@ -159,7 +159,8 @@ static bool draw_thumbnail(const struct convert *c, struct progress *progress, l
 {
     struct options own = *c->options;
     own.picture.width = own.picture.height = THUMBNAIL;
-    struct job job = {.options = &own, .model = c->model, .device = device_option_make(&own, error)};
+    struct job job = {
+        .options = &own, .model = c->model, .keeps_axes = true, .device = device_option_make(&own, error)};
     job.times.start = c->job.times.start;
     bool ok = job.device && job_draw(&job, LAM_RGBA8, progress, error);
     if (ok) {

@@ -122,15 +122,19 @@ static bool is_below(const lam_scene *scene, const lam_object *object, const cha
     return group;
 }
 
-// Applies the option to the objects with this name, or to those below a node with it. Returns their number, or −1 on
-// failure.
-static int set_objects(const struct material_option *option, bool back, bool below, const char *name, lam_scene *scene,
+// Returns whether an object has this name, or is below an assembly or a node with it.
+static bool belongs_to(const lam_scene *scene, const lam_object *object, const char *name)
+{
+    return same(object->name, name) || is_below(scene, object, name);
+}
+
+// Applies the option to the objects that belong to its target. Returns their number, or −1 on failure.
+static int set_objects(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                        lam_error *error)
 {
     int found = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
-        const lam_object *object = lam_scene_object(scene, i);
-        if (option->target && !(below ? is_below(scene, object, option->target) : same(object->name, option->target)))
+        if (option->target && !belongs_to(scene, lam_scene_object(scene, i), option->target))
             continue;
         found++;
         if (!(back ? set_back(option, name, i, scene, error) : set_front(option, name, i, scene, error)))
@@ -213,9 +217,7 @@ static bool not_found(const struct material_option *option, bool back, const cha
 bool material_option_set(const struct material_option *option, bool back, const char *name, lam_scene *scene,
                          lam_error *error)
 {
-    int found = set_objects(option, back, false, name, scene, error);
-    if (found == 0 && option->target)
-        found = set_objects(option, back, true, name, scene, error);
+    int found = set_objects(option, back, name, scene, error);
     if (found == 0 && !back && option->target)
         found = set_parts(option, scene, error);
     if (found == 0 && !back && option->target)
@@ -230,8 +232,7 @@ static int hide_objects(const char *target, lam_scene *scene, lam_error *error)
 {
     int found = 0;
     for (int i = 0; i < lam_scene_object_count(scene); i++) {
-        const lam_object *object = lam_scene_object(scene, i);
-        if (!same(object->name, target) && !is_below(scene, object, target))
+        if (!belongs_to(scene, lam_scene_object(scene, i), target))
             continue;
         if (!lam_scene_hide_object(scene, i, true, error))
             return -1;
@@ -271,10 +272,12 @@ bool material_option_hide(const char *target, bool may_lack, lam_scene *scene, l
     return found > 0;
 }
 
+// Returns whether an object, its only part or its only material has this name.
 static bool is_named(const lam_scene *scene, const lam_object *object, const char *name)
 {
+    const lam_mesh *mesh = lam_scene_mesh(scene, object->mesh);
     const int material = front_of(scene, object);
-    return same(object->name, name) || is_below(scene, object, name) ||
+    return belongs_to(scene, object, name) || (mesh->part_count == 1 && same(mesh->parts->name, name)) ||
            (material >= 0 && same(lam_scene_material(scene, material)->name, name));
 }
 

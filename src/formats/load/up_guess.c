@@ -1,6 +1,8 @@
 // up_guess.c: guesses the up axis of a model whose format defines none, if the shape is unambiguous.
 #include "up_guess.h"
 
+#include "linear.h"
+
 // A model is a terrain if it is thinner along z than THIN times its smaller side in x and y, and if its area, projected
 // along z, is more than FACING times its whole area. (Area that faces −z counts as negative.)
 #define THIN     0.3
@@ -90,8 +92,9 @@ static bool stands(const struct lam_scene *scene, const double low[3], const dou
     return true;
 }
 
-// Returns the axis that a lying model stands on, or the usual axis. 0 is x, 1 is y, 2 is z.
-static int standing_axis(const struct lam_scene *scene, int usual)
+// Returns the axis that a lying model stands on, or the usual axis. 0 is x, 1 is y, 2 is z. An open surface that faces
+// one side, such as a hilly landscape, is not turned.
+static int standing_axis(const struct lam_scene *scene, int usual, struct pool *pool)
 {
     lam_vec3 corners[2];
     if (!lam_scene_triangle_count(scene) || !lam_scene_bounds(scene, &corners[0], &corners[1]))
@@ -112,7 +115,7 @@ static int standing_axis(const struct lam_scene *scene, int usual)
             return usual;
         found = axis;
     }
-    return found;
+    return found != usual && v3_length(surface_facts(scene, pool).facing) > FACING ? usual : found;
 }
 
 void guess_up(struct lam_scene *scene, const struct importer *importer, bool may_turn, struct pool *pool)
@@ -122,11 +125,11 @@ void guess_up(struct lam_scene *scene, const struct importer *importer, bool may
         lam_scene_add_warning(scene, "z is assumed to be up, because the model is a terrain in the plane of x and y "
                                      "(lam_load_params.up overrides this)");
     } else if (importer->may_lie && may_turn) {
-        scene->up = LAM_UP_X + standing_axis(scene, importer->up - LAM_UP_X);
+        scene->up = LAM_UP_X + standing_axis(scene, importer->up - LAM_UP_X, pool);
         if (scene->up != importer->up)
             scene_warn(scene,
-                       "%s is assumed to be up, because the model stands on that axis and lies on the usual one, %s "
-                       "(lam_load_params.up overrides this)",
+                       "%s is assumed to be up, because the model stands on that axis; with %s up, as usual for this "
+                       "format, it would lie (lam_load_params.up overrides this)",
                        lam_up_name(scene->up), lam_up_name(importer->up));
     }
 }

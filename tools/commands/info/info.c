@@ -22,7 +22,11 @@ static bool load(struct info *info, struct job *job, struct options *options, la
     if (!ok && error->code == LAM_UNSUPPORTED && !options->model.lenient && strcmp(job->model, "-") != 0) {
         lam_error second = {0};
         lam_scene_free(job->scene);
-        *job = (struct job){.options = options, .model = job->model, .measure = true, .times.start = job->times.start};
+        *job = (struct job){.options = options,
+                            .model = job->model,
+                            .measure = true,
+                            .keeps_axes = true,
+                            .times.start = job->times.start};
         options->model.lenient = true;
         ok = info->needs_lenient = job_load(job, &progress, &second);
     }
@@ -70,7 +74,7 @@ static bool measure_sections(struct info *info, struct job *job, lam_error *erro
 static int print_one(const char *model, const struct options *given, bool first)
 {
     struct options options = *given;
-    struct job job = {.options = &options, .model = model, .measure = true};
+    struct job job = {.options = &options, .model = model, .measure = true, .keeps_axes = true};
     lam_error error = {0};
     struct info info = {.job = &job, .error = &error};
     job.times.start = clock_ms();

@@ -25,6 +25,7 @@ struct stl_words {
     uint32_t unmarked_values; // number of different nonzero words without bit 15: 0, 1, or 2 for more than one
     uint16_t unmarked;        // the first nonzero word without bit 15
     bool any;                 // whether any word is not 0
+    bool colored;             // whether any word contains more than bit 15
 };
 
 static inline uint16_t stl_word_of(const uint8_t *facet)
@@ -37,6 +38,7 @@ static inline void stl_add_word(struct stl_words *words, uint16_t value)
     if (value == 0)
         return;
     words->any = true;
+    words->colored |= (value & 0x7fff) != 0;
     if (value & 0x8000) {
         words->marked++;
     } else if (words->unmarked_values == 0) {

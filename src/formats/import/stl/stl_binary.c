@@ -66,7 +66,7 @@ static bool color_chunk(void *user, size_t index, const uint8_t *facet, lam_erro
 // Returns whether facets have colours, and sets dialect and fallback. If the header contains "COLOR=", the attribute
 // words are colours. If all attribute words are zero, the header's colour applies to the whole file instead (*uniform).
 // Without "COLOR=", the words are colours if bit 15 is set in some of them, and the others are zero or all equal (a
-// default value).
+// default value). Files whose only colour is black have no colours: some programs set only bit 15 in every word.
 static bool colors_of(struct stl_binary_reader *reader, const struct stl_words *words, bool *uniform)
 {
     static const char key[] = "COLOR=";
@@ -82,7 +82,7 @@ static bool colors_of(struct stl_binary_reader *reader, const struct stl_words *
         *uniform = !words->any;
         return !*uniform;
     }
-    return words->marked > 0 && words->unmarked_values < 2;
+    return words->marked > 0 && words->colored && words->unmarked_values < 2;
 }
 
 // A colour of the whole file is stored in the default material, so that options can replace it.
@@ -104,6 +104,7 @@ static bool read_colors(struct stl_binary_reader *reader, struct lam_scene *scen
     for (size_t i = 0; i < parallel_rows_count(reader->facets.count); i++) {
         const struct stl_words *chunk = &reader->words[i];
         all.any |= chunk->any;
+        all.colored |= chunk->colored;
         all.marked |= chunk->marked;
         if (chunk->unmarked_values)
             stl_add_word(&all, chunk->unmarked);

@@ -228,7 +228,8 @@ bool gltf_take_map(struct gltf *gltf, const struct place *place, const json_t *o
     map.texcoords = place_set(gltf, request.material, set);
     if (map.texcoords < 0) {
         gltf_note(gltf, ELEMENT_OF(KEY_OF(NULL, "materials"), (size_t)request.material),
-                  "its %s map is not drawn: it uses a third set of texture coordinates", lam_map_name(request.slot));
+                  "its %s map is not drawn: it uses TEXCOORD_%zu, and other maps of the material use two other sets",
+                  lam_map_name(request.slot), set);
         return true;
     }
     struct gltf_map *item = GLTF_ALLOC(gltf, 1, struct gltf_map);

@@ -353,6 +353,18 @@ bool job_run_view(struct job *job, int view, struct progress *progress, lam_erro
             (!job->options->picture.save_scene || scene_settings_save(job, error)));
 }
 
+void job_say_warnings(const struct job *job)
+{
+    const char *text;
+    for (int i = 0; job->scene && !job->options->report.quiet && (text = lam_scene_warning(job->scene, i)); i++) {
+        int k = 0;
+        while (k < i && strcmp(lam_scene_warning(job->scene, k), text) != 0)
+            k++;
+        if (k == i)
+            say_warning(text);
+    }
+}
+
 void job_free(struct job *job)
 {
     lam_image_free(&job->image);

@@ -98,7 +98,7 @@ static bool finish(struct lam_scene *scene, const struct import_source *source, 
     if (!scene_measure(scene, source->pool, error))
         return false;
     if (params->up == LAM_UP_AUTO || params->up == LAM_UP_FILE)
-        guess_up(scene, importer, params->up == LAM_UP_AUTO, source->pool);
+        guess_up(scene, importer, params->up == LAM_UP_AUTO, source);
     if (scene->settings && scene->settings->section_count &&
         !scene_cut(scene, scene->settings->sections, scene->settings->section_count, source->call, error))
         return false;

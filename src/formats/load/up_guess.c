@@ -118,18 +118,22 @@ static int standing_axis(const struct lam_scene *scene, int usual, struct pool *
     return found != usual && v3_length(surface_facts(scene, pool).facing) > FACING ? usual : found;
 }
 
-void guess_up(struct lam_scene *scene, const struct importer *importer, bool may_turn, struct pool *pool)
+void guess_up(struct lam_scene *scene, const struct importer *importer, bool may_turn,
+              const struct import_source *source)
 {
-    if (importer->up_is_habit && is_terrain_on_z(scene, pool)) {
+    if (importer->up_is_habit && is_terrain_on_z(scene, source->pool)) {
         scene->up = LAM_UP_Z;
-        lam_scene_add_warning(scene, "z is assumed to be up, because the model is a terrain in the plane of x and y "
-                                     "(lam_load_params.up overrides this)");
+        scene_warn(scene,
+                   "%s: z is assumed to be up, because the model is a terrain in the plane of x and y "
+                   "(lam_load_params.up overrides this)",
+                   source->name);
     } else if (importer->may_lie && may_turn) {
-        scene->up = LAM_UP_X + standing_axis(scene, importer->up - LAM_UP_X, pool);
+        scene->up = LAM_UP_X + standing_axis(scene, importer->up - LAM_UP_X, source->pool);
         if (scene->up != importer->up)
-            scene_warn(scene,
-                       "%s is assumed to be up, because the model stands on that axis; with %s up, as usual for this "
-                       "format, it would lie (lam_load_params.up overrides this)",
-                       lam_up_name(scene->up), lam_up_name(importer->up));
+            scene_warn(
+                scene,
+                "%s: %s is assumed to be up, because the model stands on that axis; with %s up, as usual for this "
+                "format, it would lie (lam_load_params.up overrides this)",
+                source->name, lam_up_name(scene->up), lam_up_name(importer->up));
     }
 }

@@ -9,6 +9,7 @@
 // that was read with y up is thin along z and has slopes, and most of its area faces +z. (A closed surface faces all
 // sides equally.) A model that lies down (only if `may_turn`) does not stand on the usual axis, but on exactly one of
 // the other two.
-void guess_up(struct lam_scene *scene, const struct importer *importer, bool may_turn, struct pool *pool);
+void guess_up(struct lam_scene *scene, const struct importer *importer, bool may_turn,
+              const struct import_source *source);
 
 #endif

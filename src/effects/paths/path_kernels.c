@@ -349,11 +349,15 @@ LANE_FN num mixture_rest(const struct lobe_mixture *m, num choice)
     return min_of(rest, num_of(1.0f));
 }
 
-// Adds light from l, weighted by the balance heuristic. `density` contains the factor pi.
-LANE_FN returned_light add_from(const struct lit_point *p, vec3 l, vec3 light, num density, returned_light sum)
+// Adds light from l, weighted by the balance heuristic: `lobes` directions follow the lobes, and pi times the density of
+// the other directions is `others`. (Not inlined: it stands twice in a loop, and pages download it.)
+static __attribute__((noinline)) void add_from(const struct lit_point *p, const struct lobe_mixture *m, float lobes,
+                                               const vec3 *l, const vec3 *light, const num *others, returned_light *sum)
 {
-    terms t = lit_terms(p, light, light, sample_of(l, density));
-    return (returned_light){add3(sum.diffuse, t.diffuse), add3(sum.specular, t.specular)};
+    const num density = lobes * mixture_density(m, p->base.s.v, *l) + *others;
+    const terms t = lit_terms(p, *light, *light, sample_of(*l, density));
+    sum->diffuse = add3(sum->diffuse, t.diffuse);
+    sum->specular = add3(sum->specular, t.specular);
 }
 
 enum { INTEGRAL_PART = 32 }; // pairs of directions per partial sum, which keeps rounding errors below 1e-6
@@ -375,13 +379,15 @@ static void integrate(const struct environment_view *view, const struct environm
         store_vector(rows, l);
         lookups->densities(view, each, LANES, density);
         lookups->colors(view, each, LANES, each);
-        num all = lobes * mixture_density(&m, p->base.s.v, l) + lights * num_load(density);
-        part = add_from(p, l, load_vector(rows), all, part);
+        vec3 light = load_vector(rows);
+        num others = lights * num_load(density);
+        add_from(p, &m, lobes, &l, &light, &others, &part);
         if (i < samples->light_count) {
             const struct sampled_light *from = &samples->light[i];
             l = vec3_from(from->direction);
-            all = lobes * mixture_density(&m, p->base.s.v, l) + num_of(lights * from->density);
-            part = add_from(p, l, vec3_from(from->color), all, part);
+            light = vec3_from(from->color);
+            others = num_of(lights * from->density);
+            add_from(p, &m, lobes, &l, &light, &others, &part);
         }
         if (i + 1 == count || i % INTEGRAL_PART == INTEGRAL_PART - 1) {
             *out = (returned_light){add3(out->diffuse, part.diffuse), add3(out->specular, part.specular)};

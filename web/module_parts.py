@@ -1,5 +1,5 @@
 """module_parts.py: divides the served page's module into parts: functions for the first pictures (lambent.wasm), functions that most pages need after
-that (lambent-rest.wasm), and functions downloaded on first use (lambent-more.wasm): explanations, formulas, sweeps, arithmetic JPEG, 3MF, reading and
+that (lambent-rest.wasm), and functions downloaded on first use (lambent-more.wasm): explanations, formulas, sections, sweeps, arithmetic JPEG, 3MF, reading and
 writing scene files. The module with threads has two parts; the first (lambent-threads.wasm) replaces both. wasm-split (Binaryen) divides them; functions that a
 page never calls are omitted."""
 import os
@@ -17,7 +17,7 @@ FEATURES = ["--enable-" + name for name in ("simd", "exception-handling", "bulk-
 # The functions of each object in the linker's map.
 UNUSED = r"libjpeg\.a\((jc(?!omapi)|jfdct)|jpeg_write\.c" # the page saves PNG; reading also needs jcomapi
 # Only the calling thread runs them: the other threads have only the first part.
-MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|sweep_option\.c\.o|show_all\.c\.o|jdarith\.o|formula_\w+\.c\.o|threemf_threemf_\w+\.c\.o|libexpat\.a|scene_write\.c\.o|scene_(objects|models|transforms)\.c\.o|:\((web_contents|web_curves|web_lights|light_of|curve_json|(web|job)_explain)\)$"
+MORE = r"cpu-recording\.a\.p|[/_]explain(_json)?\.c\.o|contents\.c\.o|sweep_option\.c\.o|(mesh_cut|regions|outlines)\.c\.o|scene_join\.c\.o|show_all\.c\.o|jdarith\.o|formula_\w+\.c\.o|threemf_threemf_\w+\.c\.o|libexpat\.a|scene_write\.c\.o|scene_(objects|models|transforms)\.c\.o|:\((web_contents|web_curves|web_lights|light_of|curve_json|(web|job)_explain)\)$"
 
 
 def call(*command):

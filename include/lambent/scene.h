@@ -63,7 +63,8 @@ typedef enum lam_up {
     LAM_UP_COUNT
 } lam_up;
 
-// Returns the name of an up axis: "auto", "x", "y", "z", "-x", "-y", "-z" or "file". Returns NULL if `up` is out of range.
+// Returns the name of an up axis: "auto", "x", "y", "z", "-x", "-y", "-z" or "file". Returns NULL if `up` is out of
+// range.
 LAM_API const char *lam_up_name(lam_up up);
 // Returns the up axis with this name, in upper or lower case, with an optional plus ("+Z"). Returns LAM_UP_COUNT if
 // there is none.
@@ -211,9 +212,9 @@ LAM_API int lam_scene_add_implicit(lam_scene *scene, const lam_implicit *surface
 
 // Writes a mesh of triangles as a model file, completely or not at all. The extension of the file name selects the
 // format: .obj, .stl (binary) or .ply (binary). The file contains normals and texture coordinates if the format
-// supports them, but no materials or colours. `up` is the up axis of the mesh (AUTO, FORMAT: y). OBJ and PLY have y up and STL
-// has z up: the coordinates are rotated, so that the file shows the same picture. Errors: LAM_BAD_ARGUMENT (no
-// triangles), LAM_UNSUPPORTED (another extension), LAM_CANNOT_WRITE, LAM_LIMIT.
+// supports them, but no materials or colours. `up` is the up axis of the mesh (LAM_UP_AUTO and LAM_UP_FILE: y). OBJ and
+// PLY have y up and STL has z up: the coordinates are rotated, so that the file shows the same picture. Errors:
+// LAM_BAD_ARGUMENT (no triangles), LAM_UNSUPPORTED (another extension), LAM_CANNOT_WRITE, LAM_LIMIT.
 LAM_API bool lam_mesh_save(const lam_mesh *mesh, const char *path, lam_up up, lam_error *error);
 // Returns the extension with this index (from 0) that lam_mesh_save supports, without the dot: "obj". Returns NULL past
 // the last one.
@@ -423,9 +424,9 @@ LAM_API const char *lam_scene_camera_name(const lam_scene *scene, int index);
 // this index. Returns −1 if there is no such camera.
 LAM_API int lam_scene_find_camera(const lam_scene *scene, const char *name);
 
-// These functions get and set the up axis (LAM_UP_AUTO and LAM_UP_FILE mean y; a value out of range is ignored). The up axis rotates
-// the fitted camera, the rig and the environment, but never the coordinates. The front of the model, which faces the
-// viewer at azimuth 0, is +Z with x or y up and −Y with z up. A negative axis turns the picture upside down.
+// These functions get and set the up axis (LAM_UP_AUTO and LAM_UP_FILE mean y; a value out of range is ignored). The up
+// axis rotates the fitted camera, the rig and the environment, but never the coordinates. The front of the model, which
+// faces the viewer at azimuth 0, is +Z with x or y up and −Y with z up. A negative axis turns the picture upside down.
 LAM_API lam_up lam_scene_up(const lam_scene *scene);
 LAM_API void lam_scene_set_up(lam_scene *scene, lam_up up);
 

@@ -1,5 +1,5 @@
-// brute_force.c: evaluates the light of a scene in double precision (brute_force.h). The lobes of physical materials are those of
-// layered_textbook.h.
+// brute_force.c: evaluates the light of a scene in double precision (brute_force.h). layered_textbook.h evaluates the
+// lobes of physical materials.
 #include "brute_force.h"
 
 #include <stdbool.h>

@@ -4,7 +4,7 @@
 
 #include <lambent/lambent.h>
 
-// Four corners in order; the mesh points to its data.
+// Four corners in order; the mesh points to its data. `second` and `part` may be NULL.
 static inline lam_mesh quad_mesh(const float positions[12], const float normals[12], const float texcoords[8],
                                  const float second[8], const lam_part *part)
 {
@@ -18,9 +18,9 @@ static inline lam_mesh quad_mesh(const float positions[12], const float normals[
                       .texcoords = texcoords,
                       .texcoord_count = 4,
                       .second_texcoords = second,
-                      .second_texcoord_count = 4,
+                      .second_texcoord_count = second ? 4 : 0,
                       .parts = part,
-                      .part_count = 1};
+                      .part_count = part != NULL};
 }
 
 #endif

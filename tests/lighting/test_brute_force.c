@@ -1,6 +1,7 @@
 // test_brute_force.c: compares pictures of traced paths (lam_draw_params.bounces) with an evaluator in double precision.
 #include "test.h"
 #include "brute_force.h"
+#include "quad.h"
 #include "share.h"
 
 enum { FLOOR, WALL, LEFT, RIGHT, SOLID, PANEL, LAMP };
@@ -136,7 +137,6 @@ static lam_scene *scene_of(const struct world *w)
     for (int i = 0; i < w->board_count; i++) {
         const struct board *b = &w->boards[i];
         float positions[12], normals[12], texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
-        static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
         const vector corners[4] = {b->corner, sum(b->corner, b->along), sum(sum(b->corner, b->along), b->up),
                                    sum(b->corner, b->up)};
         for (int k = 0; k < 4; k++) {
@@ -144,16 +144,8 @@ static lam_scene *scene_of(const struct world *w)
             put(normals + 3 * k, unit(across(b->along, b->up)));
         }
         lam_object object = lam_object_default();
-        object.mesh = lam_scene_add_mesh(scene,
-                                         &(lam_mesh){.positions = positions,
-                                                     .vertex_count = 4,
-                                                     .indices = indices,
-                                                     .triangle_count = 2,
-                                                     .normals = normals,
-                                                     .normal_count = 4,
-                                                     .texcoords = texcoords,
-                                                     .texcoord_count = 4},
-                                         &error);
+        const lam_mesh mesh = quad_mesh(positions, normals, texcoords, NULL, NULL);
+        object.mesh = lam_scene_add_mesh(scene, &mesh, &error);
         object.material = materials[b->material];
         SUCCEEDS(object.mesh >= 0 && lam_scene_add_object(scene, &object, &error) >= 0);
     }

@@ -142,6 +142,16 @@ class Info(GltfCase):
         said = self.good("animal-z.ply + cube.ply", "-s", "32", "-o", "two.png").stderr + self.good("convert", "animal-z.ply", "out.glb").stderr
         self.assertNotIn(b"is assumed to be up", said)
 
+    def test_warnings_of_commands_without_a_picture(self):
+        """Commands that read a model like a picture does print its warnings, each once; --quiet leaves them out."""
+        lines = ["ply", "format ascii 1.0", "element vertex 3", *("property float " + name for name in ("x", "y", "z", "age")), "element face 1",
+                 "property list uchar int vertex_indices", "end_header", "0 0 0 1", "1 0 0 2", "0 1 0 3", "3 0 1 2"]
+        (self.folder / "aged.ply").write_text("\n".join(lines) + "\n")
+        for words in (("explain", "aged.ply", "8,8", "-s", "16"), ("lights", "aged.ply"), ("shader", "aged.ply", "-o", "s/"), ("convert", "aged.ply", "a.glb")):
+            self.assertEqual(self.good(*words).stderr.count(b"warning: aged.ply: contains data that is not drawn: age"), 1, words)
+            if words[0] in ("explain", "shader"):
+                self.assertNotIn(b"warning", self.good(*words, "-q").stderr, words)
+
     def test_drawing_memory(self):
         """The memory for drawing in addition to the model: at least the picture, more with more threads; no estimate if it exceeds the limit."""
         rows = [self.info("teapot", "--threads", n)[0]["drawing"] for n in (1, 3)]

@@ -221,7 +221,7 @@ static void print_json(const struct convert *c)
 static void print_text(const struct convert *c)
 {
     char counts[MODEL_COUNTS_SIZE];
-    job_say_warnings(&c->job);
+    job_say_warnings(&c->job, &(int){0}, true);
     for (int i = 0; lam_export_loss(c->result, i); i++)
         say_warning(lam_export_loss(c->result, i));
     say_plain("%s  %s  %zu bytes\n", c->output, model_counts_text(&c->job.model_counts, counts),

@@ -25,7 +25,7 @@ int run_lights(int operand_count, char **operands, const struct options *options
               job_arrange(&job, &progress, &error) &&
               lam_lights_encode(job.scene, job.rig, options->draw.ground, &text, &error);
     progress_end(&progress);
-    job_say_warnings(&job);
+    job_say_warnings(&job, &(int){0}, !options->report.quiet);
     if (ok)
         fwrite(text.data, 1, text.size, stdout); // main reports a failed write
     if (ok && lam_scene_light_count(job.scene) == 0 && job.studio && !options->report.quiet)

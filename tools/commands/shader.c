@@ -217,7 +217,7 @@ int run_shader(int operand_count, char **operands, const struct options *given)
         add_files(&paths, &options, job.model);
     lam_shader *shader = sandbox_start(&options, &paths, &error) ? job_shader(&job, &progress, &error) : NULL;
     progress_end(&progress);
-    job_say_warnings(&job);
+    job_say_warnings(&job, &(int){0}, !options.report.quiet);
     bool ok = shader && (!to_files || write_files(given, shader, job.model, &error));
     if (ok && options.report.json)
         shader_json(stdout, shader, job.model);

@@ -353,16 +353,20 @@ bool job_run_view(struct job *job, int view, struct progress *progress, lam_erro
             (!job->options->picture.save_scene || scene_settings_save(job, error)));
 }
 
-void job_say_warnings(const struct job *job)
+int job_say_warnings(const struct job *job, int *first, bool print)
 {
-    const char *text;
-    for (int i = 0; job->scene && !job->options->report.quiet && (text = lam_scene_warning(job->scene, i)); i++) {
-        int k = 0;
-        while (k < i && strcmp(lam_scene_warning(job->scene, k), text) != 0)
-            k++;
-        if (k == i)
+    int count = 0;
+    for (int i = *first; job->scene && lam_scene_warning(job->scene, i); i++) {
+        const char *text = lam_scene_warning(job->scene, i);
+        bool printed = false;
+        for (int k = 0; k < i && !printed; k++)
+            printed = strcmp(lam_scene_warning(job->scene, k), text) == 0;
+        count += !printed;
+        if (!printed && print)
             say_warning(text);
+        *first = i + 1;
     }
+    return count;
 }
 
 void job_free(struct job *job)

@@ -131,8 +131,9 @@ const char *job_label(const lam_scene *scene, lam_output output, int label);
 // Returns whether the picture's name has a writable format, and sets `format`.
 bool job_check_output(struct job *job, lam_error *error);
 
-// Prints the warnings of the loaded scene, each text once, unless --quiet is given.
-void job_say_warnings(const struct job *job);
+// If `print` is true, prints the scene's warnings with index *first and above, but each text only once. Sets *first to
+// the number of warnings. Returns the number of warnings with new texts.
+int job_say_warnings(const struct job *job, int *first, bool print);
 
 // Frees the scene, the image, the lights and the paths of frames.
 void job_free(struct job *job);

@@ -187,9 +187,11 @@ static void offer(struct target_names *names, const char *name)
     if (!name || !*name)
         return;
     suggest_try(&names->nearest, name);
+    char quoted[50];
+    snprintf(quoted, sizeof quoted, "'%.40s'", name);
     size_t used = strlen(names->first);
-    if (names->count++ < 4)
-        snprintf(names->first + used, sizeof names->first - used, "%s'%.40s'", used ? ", " : "", name);
+    if (!strstr(names->first, quoted) && names->count++ < 4)
+        snprintf(names->first + used, sizeof names->first - used, "%s%s", used ? ", " : "", quoted);
 }
 
 static bool not_found(const struct material_option *option, bool back, const char *name, const lam_scene *scene,

@@ -24,24 +24,6 @@
 
 // --- messages
 
-// Prints the warnings with index *first and above, but each text only once. Sets *first to the number of warnings.
-// Returns the number of warnings with new texts.
-static int print_warnings(const struct job *job, int *first, bool print)
-{
-    int count = 0;
-    for (int i = *first; job->scene && lam_scene_warning(job->scene, i); i++) {
-        const char *text = lam_scene_warning(job->scene, i);
-        bool printed = false;
-        for (int k = 0; k < i && !printed; k++)
-            printed = strcmp(lam_scene_warning(job->scene, k), text) == 0;
-        count += !printed;
-        if (!printed && print)
-            say_warning(text);
-        *first = i + 1;
-    }
-    return count;
-}
-
 static const char nothing_seen[] = "the picture shows no part of the model";
 
 static bool sees_nothing(const struct job *job)
@@ -285,7 +267,7 @@ static void finish_picture(struct model_run *r, struct job *job, int view, bool 
     if (!ok)
         name_model(job, error);
     bool talks = !o->report.quiet && may_talk && r->artist->is_talkative;
-    r->result->warnings += print_warnings(job, &r->warnings, talks);
+    r->result->warnings += job_say_warnings(job, &r->warnings, talks);
     if (sees_nothing(job)) {
         r->result->warnings++;
         if (talks)

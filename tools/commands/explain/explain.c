@@ -151,7 +151,7 @@ static int explain(struct job *job, int x, int y, const char *figure, struct chi
     lam_explanation *explanation = job_explain(job, x, y, &progress, &error);
     bool ok = explanation && (!figure || draw_picture(job, &progress, &error));
     progress_end(&progress);
-    job_say_warnings(job);
+    job_say_warnings(job, &(int){0}, !job->options->report.quiet);
     bool taken = figure && strcmp(figure, "-") == 0 && !terminal_shows();
     if (ok && !taken)
         print(explanation, job);

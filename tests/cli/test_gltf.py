@@ -191,6 +191,15 @@ class Gltf(GltfCase):
             done = self.good(self.moving(pointer, [0] * count, [1] * count, kind), "--time", "1", "-o", "a.png", "-s", "16")
             self.assertEqual(done.stderr.count(says.encode()), 1, (pointer, done.stderr))
 
+    def test_warnings_of_each_frame(self):
+        """The file is read for each frame. Only the first frame measures whether the file's lamp leaves the model dark."""
+        nodes = [{"mesh": 0}, {"mesh": 1}, {"translation": [0, 0, -3], "extensions": {"KHR_lights_punctual": {"light": 0}}}, {}]
+        model = self.moving("/nodes/0/translation", (0, 0, 0), (1, 0, 0), "VEC3", nodes=nodes,
+                            materials=[{"pbrMetallicRoughness": {"metallicFactor": 0.0}}] * 3,
+                            extensions={"KHR_lights_punctual": {"lights": [{"type": "point"}]}})
+        done = self.good(model, "--sweep", "time=0..2", "--frames", "3", "-s", "16", "-o", "a.png")
+        self.assertEqual(done.stderr.count(b"a dim studio also lights the model"), 1, done.stderr)
+
     def test_nodes_above_objects(self):
         """The name of a node stands for the objects below it too; other names keep their meaning."""
         red, blue = {"mesh": 0, "name": "red", "translation": [-1.5, 0, 0]}, {"mesh": 1, "name": "blue", "translation": [1.5, 0, 0]}

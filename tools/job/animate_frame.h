@@ -21,6 +21,7 @@ struct animation {
     struct model_sphere sphere; // before any rotation
     lam_camera camera;          // the camera of the first frame
     lam_up up;
+    lam_scene *warnings; // an empty scene with the warnings of frames whose models are freed; NULL if there are none
 };
 
 bool animation_wanted(const struct options *o);

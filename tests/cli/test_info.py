@@ -151,6 +151,10 @@ class Info(GltfCase):
             self.assertEqual(self.good(*words).stderr.count(b"warning: aged.ply: contains data that is not drawn: age"), 1, words)
             if words[0] in ("explain", "shader"):
                 self.assertNotIn(b"warning", self.good(*words, "-q").stderr, words)
+        for code, words in ((0, ("sheet", "aged.ply", "cube", "-o", "a.png")), (0, ("hash", "aged.ply", "-o", "a.txt")),
+                            (6, ("diff", "aged.ply", "cube", "-o", "a.html")), (6, ("diff", "cube", "aged.ply", "-o", "b.html"))):
+            done = self.run_program(*words, "-s", "16")
+            self.assertEqual((done.returncode, done.stderr.count(b"warning: aged.ply: contains data that is not drawn: age")), (code, 1), words)
 
     def test_drawing_memory(self):
         """The memory for drawing in addition to the model: at least the picture, more with more threads; no estimate if it exceeds the limit."""

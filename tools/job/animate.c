@@ -247,12 +247,6 @@ static bool use_options(struct job *job, int frame, lam_error *error)
     return true;
 }
 
-static void add_warnings(lam_scene *to, const lam_scene *from)
-{
-    for (int i = 0; lam_scene_warning(from, i); i++)
-        lam_scene_add_warning(to, lam_scene_warning(from, i));
-}
-
 // Loads the model for a frame, without a progress bar. The warnings of the last frame are kept.
 static bool load_frame(struct job *job, int frame, lam_error *error)
 {
@@ -261,7 +255,7 @@ static bool load_frame(struct job *job, int frame, lam_error *error)
     progress_start(&none, job->model, false);
     if (!a->warnings && !(a->warnings = lam_scene_make(error)))
         return false;
-    add_warnings(a->warnings, job->scene);
+    job_add_warnings(a->warnings, job->scene);
     lam_scene_free(job->scene);
     job->scene = NULL;
     return use_options(job, frame, error) && job_load(job, &none, error);
@@ -580,7 +574,7 @@ bool animation_run(struct job *job, struct progress *progress, lam_error *error)
     if (job->scene)
         scene_settings_apply(job);
     if (job->scene && animation.warnings)
-        add_warnings(job->scene, animation.warnings);
+        job_add_warnings(job->scene, animation.warnings);
     lam_scene_free(animation.warnings);
     options_free(&animation.frame);
     free(animation.sweeps);

@@ -369,6 +369,12 @@ int job_say_warnings(const struct job *job, int *first, bool print)
     return count;
 }
 
+void job_add_warnings(lam_scene *to, const lam_scene *from)
+{
+    for (int i = 0; lam_scene_warning(from, i); i++)
+        lam_scene_add_warning(to, lam_scene_warning(from, i));
+}
+
 void job_free(struct job *job)
 {
     lam_image_free(&job->image);

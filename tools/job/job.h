@@ -135,6 +135,9 @@ bool job_check_output(struct job *job, lam_error *error);
 // the number of warnings. Returns the number of warnings with new texts.
 int job_say_warnings(const struct job *job, int *first, bool print);
 
+// Adds the warnings of another scene that `to` does not have yet.
+void job_add_warnings(lam_scene *to, const lam_scene *from);
+
 // Frees the scene, the image, the lights and the paths of frames.
 void job_free(struct job *job);
 

@@ -266,11 +266,12 @@ static void finish_picture(struct model_run *r, struct job *job, int view, bool 
     job->times.total = clock_ms() - job->times.start;
     if (!ok)
         name_model(job, error);
-    bool talks = !o->report.quiet && may_talk && r->artist->is_talkative;
-    r->result->warnings += job_say_warnings(job, &r->warnings, talks);
+    bool speaks = !o->report.quiet && may_talk, warns = speaks && r->artist->warns;
+    bool talks = speaks && r->artist->is_talkative;
+    r->result->warnings += job_say_warnings(job, &r->warnings, warns);
     if (sees_nothing(job)) {
         r->result->warnings++;
-        if (talks)
+        if (warns)
             say_warning(nothing_seen);
     }
     if (!ok && may_talk)

@@ -222,6 +222,7 @@ void batch_work_draw(struct batch_work *u, const struct batch *b, const struct o
                                   .environments = b->environments,
                                   .out = stdout,
                                   .has_bar = !capture,
+                                  .warns = !b->is_batch || b->use || o->report.verbose,
                                   .is_talkative = !b->is_batch || o->report.verbose};
     size_t out_size, err_size;
     FILE *out = capture ? open_memstream(&u->out, &out_size) : NULL,

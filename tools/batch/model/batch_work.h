@@ -138,7 +138,8 @@ struct batch_artist {
     struct environment_cache *environments; // NULL if each model reads its own environment
     FILE *out;                              // receives reports
     bool has_bar;                           // a progress bar on the terminal
-    bool is_talkative;                      // prints warnings, and a line for each picture; errors are always printed
+    bool warns;                             // prints warnings; errors are always printed
+    bool is_talkative;                      // prints a line for each picture
 };
 
 struct batch_outcome {

@@ -169,6 +169,8 @@ bool diff_draw(void *user, size_t model, struct job *job, struct progress *progr
     } else if (!old.scene) {
         job->model = pair->old; // the report then names the old model
     }
+    if (old.scene)
+        job_add_warnings(job->scene, old.scene);
     job_free(&old);
     return ok;
 }

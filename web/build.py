@@ -90,7 +90,7 @@ def integrity(path):
 
 def make_offline(served, bundles):
     """The service worker of the served page, with a list of its files and their hashes. Files of the tab of shaders are stored on first use."""
-    names = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm")) and name != OFFLINE)
+    names = sorted(name for name in os.listdir(served) if name.endswith((".js", ".css", ".html", ".wasm", ".webp")) and name != OFFLINE)
     files = {"./" if name == "index.html" else name: integrity(os.path.join(served, name)) for name in names}
     shaders = bundles.shaders + ["check.wasm", bundle.CODEMIRROR]
     kinds = {"FILES": files, "LATER": [name for name in names if name in shaders + [DECODERS, ALONE]], "PLAIN": [*module_parts.PARTS[1:]], "THREADS": [*module_parts.THREADS_PARTS]}
@@ -108,6 +108,7 @@ SOURCES = [*(row["source"] for row in libraries.LIBRARIES), "draco", "meshoptimi
 TOOLS = ["wasi-libc", "libclang-rt-19-dev-wasm32", "libc++-19-dev-wasm32"]
 OFFLINE, DECODERS = "offline_worker.js", "lambent-decoders.wasm"
 CHECK = "wasm/classroom/web/check.wasm" # built by classroom/web/meson.build
+POSTER = "start.webp" # shown until the first picture is drawn (docs/web.md)
 ALONE = "alone.html" # lambent.html next to the served page, from which pages with a model are made
 PACKED = (".js", ".css", ".html", ".wasm")
 PACKER = """
@@ -138,6 +139,7 @@ def make_page(folder):
     files = {**bundles.files, "index.html": served_index(bundles), "page.css": page_file("page.css")}
     for name in ("lambent.d.ts", "threads.d.ts"):
         files[name] = open(os.path.join(HERE, name)).read()
+    files[POSTER] = open(os.path.join(bundle.ROOT, "docs", "pictures", POSTER), "rb").read()
     files[DECODERS] = open(os.path.join(folder, "decoders.wasm"), "rb").read()
     files["LICENCES"] = libraries.notices("The page of Lambent", folder, SOURCES, TOOLS)
     bundle.write(os.path.join(folder, "LICENCES"), files["LICENCES"])

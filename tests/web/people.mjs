@@ -27,14 +27,30 @@ const open = async (address, options = {}) => {
 
 async function firstPicture() {
   sent.length = 0; // of only this part
-  const page = await watchedPage(await browser.newContext({ viewport: { width: 1100, height: 800 } }), reports);
+  const page = await watchedPage(await browser.newContext({ viewport: { width: 1330, height: 800 } }), reports);
   await page.addInitScript(() => new MutationObserver(() => (globalThis.firstDrawn ??= Date.now())).observe(document, { subtree: true, attributeFilter: ['data-drawn'] }));
+  await page.addInitScript(() => new MutationObserver(() => (globalThis.hadPoster ||= document.getElementById('poster') !== null)).observe(document, { subtree: true, childList: true }));
   await page.goto(origin);
   await drawn(page, 'the first picture');
   const until_ms = await page.evaluate(() => globalThis.firstDrawn);
   const before = sent.filter(({ name, at }) => at < until_ms && name !== '/lambent-rest.wasm'), bytes = before.reduce((sum, one) => sum + one.bytes, 0);
   ok(bytes > 100_000 && bytes <= FIRST_MAX, `the first picture: ${bytes} bytes are sent before it, of ${FIRST_MAX}`, JSON.stringify(before));
   ok(!before.some(({ name }) => /offline|more|check|codemirror/.test(name)), 'the first picture: nothing else is asked for before it', JSON.stringify(before));
+  const far = await page.evaluate(async () => {
+    const poster = new Image(), canvas = document.getElementById('canvas'), room = document.getElementById('view'), one = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+    if (!globalThis.hadPoster || document.getElementById('poster')) return NaN;
+    poster.src = 'start.webp';
+    await poster.decode();
+    Object.assign(one.canvas, { width: 160, height: 100 });
+    const rows = [poster, canvas].map((from) => {
+      const k = Math.min(160 / room.clientWidth, 100 / room.clientHeight), scale = from === poster ? Math.min(room.clientWidth / 800, room.clientHeight / 500) * k : (canvas.clientWidth / canvas.width) * k;
+      one.clearRect(0, 0, 160, 100);
+      one.drawImage(from, 80 - (scale * from.width) / 2, 50 - (scale * from.height) / 2, scale * from.width, scale * from.height);
+      return one.getImageData(0, 0, 160, 100).data;
+    });
+    return Math.sqrt(rows[0].reduce((sum, byte, i) => sum + (byte - rows[1][i]) ** 2, 0) / rows[0].length);
+  });
+  ok(far < 20, 'the first picture: until it is drawn, a stored picture like it is shown', `root mean square ${far}`);
   await page.evaluate(async () => {
     const { active, waiting, installing } = await navigator.serviceWorker.ready, worker = active ?? waiting ?? installing;
     if (worker.state !== 'activated') await new Promise((done) => (worker.onstatechange = () => worker.state === 'activated' && done()));

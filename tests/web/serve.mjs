@@ -7,7 +7,7 @@ import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
 import { extname, join, resolve } from 'node:path';
 
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.webp': 'image/webp' };
 
 export const isFirefox = (executablePath) => /firefox/.test(executablePath);
 
@@ -28,7 +28,7 @@ export async function openBrowser(playwright, executablePath, built, options) {
     const name = path.replace(/^\/isolated/, '').replace(/^\/$/, '/index.html');
     const headers = isolated ? { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' } : {};
     try {
-      const packed = /\bbr\b/.test(request.headers['accept-encoding']) ? { ending: '.br', 'content-encoding': 'br' } : { ending: '' }, { ending, ...encoding } = packed;
+      const packed = /\bbr\b/.test(request.headers['accept-encoding']) && !name.endsWith('.webp') ? { ending: '.br', 'content-encoding': 'br' } : { ending: '' }, { ending, ...encoding } = packed;
       const bytes = readFileSync(join(built, 'page', name + ending)), etag = `"${createHash('sha256').update(bytes).digest('hex').slice(0, 16)}"`, known = request.headers['if-none-match'] === etag;
       Object.assign(headers, { etag, 'cache-control': 'no-cache', vary: 'accept-encoding' });
       sent.push({ name, bytes: known ? 0 : bytes.length, at: Date.now() });

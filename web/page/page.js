@@ -4,6 +4,7 @@ import { takeInsideFiles } from './base/inside.js';
 import { MODULE_BYTES } from './base/memory.js';
 import { addFiles } from './shared/opened.js';
 import './picture/drawing.js';
+import './picture/poster.js';
 import './files/files.js';
 import './quick.js';
 import './later.js';

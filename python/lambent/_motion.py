@@ -63,4 +63,4 @@ def turntable(model: "Model", frames: int = 36, size: "int | tuple[int, int] | N
     return run(work, chosen.control)
 
 
-turntable.__doc__ += " " + render.__doc__[render.__doc__.index("Raises Error"):render.__doc__.index("\n\n    Keyword")].strip()
+turntable.__doc__ += " " + render.__doc__[render.__doc__.index("Raises Error"):render.__doc__.index("Keyword arguments")].strip()

@@ -36,6 +36,10 @@ const char *path_reason(int reason, char buffer[PATH_REASON_SIZE])
                              : strerror_r(reason, buffer, PATH_REASON_SIZE);
 }
 
+#ifndef ESTALE
+#define ESTALE (-1) // Windows
+#endif
+
 static bool fail_system(lam_error *error, lam_code code, const char *path, const char *action)
 {
     int reason = errno;

@@ -19,7 +19,32 @@ from lambent._native import ffi, lib
 SLOW = {"ao": "rays", "ao_samples": 1024}  # seconds for a picture of 1024 pixels
 
 
+# Imports the package with docstrings as Python 3.13 stores them: without their indentation.
+STRIPPED = """
+import ast, importlib.machinery, inspect, sys
+class Loader(importlib.machinery.SourceFileLoader):
+    def path_stats(self, path): # no compiled file is read
+        raise OSError
+    def source_to_code(self, data, path):
+        tree = ast.parse(data)
+        for node in ast.walk(tree):
+            if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node) is not None:
+                node.body[0].value.value = inspect.cleandoc(node.body[0].value.value)
+        return compile(tree, path, "exec")
+native = (importlib.machinery.ExtensionFileLoader, importlib.machinery.EXTENSION_SUFFIXES)
+sys.path_hooks.insert(0, importlib.machinery.FileFinder.path_hook(native, (Loader, [".py"])))
+sys.path_importer_cache.clear()
+import lambent
+assert "\\n    model " not in lambent.render.__doc__, "the docstring is indented"
+print(lambent.turntable.__doc__.count("Raises Error"))
+"""
+
+
 class Errors(unittest.TestCase):
+    def test_docstrings_without_indentation(self):
+        done = subprocess.run([sys.executable, "-B", "-c", STRIPPED], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(done.stdout, "1\n")
+
     def test_every_kind_has_a_class(self):
         self.assertEqual(set(CLASSES), set(ffi.typeof("lam_code").elements) - {lib.LAM_OK})
         for name in lambent.__all__:

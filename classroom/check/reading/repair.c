@@ -425,12 +425,13 @@ static void replacement(const struct reading *r, const struct tried *t, const ch
 {
     const struct glsl_program *p = &r->sides[t->side];
     const struct glsl_node *n = &p->nodes[t->node];
-    const char *normal = NULL, *matrix = named(r, t->space == READ_EYE_SPACE ? READ_NORMAL_EYE : READ_NORMAL_WORLD),
+    const struct reading_leaf *normal = NULL;
+    const char *matrix = named(r, t->space == READ_EYE_SPACE ? READ_NORMAL_EYE : READ_NORMAL_WORLD),
                *model = named(r, t->space == READ_EYE_SPACE ? READ_MODEL_VIEW : READ_MODEL);
     out[0] = 0;
     for (int i = 0; i < r->leaf_count; i++)
         if (r->leaves[i].attribute && r->leaves[i].choices[r->leaves[i].chosen].role == READ_NORMAL)
-            normal = r->leaves[i].name;
+            normal = &r->leaves[i];
     char part[180];
     switch (t->change) {
     case CHANGE_UNIT:
@@ -453,12 +454,14 @@ static void replacement(const struct reading *r, const struct tried *t, const ch
         break;
     }
     case CHANGE_NORMAL:
-        if (p->vertex && normal && n->type.rows == 3 && matrix)
-            snprintf(out, capacity, "%s(%s) * %s", "normalize(mat3", matrix, normal);
-        else if (p->vertex && normal && n->type.rows == 3 && model)
-            snprintf(out, capacity, "normalize(transpose(inverse(mat3(%s))) * %s", model, normal);
-        if (out[0])
-            snprintf(out + strlen(out), capacity - strlen(out), "%s)", strchr(normal, '4') ? ".xyz" : "");
+        if (p->vertex && normal && n->type.rows == 3 && (matrix || model)) {
+            const char *components = normal->type.rows == 4 ? ".xyz" : "";
+            snprintf(part, sizeof part, matrix ? "mat3(%s)" : "transpose(inverse(mat3(%s)))", matrix ? matrix : model);
+            if (r->rows)
+                snprintf(out, capacity, "normalize(%s%s * %s)", normal->name, components, part);
+            else
+                snprintf(out, capacity, "normalize(%s * %s%s)", part, normal->name, components);
+        }
         break;
     default:
         break;

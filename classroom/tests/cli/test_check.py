@@ -563,6 +563,16 @@ class Renamed(CheckTest):
         self.assertIn("lightPos (uniform): eye, because it is stated", " ".join(self.notes(report, "hint")))
         self.bad(1, "check", *words, "--role", "eye", says="NAME=ROLE", leaves=("s.frag", "s.vert"))
 
+    def test_row_vectors(self):
+        """Row vectors with the names of a contract of column vectors: the right shader passes, and the advice keeps the order."""
+        vert, frag = renamed.RIGHT["row vectors"]
+        (self.folder / "s.frag").write_text(frag)
+        for matrix, verdict, ids in (("transpose(inverse(model))", "passes", []), ("model", "differs", ["normal-by-model-view"])):
+            (self.folder / "s.vert").write_text(vert.replace("transpose(inverse(model))", matrix))
+            report = self.report_of("s.frag", "--vertex", "s.vert", code=6 if ids else 0)
+            self.assertEqual((report["verdict"], [m["id"] for m in report["mistakes"]]), (verdict, ids))
+        self.assertIn("normalize(aNormal * transpose(inverse(mat3(model))))", report["mistakes"][0]["write"])
+
     def test_recursion(self):
         """A function that calls itself, or is only declared, gets no verdict, also if the check evaluates the texts before a driver reads them."""
         vert, frag = renamed.rename(dict(zip(("vert", "frag"), renamed.RIGHT["prototypes"])), "letters", 1).values()

@@ -267,7 +267,9 @@ static bool add_inputs(struct reading *r)
             const struct glsl_symbol *s = &r->sides[side].symbols[i];
             bool used = declarations_uses(r->sides[side].text, s->name) || s->type.base == GLSL_STRUCT ||
                         (s->name[0] == 'g' && declarations_uses(r->sides[side].text, "ftransform"));
-            if (s->storage == GLSL_UNIFORM && used && !add_input(r, side, s->name, s->type, s->at, 0, 0))
+            struct glsl_type t = s->type;
+            t.count = (uint16_t)declarations_read_elements(r->sides[0].text, r->sides[1].text, s->name, t.count);
+            if (s->storage == GLSL_UNIFORM && used && !add_input(r, side, s->name, t, s->at, 0, 0))
                 return false;
             if (s->storage != GLSL_INPUT || side == 1 || !used)
                 continue;

@@ -215,7 +215,7 @@ static struct reading_leaf *add_leaf(struct reading *r, const char *name, struct
 static double number_of(const struct reading *r, const char *name, int component)
 {
     double x = 0.3 + 0.03 * (word_hash(name) % 11) + 0.05 * (component % 4);
-    return r->variant == 0 ? x : r->variant == 1 ? 1.1 - x : 20 * x;
+    return r->variant == 1 ? 1.1 - x : r->variant == 2 ? 20 * x : x;
 }
 
 // Gives values to an input and its members, and lists its matrices and vectors.
@@ -245,10 +245,16 @@ static bool add_input(struct reading *r, int side, const char *name, struct glsl
     for (int e = 0; e < (count ? count : 1); e++)
         for (int i = 0; i < size * (count && step == size ? 1 : elements); i++) {
             double *to = &p->memory[at + e * (count ? step : 0) + i];
+            r->has_ints = r->has_ints || whole;
             if (truth && r->switch_count < READ_NUMBERS)
                 r->switches[r->switch_count++] = to;
-            *to = whole ? 2 : truth ? r->variant != 1 : i % 4 == 3 && t.rows == 4 ? 1 : number_of(r, path, i);
-            if (t.base == GLSL_FLOAT && t.rows == 1 && r->number_count < READ_NUMBERS)
+            const bool moves = r->still && t.rows == 1 && declarations_uses(r->sides[0].text, name);
+            *to = whole                       ? 2 - (r->variant == 3)
+                  : truth                     ? r->variant != 1
+                  : moves                     ? 0
+                  : i % 4 == 3 && t.rows == 4 ? 1
+                                              : number_of(r, path, i);
+            if (t.base == GLSL_FLOAT && t.rows == 1 && !moves && r->number_count < READ_NUMBERS)
                 r->numbers[r->number_count++] = to;
         }
     bool matrix = t.columns == t.rows && t.columns > 2, vector = t.columns == 1 && t.rows > 2 && t.base == GLSL_FLOAT;
@@ -275,7 +281,7 @@ static bool add_inputs(struct reading *r)
                 continue;
             struct reading_leaf *leaf = s->type.rows > 2 ? add_leaf(r, s->name, s->type, 0, s->at) : NULL;
             for (int k = 0; k < 4; k++)
-                r->sides[0].memory[s->at + k] = k == 3 ? 1 : 0.4 + 0.05 * k;
+                r->sides[0].memory[s->at + k] = k == 3 ? 1 : r->still && s->type.rows < 3 ? 0 : 0.4 + 0.05 * k;
             if (leaf)
                 leaf->attribute = true;
         }
@@ -622,7 +628,7 @@ static bool search(struct reading *r, int leaf, int sum)
         if (sum || !number_lights(r))
             return false;
         const int wrong = reading_count_wrong(r, false);
-        if (wrong == 0 && !(against && r->doubted) && reading_test_forms(r, false)) {
+        if (wrong == 0 && !(against && r->doubted) && reading_test_forms(r, FORMS_RIGHT)) {
             if (!against)
                 return true;
             r->doubt = state_of(r);
@@ -668,13 +674,13 @@ static enum reading_outcome search_chains(struct reading *r, const struct chain 
     r->spent = false;
     for (int i = 0; i < r->nearest_count && !r->spent; i++) {
         reading_restore(r, &r->nearest[i]);
-        if (reading_test_forms(r, false))
+        if (reading_test_forms(r, FORMS_RIGHT))
             return READING_RIGHT;
         r->nearest[i].mean = r->mean;
     }
     if (r->doubted) {
         reading_restore(r, &r->doubt);
-        return reading_test_forms(r, false) ? READING_AGAINST : READING_NONE;
+        return reading_test_forms(r, FORMS_RIGHT) ? READING_AGAINST : READING_NONE;
     }
     for (int i = 1; i < r->nearest_count; i++) { // sorts them by their means
         const struct reading_state state = r->nearest[i];
@@ -779,6 +785,10 @@ static enum reading_outcome find_variant(struct reading *r, const struct declara
             return READING_NONE;
         count = find_chains(r, chains);
     }
+    if (!count && !r->still) {
+        r->still = true;
+        return find_variant(r, vertex, fragment);
+    }
     if (!count) {
         snprintf(r->reason, sizeof r->reason, "the check does not understand how gl_Position is computed");
         return READING_NONE;
@@ -817,7 +827,8 @@ enum reading_outcome reading_find(struct reading *r, const struct declarations *
     enum reading_outcome outcome = READING_NONE;
     int best = 0, last = 0;
     double mean = 2;
-    for (int v = 0; v < 3 && outcome == READING_NONE && !r->reason[0] && (mean > dark || (v == 1 && r->switch_count));
+    for (int v = 0; v < 3 + r->has_ints && outcome == READING_NONE && !r->reason[0] &&
+                    (mean > dark || (v == 1 && r->switch_count));
          v++) {
         r->steps = v ? max_steps / 3 : max_steps;
         r->spent = false;
@@ -833,8 +844,15 @@ enum reading_outcome reading_find(struct reading *r, const struct declarations *
         const struct reading_form form = r->form;
         for (int i = 0; i < r->switch_count; i++)
             *r->switches[i] = !*r->switches[i];
-        r->one_way = !reading_test_forms(r, false);
+        r->one_way = !reading_test_forms(r, FORMS_RIGHT);
         r->form = form;
+    }
+    if (outcome == READING_RIGHT && (r->still || r->variant == 3)) {
+        snprintf(r->reason, sizeof r->reason,
+                 r->still ? "numbers or attributes move the vertices; the shader is right if they are 0, and the check "
+                            "does not test other values"
+                          : "the shader is right if its integers are 1, and the check does not test other values");
+        return READING_NONE;
     }
     if (outcome == READING_NONE && best != last && !r->reason[0]) { // the mistakes are searched with the best values
         r->steps = max_steps;

@@ -360,15 +360,17 @@ static unsigned effect(struct reading *r, struct reading_leaf *leaf, int compone
     for (int k = 0; k < samples && !(changed & 6); k++) {
         struct reading_sample *s = r->samples + (k % READ_POINTS) * READ_TURNS + k % READ_TURNS;
         double before[7] = {0}, kept[2][16];
-        for (int i = 0; i < r->number_count; i++) // many samples are inside of all cones, by cosines or by angles
-            *r->numbers[i] = k % 3 == 2 ? -1 + 0.05 * numbers[i] : k % 6 == 1 ? 90 + numbers[i] : numbers[i];
+        for (int i = 0; i < r->number_count; i++) { // many samples are inside of all cones, by cosines or by angles
+            const bool wide = k % 6 == 1 && (k / 6 % 3 == 0 || (i + k / 6) % 2); // not with a large exponent in all
+            *r->numbers[i] = k % 3 == 2 ? -1 + 0.05 * numbers[i] : wide ? 90 + numbers[i] : numbers[i];
+        }
         // Vectors without a role get various values, so that some samples are in the cone of a spot light.
         for (int i = 0; i < r->leaf_count && k; i++)
             for (int c = 0; c < 3 && !r->leaves[i].attribute && r->leaves[i].type.columns == 1; c++) {
                 double x = noise(&state) * 1.5;
                 for (int side = 0; side < 2; side++)
                     if (value_of(r, &r->leaves[i], side))
-                        value_of(r, &r->leaves[i], side)[c] = k % 2 && x < 0 ? -x : x;
+                        value_of(r, &r->leaves[i], side)[c] = k / 3 % 2 && x < 0 ? -x : x;
             }
         bool ok = reading_evaluate(r, s);
         memcpy(before, s->color, sizeof s->color);

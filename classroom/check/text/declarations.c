@@ -364,9 +364,11 @@ int declarations_read_elements(const struct declarations *vertex, const struct d
                 return count;
             int index = 0;
             sscanf(w[2].text, "%d", &index);
-            most = index + 1 > most ? index + 1 : most;
+            if (index >= count)
+                return count;
+            most = index >= most ? index + 1 : most;
         }
-    return most && most < count ? most : count;
+    return most ? most : count;
 }
 
 const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name)

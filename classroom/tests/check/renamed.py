@@ -143,6 +143,8 @@ RIGHT = {
     "spot with a cutoff": eye(L + "uniform vec3 SpotDirection; uniform float SpotCutoff;\n", "LightPosition - P", "(dot(-l, normalize(SpotDirection)) > SpotCutoff ? 1.0 : 0.0)"),
     "spot with an exponent": eye(L + "uniform vec3 SpotDirection; uniform float SpotCutoff, SpotExponent;\n", "LightPosition - P",
                                  "(dot(-l, normalize(SpotDirection)) > SpotCutoff ? pow(dot(-l, normalize(SpotDirection)), SpotExponent) : 0.0)"),
+    "spot with an angle": eye("struct Spot { vec3 position, direction; float falloff, cutoff; };\nuniform Spot spot;\n", "spot.position - P",
+                              "(acos(dot(-l, normalize(spot.direction))) < radians(clamp(spot.cutoff, 0.0, 90.0)) ? pow(dot(-l, normalize(spot.direction)), spot.falloff) : 0.0)"),
     "fog": eye(L + "uniform vec3 FogColor; uniform float FogDensity;\n", "LightPosition - P", rest="c = mix(FogColor, c, exp(-FogDensity * -P.z));"),
     "two lights by hand": eye("uniform vec3 LightPosition, SecondPosition;\n", "LightPosition - P", rest="c += 0.4 * Kd * max(dot(n, normalize(SecondPosition - P)), 0.0);"),
     "functions": (EYE_VERT, EYE_HEAD + L + """float lambert(in vec3 n, in vec3 l) { return clamp(dot(n, l), 0.0, 1.0); }

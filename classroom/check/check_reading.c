@@ -288,10 +288,10 @@ static bool report_mistakes(struct run *r, struct reading *q, unsigned scenes, l
     if ((r->report->scene_count == 0 && !check_make_scenes(r, scenes, error)) ||
         !draw_mended(r, both, q->repairs, count, scenes, &drawn, error))
         return false;
-    if (drawn)
+    if (drawn && !q->rows)
         check_measure(r);
     else
-        forget_pictures(r);
+        forget_pictures(r); // row vectors are not drawn
     r->report->verdict = LAM_CHECK_DIFFERS;
     r->report->findings = arena_alloc_zeroed(r->arena, MAX_REPAIR_STEPS * sizeof *r->report->findings);
     for (int i = 0; r->report->findings && i < count; i++) {
@@ -345,6 +345,7 @@ bool check_conclude(struct run *r, struct reading *q, enum reading_outcome outco
                 "from its evaluation");
         forget_pictures(r);
         r->report->scenes_wanted = 0;
+        r->report->verdict = LAM_CHECK_PASSES;
         report_form(r, q);
         return true;
     }
@@ -368,13 +369,13 @@ bool check_doubt(struct run *r, const struct contract *contract, unsigned scenes
         double share = check_missing_share(&r->scenes[i], false);
         clear = share < clear ? share : clear;
     }
-    if (r->interface.physical || !r->writes_colour || clear > 0.9 ||
-        (report->finding_count && (stated || !r->drawn.unknown_count)))
+    if (r->interface.physical || !r->writes_colour || (report->finding_count && (stated || !r->drawn.unknown_count)))
         return true;
     if (!check_read(r, stated ? contract : NULL, contract->prefix_fragment ? contract : NULL, &q, &outcome, NULL,
                     error))
         return false;
-    if ((strict && outcome == READING_RIGHT) || (stated && outcome == READING_NONE))
+    if ((strict && outcome == READING_RIGHT) || (stated && outcome == READING_NONE) ||
+        (clear > 0.9 && !(outcome != READING_NONE && q->rows)))
         return true;
     bool named = false;
     if (stated && outcome == READING_RIGHT && (!report_demand(r, q, contract, &named, error) || named))

@@ -60,6 +60,7 @@ struct glsl_symbol {
     struct glsl_type type;
     uint8_t storage;
     bool flat, constant;
+    bool unit; // a test normalizes the interpolated input
     int at;
 };
 

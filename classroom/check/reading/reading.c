@@ -194,6 +194,8 @@ static bool run_vertices(struct reading *r, struct reading_sample *s)
                 double *to = &fragment->memory[in->at + c], part = vertex->memory[out->at + c];
                 *to = in->flat ? part : (k ? *to : 0) + s->weights[k] * part;
             }
+            if (in->unit && k == 2)
+                unit3(&fragment->memory[in->at]);
         }
     }
     return true;
@@ -290,38 +292,52 @@ static int columns(const struct reading *r, const struct reading_sample *s, cons
             if (f->exponent > 0)
                 out[count++] = weight * lobe(f, nl, base_of(f, n, l, v, h));
         }
+    double shine = 0;
+    for (int i = 2; i < count && f->shaded; i += 2)
+        shine += out[i];
+    for (int i = 2; i < count && f->shaded; i += 2)
+        out[i] = out[i - 1] * shine;
     return count;
 }
 
 // --- the cosines
 
-enum { COSINES = 4 * (6 * READ_LIGHTS + 1) };
+enum { COSINES = 16 * 4 * READ_LIGHTS + 1 };
 
-// Computes the cosines of right vectors at the point or at the last vertex, and returns their number.
-static int cosines(const struct reading *r, const struct reading_sample *s, bool vertex, double out[COSINES])
+// Computes the cosines of right vectors at the point or at the last vertex, and returns their number. At the point, the
+// cosines of vectors that are normalized at the vertices follow from index *early on.
+static int cosines(const struct reading *r, const struct reading_sample *s, bool vertex, double out[COSINES],
+                   int *early)
 {
     double n[3], l[3], v[3], h[3], p[3];
     int count = 0;
+    out[count++] = 1;
     weighted(s, s->points, p);
     memcpy(p, vertex ? s->points[2] : p, sizeof p);
-    for (int form = 0; form < 4; form++) {
-        const struct reading_form f = {.infinite_viewer = form & 1};
+    for (int form = 0; form < (vertex || r->light_count > 4 ? 4 : 16); form++) {
+        const struct reading_form f = {.infinite_viewer = form & 1, .early = (uint8_t)(form >> 2)};
         weighted(s, form & 2 ? s->longs : s->units, n);
         memcpy(n, vertex ? s->units[2] : n, sizeof n);
         unit3(n);
-        view(s, &f, p, v);
+        if (form == 4)
+            *early = count;
         for (int light = 0; light < (r->light_count ? r->light_count : 1); light++) {
             way(r, s, light, p, l);
+            view(s, &f, p, v);
+            if (f.early) {
+                direction(r, s, &f, light, 0, l);
+                direction(r, s, &f, light, 1, v);
+            }
             for (int i = 0; i < 3; i++)
                 h[i] = l[i] + v[i];
             unit3(h);
             const double nl = dot3(n, l), nv = dot3(n, v), lv = dot3(l, v);
-            const double right[] = {nl, nv, dot3(n, h), 2 * nl * nv - lv, lv, dot3(l, h)};
+            const double right[] = {nl, nv, dot3(n, h), 2 * nl * nv - lv};
             memcpy(out + count, right, sizeof right);
             count += sizeof right / sizeof *right;
         }
     }
-    out[count++] = 1;
+    *early = *early ? *early : count;
     return count;
 }
 
@@ -344,7 +360,27 @@ static bool is_of_axis(const struct reading *r, const struct glsl_program *p, in
             const struct glsl_node *a = &p->nodes[k ? second : first], *b = &p->nodes[k ? first : second];
             bool fixed = b->kind == GLSL_CONSTRUCT || b->kind == GLSL_GIVEN ||
                          (b->kind == GLSL_VARIABLE && b->number == GLSL_UNIFORM);
+            for (int i = 0; i < r->leaf_count && fixed; i++) {
+                const struct reading_leaf *leaf = &r->leaves[i];
+                const bool mine = b->kind == GLSL_GIVEN      ? b->given == leaf->given
+                                  : b->kind == GLSL_VARIABLE ? b->at == leaf->at[p == &r->sides[1]]
+                                                             : false;
+                fixed = !mine || leaf->attribute || !leaf->choices[leaf->chosen].role;
+            }
             if (fixed && is_near(p->memory + a->at, r->right[space][RIGHT_NORMAL]))
+                return true;
+        }
+    return false;
+}
+
+// Returns whether an argument of dot() points along n, v or l, or against them.
+static bool has_right_vector(const struct reading *r, const struct glsl_program *p, int node)
+{
+    for (int c = p->nodes[node].first; c >= 0; c = p->nodes[c].next)
+        for (int i = 0; i < 3 * RIGHT_VECTORS && p->nodes[c].type.rows > 2; i++) {
+            const double *x = p->memory + p->nodes[c].at, *y = r->right[i / RIGHT_VECTORS][i % RIGHT_VECTORS];
+            const double xy = dot3(x, y);
+            if (y[3] == 0 && xy * xy > 0.999 * dot3(x, x) * dot3(y, y))
                 return true;
         }
     return false;
@@ -371,7 +407,7 @@ static bool make_pair(const struct reading *r, const struct reading_sample *s, s
 int reading_count_wrong(struct reading *r, bool known)
 {
     double right[2][2][COSINES];
-    int wrong = 0, count = 0;
+    int wrong = 0, count = 0, early = 0;
     bool matters = known;
     if (!known && !make_pair(r, r->samples + READ_TURNS, r->pair))
         return READ_MANY;
@@ -385,23 +421,28 @@ int reading_count_wrong(struct reading *r, bool known)
         for (int side = 0; side < 2; side++) {
             struct glsl_program *p = &r->sides[side];
             reading_set_right(r, &r->pair[k], side ? 3 : 2);
-            count = cosines(r, &r->pair[k], side == 0, right[k][side]);
+            early = 0;
+            count = cosines(r, &r->pair[k], side == 0, right[k][side], &early);
             for (int i = 0; i < p->node_count; i++) {
                 struct reading_dot *dot = &r->dots[side][i];
                 const double x = glsl_is_dot(p, i) ? p->memory[p->nodes[i].at] : not_run, before = dot->value;
-                bool same = false, along = false; // equal or proportional to a right cosine
+                bool same = false, near = false, along = false; // equal to a right or early cosine, or proportional
                 dot->value = x;
+                dot->diffuse = false;
                 dot->ran = dot->ran || x != not_run;
                 if (k && !known)
                     dot->depends = x != before && x != not_run;
                 matters = matters || (k && dot->depends);
                 for (int c = 0; c < count && k && dot->depends && x != not_run; c++) {
-                    same = same || is_small(x - right[1][side][c]);
-                    along = along || is_small(x * right[0][side][c] - before * right[1][side][c]);
+                    bool equal = is_small(x - right[1][side][c]);
+                    same = same || (equal && c < early);
+                    near = near || equal;
+                    dot->diffuse = dot->diffuse || (equal && c % 4 == 1);
+                    along = along || (x != 0 && is_small(x * right[0][side][c] - before * right[1][side][c]));
                 }
                 if (k && dot->depends && x != not_run && !same && !is_of_axis(r, p, i))
-                    wrong += along ? 1 : 2;
-                wrong += k && dot->ran && x == not_run && glsl_is_dot(p, i);
+                    wrong += near ? 1 : along ? 2 : has_right_vector(r, p, i) ? 3 : 4;
+                wrong += k && dot->ran && x == not_run && glsl_is_dot(p, i) ? 3 : 0;
             }
         }
     }
@@ -603,7 +644,7 @@ static bool is_lit(const struct reading *r, int side)
     return false;
 }
 
-bool reading_test_forms(struct reading *r, bool wrong)
+bool reading_test_forms(struct reading *r, enum reading_forms forms)
 {
     double powers[7] = {0};
     for (int i = 0; i < READ_POINTS * READ_TURNS; i++)
@@ -620,18 +661,19 @@ bool reading_test_forms(struct reading *r, bool wrong)
     int count = shines ? 1 + exponents(r, powers + 1) : 1;
     for (int k = 0; k < count; k++)
         for (int bits = 0; bits < 64; bits++)
-            for (int early = wrong ? 1 : 0; early < (wrong ? 8 : 1); early++) {
+            for (int early = forms == FORMS_EARLY; early < (forms == FORMS_EARLY ? 8 : 1); early++) {
                 struct reading_form f = {.vertex = bits & 1,
                                          .phong = bits & 2,
                                          .gate = !(bits & 4),
                                          .late_normal = bits & 8,
                                          .infinite_viewer = bits & 16,
                                          .gamma = bits & 32 ? gamma : 0,
+                                         .shaded = forms == FORMS_SHADED,
                                          .early = (uint8_t)early,
                                          .exponent = powers[k]};
-                if ((k == 0 && (bits & 22 || r->needs_highlight)) || (f.infinite_viewer && has_eye) ||
+                if ((k == 0 && (bits & 22 || r->needs_highlight || f.shaded)) || (f.infinite_viewer && has_eye) ||
                     (!f.vertex && (!lit_later || (lit[0] && !lit[1]))) || (f.vertex && !lit[0] && lit[1]) ||
-                    (f.vertex && (f.late_normal || wrong)) || (bits & 32 && gamma <= 0) ||
+                    (f.vertex && (f.late_normal || forms)) || (bits & 32 && gamma <= 0) ||
                     (f.vertex && r->light_count > 4))
                     continue;
                 if (reading_test(r, &f)) {

@@ -65,9 +65,11 @@ struct reading_leaf {
     int light; // the first light of this leaf
 };
 
-// Forms that are all correct, and, from READ_EARLY on, forms that are mistakes.
+// Forms that are all correct, and, with `shaded` or `early`, forms that are mistakes.
+enum reading_forms { FORMS_RIGHT, FORMS_EARLY, FORMS_SHADED };
 struct reading_form {
     bool phong, gate, late_normal, vertex, infinite_viewer;
+    bool shaded;     // the sum of the highlights is multiplied by the diffuse terms
     bool general;    // no sum of terms: only the cosines are right
     uint8_t early;   // bits: l, v, and h or r are normalized at the vertices and interpolated
     double exponent; // 0: no highlight
@@ -102,6 +104,8 @@ struct reading {
     struct reading_leaf leaves[READ_LEAVES];
     int leaf_count, light_count;
     bool rows, has_model; // matrices are stored by rows; some matrix separates the model's space from the world
+    bool has_ints;        // a uniform is an int
+    bool still;           // numbers of the vertex shader are 0, because with other values they move the vertices
     struct reading_sample *samples; // READ_POINTS times READ_TURNS
     struct reading_form form;
     int output; // address of the written colour in the fragment shader
@@ -119,7 +123,7 @@ struct reading {
     bool one_way; // the shader is right with one value of the switches, but not with the other
     struct reading_dot {
         double value;
-        bool ran, depends;             // in any reading; on the normal
+        bool ran, depends, diffuse;    // in any reading; on the normal; is n.l
     } *dots[2];                        // for each node of a stage
     struct reading_sample *pair;       // two samples with different normals
     double worst;                      // the largest residual of the last test
@@ -151,12 +155,14 @@ enum reading_outcome { READING_NONE, READING_RIGHT, READING_AGAINST, READING_MIS
 enum reading_outcome reading_find(struct reading *r, const struct declarations *vertex,
                                   const struct declarations *fragment);
 
-// Tests the current reading with one form, or with every correct form and, if `wrong`, every wrong form.
+// Tests the current reading with one form, or with every correct form or every form of one mistake.
 bool reading_test(struct reading *r, const struct reading_form *form);
-bool reading_test_forms(struct reading *r, bool wrong);
+bool reading_test_forms(struct reading *r, enum reading_forms forms);
 
-// Adds 2 for each call of dot() that depends on the normal but is not the cosine of right vectors, 1 if it is proportional to
-// such a cosine, and 1 for each call that only other readings run. READ_MANY: the normal does not matter. With `known`, takes the dependence from the last call without `known`.
+// Adds 4 for each call of dot() that depends on the normal but is not the cosine of right vectors, 3 if one of its vectors is
+// right, 2 if it is proportional to such a cosine, 1 if its vectors are normalized at the vertices, and 3 for each call that
+// only other readings run. READ_MANY: the normal does not matter. With `known`, takes the dependence from the last call
+// without `known`.
 int reading_count_wrong(struct reading *r, bool known);
 
 // Evaluates the shader at a sample. Returns false if the point is discarded or the evaluation failed.

@@ -215,7 +215,7 @@ static struct reading_leaf *add_leaf(struct reading *r, const char *name, struct
 static double number_of(const struct reading *r, const char *name, int component)
 {
     double x = 0.3 + 0.03 * (word_hash(name) % 11) + 0.05 * (component % 4);
-    return r->variant == 0 ? x : r->variant == 1 ? 1.1 - x : 20 * x;
+    return r->variant == 1 ? 1.1 - x : r->variant == 2 ? 20 * x : x;
 }
 
 // Gives values to an input and its members, and lists its matrices and vectors.
@@ -245,10 +245,16 @@ static bool add_input(struct reading *r, int side, const char *name, struct glsl
     for (int e = 0; e < (count ? count : 1); e++)
         for (int i = 0; i < size * (count && step == size ? 1 : elements); i++) {
             double *to = &p->memory[at + e * (count ? step : 0) + i];
+            r->has_ints = r->has_ints || whole;
             if (truth && r->switch_count < READ_NUMBERS)
                 r->switches[r->switch_count++] = to;
-            *to = whole ? 2 : truth ? r->variant != 1 : i % 4 == 3 && t.rows == 4 ? 1 : number_of(r, path, i);
-            if (t.base == GLSL_FLOAT && t.rows == 1 && r->number_count < READ_NUMBERS)
+            const bool moves = r->still && t.rows == 1 && declarations_uses(r->sides[0].text, name);
+            *to = whole                       ? 2 - (r->variant == 3)
+                  : truth                     ? r->variant != 1
+                  : moves                     ? 0
+                  : i % 4 == 3 && t.rows == 4 ? 1
+                                              : number_of(r, path, i);
+            if (t.base == GLSL_FLOAT && t.rows == 1 && !moves && r->number_count < READ_NUMBERS)
                 r->numbers[r->number_count++] = to;
         }
     bool matrix = t.columns == t.rows && t.columns > 2, vector = t.columns == 1 && t.rows > 2 && t.base == GLSL_FLOAT;
@@ -267,13 +273,15 @@ static bool add_inputs(struct reading *r)
             const struct glsl_symbol *s = &r->sides[side].symbols[i];
             bool used = declarations_uses(r->sides[side].text, s->name) || s->type.base == GLSL_STRUCT ||
                         (s->name[0] == 'g' && declarations_uses(r->sides[side].text, "ftransform"));
-            if (s->storage == GLSL_UNIFORM && used && !add_input(r, side, s->name, s->type, s->at, 0, 0))
+            struct glsl_type t = s->type;
+            t.count = (uint16_t)declarations_read_elements(r->sides[0].text, r->sides[1].text, s->name, t.count);
+            if (s->storage == GLSL_UNIFORM && used && !add_input(r, side, s->name, t, s->at, 0, 0))
                 return false;
             if (s->storage != GLSL_INPUT || side == 1 || !used)
                 continue;
             struct reading_leaf *leaf = s->type.rows > 2 ? add_leaf(r, s->name, s->type, 0, s->at) : NULL;
             for (int k = 0; k < 4; k++)
-                r->sides[0].memory[s->at + k] = k == 3 ? 1 : 0.4 + 0.05 * k;
+                r->sides[0].memory[s->at + k] = k == 3 ? 1 : r->still && s->type.rows < 3 ? 0 : 0.4 + 0.05 * k;
             if (leaf)
                 leaf->attribute = true;
         }
@@ -352,15 +360,17 @@ static unsigned effect(struct reading *r, struct reading_leaf *leaf, int compone
     for (int k = 0; k < samples && !(changed & 6); k++) {
         struct reading_sample *s = r->samples + (k % READ_POINTS) * READ_TURNS + k % READ_TURNS;
         double before[7] = {0}, kept[2][16];
-        for (int i = 0; i < r->number_count; i++) // many samples are inside of all cones, by cosines or by angles
-            *r->numbers[i] = k % 3 == 2 ? -1 + 0.05 * numbers[i] : k % 6 == 1 ? 90 + numbers[i] : numbers[i];
+        for (int i = 0; i < r->number_count; i++) { // many samples are inside of all cones, by cosines or by angles
+            const bool wide = k % 6 == 1 && (k / 6 % 3 == 0 || (i + k / 6) % 2); // not with a large exponent in all
+            *r->numbers[i] = k % 3 == 2 ? -1 + 0.05 * numbers[i] : wide ? 90 + numbers[i] : numbers[i];
+        }
         // Vectors without a role get various values, so that some samples are in the cone of a spot light.
         for (int i = 0; i < r->leaf_count && k; i++)
             for (int c = 0; c < 3 && !r->leaves[i].attribute && r->leaves[i].type.columns == 1; c++) {
                 double x = noise(&state) * 1.5;
                 for (int side = 0; side < 2; side++)
                     if (value_of(r, &r->leaves[i], side))
-                        value_of(r, &r->leaves[i], side)[c] = k % 2 && x < 0 ? -x : x;
+                        value_of(r, &r->leaves[i], side)[c] = k / 3 % 2 && x < 0 ? -x : x;
             }
         bool ok = reading_evaluate(r, s);
         memcpy(before, s->color, sizeof s->color);
@@ -620,7 +630,7 @@ static bool search(struct reading *r, int leaf, int sum)
         if (sum || !number_lights(r))
             return false;
         const int wrong = reading_count_wrong(r, false);
-        if (wrong == 0 && !(against && r->doubted) && reading_test_forms(r, false)) {
+        if (wrong == 0 && !(against && r->doubted) && reading_test_forms(r, FORMS_RIGHT)) {
             if (!against)
                 return true;
             r->doubt = state_of(r);
@@ -666,13 +676,13 @@ static enum reading_outcome search_chains(struct reading *r, const struct chain 
     r->spent = false;
     for (int i = 0; i < r->nearest_count && !r->spent; i++) {
         reading_restore(r, &r->nearest[i]);
-        if (reading_test_forms(r, false))
+        if (reading_test_forms(r, FORMS_RIGHT))
             return READING_RIGHT;
         r->nearest[i].mean = r->mean;
     }
     if (r->doubted) {
         reading_restore(r, &r->doubt);
-        return reading_test_forms(r, false) ? READING_AGAINST : READING_NONE;
+        return reading_test_forms(r, FORMS_RIGHT) ? READING_AGAINST : READING_NONE;
     }
     for (int i = 1; i < r->nearest_count; i++) { // sorts them by their means
         const struct reading_state state = r->nearest[i];
@@ -777,6 +787,10 @@ static enum reading_outcome find_variant(struct reading *r, const struct declara
             return READING_NONE;
         count = find_chains(r, chains);
     }
+    if (!count && !r->still) {
+        r->still = true;
+        return find_variant(r, vertex, fragment);
+    }
     if (!count) {
         snprintf(r->reason, sizeof r->reason, "the check does not understand how gl_Position is computed");
         return READING_NONE;
@@ -815,7 +829,8 @@ enum reading_outcome reading_find(struct reading *r, const struct declarations *
     enum reading_outcome outcome = READING_NONE;
     int best = 0, last = 0;
     double mean = 2;
-    for (int v = 0; v < 3 && outcome == READING_NONE && !r->reason[0] && (mean > dark || (v == 1 && r->switch_count));
+    for (int v = 0; v < 3 + r->has_ints && outcome == READING_NONE && !r->reason[0] &&
+                    (mean > dark || (v == 1 && r->switch_count));
          v++) {
         r->steps = v ? max_steps / 3 : max_steps;
         r->spent = false;
@@ -831,8 +846,15 @@ enum reading_outcome reading_find(struct reading *r, const struct declarations *
         const struct reading_form form = r->form;
         for (int i = 0; i < r->switch_count; i++)
             *r->switches[i] = !*r->switches[i];
-        r->one_way = !reading_test_forms(r, false);
+        r->one_way = !reading_test_forms(r, FORMS_RIGHT);
         r->form = form;
+    }
+    if (outcome == READING_RIGHT && (r->still || r->variant == 3)) {
+        snprintf(r->reason, sizeof r->reason,
+                 r->still ? "numbers or attributes move the vertices; the shader is right if they are 0, and the check "
+                            "does not test other values"
+                          : "the shader is right if its integers are 1, and the check does not test other values");
+        return READING_NONE;
     }
     if (outcome == READING_NONE && best != last && !r->reason[0]) { // the mistakes are searched with the best values
         r->steps = max_steps;

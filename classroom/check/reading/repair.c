@@ -28,13 +28,15 @@ enum change {
     CHANGES
 };
 enum { MAX_BEAM = 4, MAX_EARLY = 3, SPACES = 3 };
-enum { PARENT_NORMALIZE = 1, PARENT_MAX };
+enum { PARENT_NORMALIZE = 1, PARENT_MAX, PARENT_WRITES };
 static const int64_t repair_steps = 60000000;
 
 struct tried {
     int side, node, change, space, wrong;
     struct glsl_node before;
     double mean;
+    const char *mistake;       // its name
+    struct glsl_symbol *input; // that is normalized at all uses
 };
 
 // --- which parts depend on what
@@ -48,18 +50,20 @@ static bool find_dependence(struct reading *r, uint8_t *out[2])
     double *before[2];
     for (int side = 0; side < 2; side++) {
         before[side] = arena_array(r->arena, (size_t)r->sides[side].used, sizeof(double));
-        out[side] = arena_alloc_zeroed(r->arena, (size_t)r->sides[side].node_count);
+        out[side] = arena_alloc_zeroed(r->arena, (size_t)r->sides[side].node_count + 8);
         if (!before[side] || !out[side])
             return false;
     }
-    for (int bit = 0; bit < 4; bit++) {
+    for (int run = 0; run < 9; run++) { // several normals, because steps have the same value for many
+        const int bit = run < 4 ? run : 0;
+        const struct reading_sample *normal = bit ? base : run ? &r->samples[READ_TURNS + 7 * run] : &r->pair[1];
         reading_evaluate(r, base);
         for (int side = 0; side < 2; side++)
             memcpy(before[side], r->sides[side].memory, (size_t)r->sides[side].used * sizeof(double));
         changed = *base;
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < 3; i++) {
-                changed.normals[k][i] = r->pair[bit == 0].normals[k][i];
+                changed.normals[k][i] = normal->normals[k][i];
                 changed.positions[k][i] += bit == 1 ? 0.1 * (i + 1) : 0;
             }
         for (int i = 0; i < 3 && bit == 2; i++) {
@@ -89,14 +93,20 @@ static bool is_call(const struct glsl_program *p, int node, const char *name)
     return p->nodes[node].kind == GLSL_BUILTIN && strcmp(glsl_builtin_name(p->nodes[node].number), name) == 0;
 }
 
+static int parent_of(const struct glsl_program *p, int node)
+{
+    for (int i = 0; i < p->node_count; i++)
+        for (int c = p->nodes[i].first; c >= 0; c = p->nodes[c].next)
+            if (c == node)
+                return i;
+    return -1;
+}
+
 // Returns whether a number is added to a constant, possibly after a multiplication: 0.5 * dot(n, l) + 0.5.
 static bool is_shifted(const struct glsl_program *p, int node)
 {
     for (int level = 0, at = node; level < 2; level++) {
-        int parent = -1;
-        for (int i = 0; i < p->node_count && parent < 0; i++)
-            for (int c = p->nodes[i].first; c >= 0; c = p->nodes[c].next)
-                parent = c == at ? i : parent;
+        const int parent = parent_of(p, at);
         if (parent < 0 || p->nodes[parent].kind != GLSL_BINARY)
             return false;
         for (int c = p->nodes[parent].first; c >= 0; c = p->nodes[c].next)
@@ -113,7 +123,8 @@ static bool suits(const struct glsl_program *p, int node, int change, const uint
     const struct glsl_node *n = &p->nodes[node];
     const bool vector = n->type.columns == 1 && n->type.rows >= 3 && n->type.base == GLSL_FLOAT && !n->type.count,
                number = glsl_width(n->type) == 1 && n->type.base == GLSL_FLOAT && !n->type.count;
-    if (n->kind > GLSL_GIVEN || n->kind == GLSL_ASSIGN || n->kind == GLSL_CONSTANT || !depends)
+    if (n->kind > GLSL_GIVEN || n->kind == GLSL_ASSIGN || n->kind == GLSL_CONSTANT || !depends ||
+        parent == PARENT_WRITES)
         return false;
     const struct glsl_node *left = n->first >= 0 ? &p->nodes[n->first] : n;
     const int kept = change == CHANGE_LEFT ? n->first : n->first >= 0 ? left->next : -1;
@@ -136,15 +147,35 @@ static bool suits(const struct glsl_program *p, int node, int change, const uint
 }
 
 // Puts a copy of the node below the node.
-static int lower(struct glsl_program *p, int node)
+static int lower(struct reading *r, int side, int node)
 {
+    struct glsl_program *p = &r->sides[side];
     int copy = p->node_count++;
+    r->dots[side][copy] = r->dots[side][node];
     p->nodes[copy] = p->nodes[node];
     p->nodes[copy].next = -1;
     p->nodes[node].first = copy;
     p->nodes[node].at = p->used;
     p->used += 16;
     return copy;
+}
+
+// Returns the symbol of a vector that the fragment shader uses several times, if the node is its first use. A change
+// normalizes it at all uses.
+static struct glsl_symbol *shared_input(struct glsl_program *p, int node)
+{
+    struct glsl_symbol *found = NULL;
+    int uses = 0;
+    for (int i = 0; i < p->node_count && !p->vertex && p->nodes[node].kind == GLSL_VARIABLE; i++)
+        if (p->nodes[i].kind == GLSL_VARIABLE && p->nodes[i].at == p->nodes[node].at) {
+            if (i < node)
+                return NULL;
+            uses++;
+        }
+    for (int i = 0; i < p->symbol_count && uses > 1; i++)
+        if (p->symbols[i].storage == GLSL_INPUT && p->symbols[i].at == p->nodes[node].at && !p->symbols[i].unit)
+            found = &p->symbols[i];
+    return found;
 }
 
 static void apply(struct reading *r, struct tried *t)
@@ -155,17 +186,21 @@ static void apply(struct reading *r, struct tried *t)
     t->before = *n;
     switch (t->change) {
     case CHANGE_UNIT:
-        lower(p, t->node);
+        if ((t->input = shared_input(p, t->node))) {
+            t->input->unit = true;
+            break;
+        }
+        lower(r, t->side, t->node);
         n->kind = GLSL_BUILTIN;
         n->number = glsl_builtin("normalize");
         break;
     case CHANGE_SIGN:
-        lower(p, t->node);
+        lower(r, t->side, t->node);
         n->kind = GLSL_UNARY;
         n->op = '-';
         break;
     case CHANGE_CLAMP:
-        copy = lower(p, t->node);
+        copy = lower(r, t->side, t->node);
         zero = p->node_count++;
         p->nodes[zero] = (struct glsl_node){
             .kind = GLSL_CONSTANT, .type = {GLSL_FLOAT, 1, 1, 0, 0}, .first = -1, .next = -1, .at = p->used};
@@ -208,6 +243,8 @@ static void undo(struct reading *r, const struct tried *t, const int nodes[2], c
     struct glsl_program *p = &r->sides[t->side];
     if (t->change == CHANGE_ABS)
         p->nodes[t->before.first].next = -1;
+    if (t->input)
+        t->input->unit = false;
     p->nodes[t->node] = t->before;
     p->node_count = nodes[t->side];
     p->used = used[t->side];
@@ -354,11 +391,28 @@ static const char *name_of(struct reading *r, struct tried *t)
            (size_t)(p->nodes[t->node].type.rows < 4 ? p->nodes[t->node].type.rows : 4) * sizeof *x);
     for (int space = 0; space < SPACES && !which; space++)
         which = vector_of(r, space, x);
+    const int parent = parent_of(p, t->node);
+    const bool is_input = p->nodes[t->node].kind == GLSL_VARIABLE && p->nodes[t->node].number == GLSL_INPUT && t->side;
+    double closest = 0.95;
+    int equal[SPACES] = {0};
+    bool point = false; // the vector is added to another, and is the point itself
+    for (int space = 0; space < SPACES && parent >= 0 && p->nodes[parent].op == '+'; space++)
+        for (int i = 0; i < 3; i++) {
+            double d = x[i] - r->right[space][RIGHT_POINT][i];
+            equal[space] += d < 1e-9 && d > -1e-9;
+            point = point || equal[space] == 3;
+        }
     double nl = 0;
     for (int i = 0; i < 3; i++)
         nl += r->right[0][RIGHT_NORMAL][i] * r->right[0][RIGHT_LIGHT][i];
     switch (t->change) {
     case CHANGE_UNIT:
+        for (int i = 0; i < SPACES * RIGHT_VECTORS && which != 'n' && is_input; i++) { // normalized at the vertices
+            const double c =
+                i % RIGHT_VECTORS == RIGHT_POINT ? 0 : cosine(x, r->right[i / RIGHT_VECTORS][i % RIGHT_VECTORS]);
+            which = c > closest ? "pnvl"[i % RIGHT_VECTORS] : which;
+            closest = c > closest ? c : closest;
+        }
         return which == 'n' || (t->side == 0 && !which)
                    ? (r->form.late_normal ? "normal-never-unit" : "normal-not-unit")
                : which == 'l' ? "light-not-unit"
@@ -368,15 +422,23 @@ static const char *name_of(struct reading *r, struct tried *t)
     case CHANGE_SIGN:
         return which == 'n'   ? "normal-inward"
                : which == 'l' ? "light-backwards"
-               : which == 'v' ? "eye-backwards"
+               : which == 'v' ? (point ? "light-plus-point" : "eye-backwards")
                : which == 'r' ? "reflect-sign"
                               : NULL;
     case CHANGE_CLAMP:
         return x[0] - nl < 0.05 && nl - x[0] < 0.05 ? "no-clamp" : NULL;
     case CHANGE_ABS:
         return "abs-of-n.l";
-    case CHANGE_PLUS:
-        return "light-plus-point";
+    case CHANGE_PLUS: { // a colour may also be a sum
+        const struct glsl_node *a = &p->nodes[p->nodes[t->node].first], *b = &p->nodes[a->next];
+        double l[3];
+        for (int i = 0; i < 3; i++)
+            l[i] = p->memory[a->at + (a->type.rows > 1 ? i : 0)] - p->memory[b->at + (b->type.rows > 1 ? i : 0)];
+        for (int space = 0; space < SPACES; space++)
+            if (along(l, r->right[space][RIGHT_LIGHT]))
+                return "light-plus-point";
+        return NULL;
+    }
     case CHANGE_LEFT:
     case CHANGE_RIGHT: {
         const struct glsl_node *n = &p->nodes[t->node],
@@ -403,7 +465,9 @@ static const char *name_form(const struct reading_form *f)
 {
     static const char *const early[] = {
         NULL, "light-unit-too-early", "eye-unit-too-early", "unit-too-early", NULL, NULL, NULL, NULL};
-    return f->early & 4 ? (f->phong ? "reflection-in-vertex-shader" : "half-in-vertex-shader") : early[f->early];
+    return f->shaded      ? "specular-times-n.l"
+           : f->early & 4 ? (f->phong ? "reflection-in-vertex-shader" : "half-in-vertex-shader")
+                          : early[f->early];
 }
 
 // --- texts
@@ -425,12 +489,13 @@ static void replacement(const struct reading *r, const struct tried *t, const ch
 {
     const struct glsl_program *p = &r->sides[t->side];
     const struct glsl_node *n = &p->nodes[t->node];
-    const char *normal = NULL, *matrix = named(r, t->space == READ_EYE_SPACE ? READ_NORMAL_EYE : READ_NORMAL_WORLD),
+    const struct reading_leaf *normal = NULL;
+    const char *matrix = named(r, t->space == READ_EYE_SPACE ? READ_NORMAL_EYE : READ_NORMAL_WORLD),
                *model = named(r, t->space == READ_EYE_SPACE ? READ_MODEL_VIEW : READ_MODEL);
     out[0] = 0;
     for (int i = 0; i < r->leaf_count; i++)
         if (r->leaves[i].attribute && r->leaves[i].choices[r->leaves[i].chosen].role == READ_NORMAL)
-            normal = r->leaves[i].name;
+            normal = &r->leaves[i];
     char part[180];
     switch (t->change) {
     case CHANGE_UNIT:
@@ -453,12 +518,14 @@ static void replacement(const struct reading *r, const struct tried *t, const ch
         break;
     }
     case CHANGE_NORMAL:
-        if (p->vertex && normal && n->type.rows == 3 && matrix)
-            snprintf(out, capacity, "%s(%s) * %s", "normalize(mat3", matrix, normal);
-        else if (p->vertex && normal && n->type.rows == 3 && model)
-            snprintf(out, capacity, "normalize(transpose(inverse(mat3(%s))) * %s", model, normal);
-        if (out[0])
-            snprintf(out + strlen(out), capacity - strlen(out), "%s)", strchr(normal, '4') ? ".xyz" : "");
+        if (p->vertex && normal && n->type.rows == 3 && (matrix || model)) {
+            const char *components = normal->type.rows == 4 ? ".xyz" : "";
+            snprintf(part, sizeof part, matrix ? "mat3(%s)" : "transpose(inverse(mat3(%s)))", matrix ? matrix : model);
+            if (r->rows)
+                snprintf(out, capacity, "normalize(%.90s%s * %.90s)", normal->name, components, part);
+            else
+                snprintf(out, capacity, "normalize(%.90s * %.90s%s)", part, normal->name, components);
+        }
         break;
     default:
         break;
@@ -485,152 +552,8 @@ static void describe(const struct reading *r, const struct tried *t, const char 
         replacement(r, t, old, out->text, sizeof out->text);
     snprintf(out->line, sizeof out->line, "%s", old);
     snprintf(out->write, sizeof out->write, "%s", out->text);
-}
-
-// --- the search
-
-// Whether a change leaves all cosines as they are.
-static bool is_neutral(int change) { return change >= CHANGE_CLAMP && change <= CHANGE_RIGHT && change != CHANGE_PLUS; }
-
-struct search {
-    struct reading *r;
-    uint8_t *depends[2];
-};
-
-static void mark_parents(const struct glsl_program *p, uint8_t *parents)
-{
-    for (int i = 0; i < p->node_count; i++)
-        for (int c = p->nodes[i].first; c >= 0; c = p->nodes[c].next)
-            parents[c] = is_call(p, i, "normalize") ? PARENT_NORMALIZE : is_call(p, i, "max") ? PARENT_MAX : 0;
-}
-
-// Keeps a change that makes the shader right. Returns whether it has a name of its own.
-static bool keep_right(struct search *s, struct tried *t, int depth, bool found)
-{
-    struct reading *r = s->r;
-    const char *mistake = name_of(r, t);
-    bool known = !mistake || (found && strcmp(r->repairs[depth].mistake, mistake) == 0);
-    for (int i = 0; i < r->also_count; i++)
-        known = known || strcmp(r->also[i], mistake) == 0;
-    if (known)
-        return false;
-    if (!found)
-        describe(r, t, mistake, &r->repairs[depth]);
-    else if (r->also_count < MAX_REPAIRS)
-        r->also[r->also_count++] = mistake;
-    return true;
-}
-
-// Tries each change alone. A change is tested if fewer cosines are wrong after it. Returns the number of right changes;
-// `best` receives the others that help most.
-static int try_each(struct search *s, int wrong, int depth, struct tried best[MAX_BEAM], int *best_count)
-{
-    struct reading *r = s->r;
-    int found = 0;
-    double color[3];
-    reading_count_wrong(r, true);
-    memcpy(color, r->pair[1].color, sizeof color);
-    for (int change = 0; change < CHANGES; change++)
-        for (int side = 0; side < 2; side++) {
-            const int count = r->sides[side].node_count;
-            uint8_t *parents = arena_alloc_zeroed(r->arena, (size_t)count + 8);
-            if (!parents || count + 8 > r->sides[side].node_capacity)
-                return found;
-            mark_parents(&r->sides[side], parents);
-            for (int i = 0; i < count * 2 && !r->spent && found < MAX_REPAIRS; i++) {
-                struct tried t = {.side = side, .node = i / 2, .change = change, .space = i % 2};
-                const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
-                          used[2] = {r->sides[0].used, r->sides[1].used};
-                if ((t.space && change < CHANGE_NORMAL) ||
-                    !suits(&r->sides[side], t.node, change, s->depends[side], parents[t.node]))
-                    continue;
-                apply(r, &t);
-                t.wrong = reading_count_wrong(r, true);
-                // If no cosine is wrong, or can become wrong, the colour must change.
-                const bool same = memcmp(color, r->pair[1].color, sizeof color) == 0, helps = t.wrong < wrong,
-                           may = t.wrong <= wrong && (is_neutral(change) || (!wrong && !same)),
-                           right = (helps || may) && reading_test_forms(r, false);
-                t.mean = r->mean;
-                undo(r, &t, nodes, used);
-                if (right)
-                    found += keep_right(s, &t, depth, found);
-                if (right || !helps || found)
-                    continue;
-                int at = *best_count;
-                while (at > 0 && best[at - 1].wrong > t.wrong)
-                    at--;
-                if (at == MAX_BEAM)
-                    continue;
-                *best_count += *best_count < MAX_BEAM;
-                memmove(best + at + 1, best + at, (size_t)(*best_count - 1 - at) * sizeof *best);
-                best[at] = t;
-            }
-        }
-    return found;
-}
-
-// Finds changes that are right together, greedily. Returns their number.
-static int descend(struct search *s, int wrong, int depth)
-{
-    struct reading *r = s->r;
-    struct tried best[MAX_BEAM];
-    int best_count = 0;
-    if (try_each(s, wrong, depth, best, &best_count))
-        return depth + 1;
-    for (int i = 0; i < best_count && depth + 1 < MAX_REPAIR_STEPS && i < (depth ? 1 : MAX_BEAM) && !r->spent; i++) {
-        const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
-                  used[2] = {r->sides[0].used, r->sides[1].used};
-        const char *mistake = name_of(r, &best[i]);
-        if (!mistake)
-            continue;
-        describe(r, &best[i], mistake, &r->repairs[depth]);
-        r->repairs[depth].after = best[i].mean;
-        apply(r, &best[i]);
-        int found;
-        if (best[i].wrong && depth < 2 && reading_test_forms(r, true) && name_form(&r->form)) {
-            r->repairs[depth + 1] = (struct repair){.mistake = name_form(&r->form)};
-            found = depth + 2;
-        } else
-            found = descend(s, best[i].wrong, depth + 1);
-        undo(r, &best[i], nodes, used);
-        if (found) {
-            r->also_count = 0;
-            return found;
-        }
-    }
-    return 0;
-}
-
-int repair_find(struct reading *r)
-{
-    struct search s = {.r = r};
-    struct repair *out = r->repairs;
-    r->also_count = 0;
-    r->steps = repair_steps;
-    r->spent = false;
-    r->needs_highlight = declarations_uses(r->sides[0].text, "pow") || declarations_uses(r->sides[1].text, "pow");
-    memset(out, 0, sizeof r->repairs);
-    for (int k = 0; k < r->nearest_count && k < MAX_EARLY; k++) {
-        reading_restore(r, &r->nearest[k]);
-        if (r->nearest[k].wrong && reading_test_forms(r, true) && name_form(&r->form)) {
-            out[0] = (struct repair){.mistake = name_form(&r->form)};
-            r->mean = r->nearest[k].mean;
-            return 1;
-        }
-    }
-    for (int deep = 0; deep < 2; deep++) // first one change of any reading, then several changes of the likeliest
-        for (int k = 0; k < r->nearest_count && k < (deep ? MAX_EARLY : READ_NEAREST) && !r->spent; k++) {
-            struct tried best[MAX_BEAM];
-            int best_count = 0;
-            if (reading_restore(r, &r->nearest[k]) == READ_MANY || !find_dependence(r, s.depends))
-                continue;
-            const int wrong = reading_count_wrong(r, true);
-            int found = deep ? descend(&s, wrong, 0) : try_each(&s, wrong, 0, best, &best_count);
-            r->mean = r->nearest[k].mean;
-            if (found)
-                return deep ? found : 1;
-        }
-    return 0;
+    if (t->input) // the text would change one use
+        out->text[0] = 0;
 }
 
 // --- shaders that are no sums of terms
@@ -645,13 +568,15 @@ static bool is_stylized(const struct reading *r, uint8_t *const depends[2])
         for (int i = 0; i < r->sides[side].node_count; i++) {
             const struct glsl_program *p = &r->sides[side];
             const struct glsl_node *n = &p->nodes[i];
-            bool on_normal = false, constant = false;
+            bool on_normal = false, constant = false, any = false;
             for (int c = n->kind < GLSL_BLOCK ? n->first : -1; c >= 0; c = p->nodes[c].next) {
+                any = any || depends[side][c] & ON_NORMAL;
                 on_normal = on_normal || (depends[side][c] & ON_NORMAL && glsl_width(p->nodes[c].type) == 1);
-                constant = constant || (p->nodes[c].kind == GLSL_CONSTANT && p->memory[p->nodes[c].at] != 0);
+                bool fixed = p->nodes[c].kind == GLSL_CONSTANT || (strchr("<>", n->op) && !depends[side][c]);
+                constant = constant || (fixed && p->memory[p->nodes[c].at] != 0);
             }
             for (size_t f = 0; f < sizeof functions / sizeof *functions; f++)
-                if (is_call(p, i, functions[f]) && depends[side][n->first] & ON_NORMAL)
+                if (any && is_call(p, i, functions[f]))
                     return true;
             if (n->kind == GLSL_BINARY && n->op == '/' && depends[side][n->first] & ON_NORMAL &&
                 depends[side][p->nodes[n->first].next] & ON_NORMAL) // a tone curve
@@ -684,26 +609,283 @@ static bool is_clamped(struct reading *r, int side, int node)
     return same;
 }
 
+// Returns whether all cosines are right, and one is n.l, in the last reading_count_wrong of a shader that computes steps,
+// rims, ramps or shifted cosines.
+static bool is_right_in_general(struct reading *r, uint8_t *const depends[2])
+{
+    bool right = true, lit = false;
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < r->sides[side].node_count && right; i++)
+            if (r->dots[side][i].depends && glsl_is_dot(&r->sides[side], i)) {
+                bool on_light = depends[side][i] & ON_LIGHT, on_eye = depends[side][i] & ON_EYE;
+                lit = lit || (on_light && r->dots[side][i].diffuse);
+                right = !on_light || on_eye || is_shifted(&r->sides[side], i) || is_clamped(r, side, i);
+            }
+    return right && lit;
+}
+
+// --- the search
+
+// Whether a change leaves all cosines as they are.
+static bool is_neutral(int change) { return change >= CHANGE_CLAMP && change <= CHANGE_RIGHT && change != CHANGE_PLUS; }
+
+struct search {
+    struct reading *r;
+    uint8_t *depends[2];
+    int nodes[2];           // before the changes
+    double *first;          // scratch memory of find_varying
+    uint8_t *varies;        // of each node before the changes
+    bool general, negative; // the shader need not be a sum of terms; its colours are negative at some samples
+};
+
+// Returns whether the shader is right after a change.
+static bool mends(struct search *s, const struct tried *t, int copy, bool helps)
+{
+    if (!s->general)
+        return reading_test_forms(s->r, FORMS_RIGHT);
+    s->depends[t->side][copy] = s->depends[t->side][t->node]; // the change may have put the node there
+    return t->wrong == 0 && (helps || (t->change == CHANGE_CLAMP && s->negative)) &&
+           is_right_in_general(s->r, s->depends);
+}
+
+static void mark_parents(const struct glsl_program *p, uint8_t *parents)
+{
+    for (int i = 0; i < p->node_count; i++)
+        for (int c = p->nodes[i].first; c >= 0; c = p->nodes[c].next)
+            parents[c] = is_call(p, i, "normalize") ? PARENT_NORMALIZE : is_call(p, i, "max") ? PARENT_MAX : 0;
+    for (int i = 0; i < p->node_count; i++) {
+        int c = p->nodes[i].kind == GLSL_ASSIGN || p->nodes[i].kind == GLSL_INCREMENT ? p->nodes[i].first : -1;
+        for (; c >= 0; c = p->nodes[c].kind >= GLSL_MEMBER && p->nodes[c].kind <= GLSL_SWIZZLE ? p->nodes[c].first : -1)
+            parents[c] = PARENT_WRITES;
+    }
+}
+
+// Marks the functions of numbers, such as cosines, that run at the samples of a point (bit 0) and vary between them (bit 1).
+static void find_varying(struct reading *r, const int nodes[2], double *first, uint8_t *out)
+{
+    static const double not_run = -2e33;
+    for (int t = 0; t < 2 * READ_TURNS; t += 3) { // first marks the values as not evaluated, then reads them
+        if (t % 2)
+            reading_evaluate(r, &r->samples[READ_TURNS + t / 2]);
+        for (int i = 0; i < nodes[0] + nodes[1]; i++) {
+            struct glsl_program *p = &r->sides[i >= nodes[0]];
+            const struct glsl_node *n = &p->nodes[i < nodes[0] ? i : i - nodes[0]];
+            if (n->kind != GLSL_BUILTIN || glsl_width(n->type) != 1)
+                continue;
+            double *x = p->memory + n->at;
+            if (t % 2 && *x != not_run) {
+                first[i] = out[i] ? first[i] : *x;
+                out[i] |= *x - first[i] < 1e-9 && first[i] - *x < 1e-9 ? 1 : 3;
+            }
+            *x = not_run;
+        }
+    }
+}
+
+// Returns whether a function's number always is 0 or 1 after the changes, such as a clamped cosine. Such changes mend nothing:
+// they remove a term that no sum of terms contains. A distance may become constant.
+static bool removes_term(struct search *s, struct tried *t)
+{
+    struct reading *r = s->r;
+    const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
+              used[2] = {r->sides[0].used, r->sides[1].used}, count = s->nodes[0] + s->nodes[1];
+    uint8_t *varies = arena_alloc_zeroed(r->arena, (size_t)count);
+    if (!varies)
+        return true;
+    apply(r, t);
+    find_varying(r, s->nodes, s->first, varies);
+    undo(r, t, nodes, used);
+    for (int i = 0; i < count; i++)
+        if (s->varies[i] == 3 && varies[i] == 1 && s->first[i] * s->first[i] - s->first[i] < 1e-9 &&
+            s->first[i] > -1e-9)
+            return true;
+    return false;
+}
+
+// Keeps a change that makes the shader right. Returns whether it has a name of its own.
+static bool keep_right(struct search *s, struct tried *t, int depth, bool found)
+{
+    struct reading *r = s->r;
+    const char *mistake = name_of(r, t);
+    bool known = !mistake || removes_term(s, t) || (found && strcmp(r->repairs[depth].mistake, mistake) == 0);
+    for (int i = 0; i < r->also_count; i++)
+        known = known || strcmp(r->also[i], mistake) == 0;
+    if (known)
+        return false;
+    if (!found)
+        describe(r, t, mistake, &r->repairs[depth]);
+    else if (r->also_count < MAX_REPAIRS)
+        r->also[r->also_count++] = mistake;
+    return true;
+}
+
+// Tries each change alone. A change is tested if fewer cosines are wrong after it. Returns the number of right changes;
+// `best` receives the others with a name that help most.
+static int try_each(struct search *s, int wrong, int depth, struct tried best[MAX_BEAM], int *best_count)
+{
+    struct reading *r = s->r;
+    const double *position = r->sides[0].memory + glsl_symbol(&r->sides[0], "gl_Position")->at;
+    int found = 0;
+    double color[3], clip[4];
+    reading_count_wrong(r, true);
+    memcpy(color, r->pair[1].color, sizeof color);
+    memcpy(clip, position, sizeof clip);
+    for (int change = 0; change < CHANGES; change++)
+        for (int side = 0; side < 2; side++) {
+            const int count = r->sides[side].node_count;
+            uint8_t *parents = arena_alloc_zeroed(r->arena, (size_t)count + 8);
+            if (!parents || count + 8 > r->sides[side].node_capacity)
+                return found;
+            mark_parents(&r->sides[side], parents);
+            for (int i = 0; i < count * 2 && !r->spent && found < MAX_REPAIRS; i++) {
+                struct tried t = {.side = side, .node = i / 2, .change = change, .space = i % 2};
+                const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
+                          used[2] = {r->sides[0].used, r->sides[1].used};
+                if ((t.space && change < CHANGE_NORMAL) ||
+                    !suits(&r->sides[side], t.node, change, s->depends[side], parents[t.node]))
+                    continue;
+                apply(r, &t);
+                t.wrong = reading_count_wrong(r, true);
+                // If no cosine is wrong, or can become wrong, the colour must change.
+                const bool same = memcmp(color, r->pair[1].color, sizeof color) == 0,
+                           moves = memcmp(clip, position, sizeof clip) != 0, helps = t.wrong < wrong && !moves,
+                           may = t.wrong <= wrong && (is_neutral(change) || (!wrong && !same)),
+                           right = (helps || (may && !moves)) && mends(s, &t, nodes[side], helps);
+                t.mean = r->mean;
+                undo(r, &t, nodes, used);
+                if (right)
+                    found += keep_right(s, &t, depth, found);
+                if (right || !helps || found || !(t.mistake = name_of(r, &t)))
+                    continue;
+                int at = *best_count;
+                while (at > 0 && best[at - 1].wrong > t.wrong)
+                    at--;
+                if (at == MAX_BEAM)
+                    continue;
+                *best_count += *best_count < MAX_BEAM;
+                memmove(best + at + 1, best + at, (size_t)(*best_count - 1 - at) * sizeof *best);
+                best[at] = t;
+            }
+        }
+    return found;
+}
+
+// Finds changes that are right together, greedily. Returns their number.
+static int descend(struct search *s, int wrong, int depth)
+{
+    struct reading *r = s->r;
+    struct tried best[MAX_BEAM];
+    int best_count = 0;
+    if (try_each(s, wrong, depth, best, &best_count))
+        return depth + 1;
+    for (int i = 0; i < best_count && depth + 1 < MAX_REPAIR_STEPS && i < (depth ? 1 : MAX_BEAM) && !r->spent; i++) {
+        const int nodes[2] = {r->sides[0].node_count, r->sides[1].node_count},
+                  used[2] = {r->sides[0].used, r->sides[1].used};
+        describe(r, &best[i], best[i].mistake, &r->repairs[depth]);
+        r->repairs[depth].after = best[i].mean;
+        apply(r, &best[i]);
+        int found;
+        if (best[i].wrong && depth < MAX_EARLY && reading_test_forms(r, FORMS_EARLY) && name_form(&r->form)) {
+            r->repairs[depth + 1] = (struct repair){.mistake = name_form(&r->form)};
+            found = depth + 2;
+        } else
+            found = descend(s, best[i].wrong, depth + 1);
+        undo(r, &best[i], nodes, used);
+        if (found) {
+            r->also_count = 0;
+            return found;
+        }
+    }
+    return 0;
+}
+
+// Returns whether a colour is negative, with the values of the inputs or with one of the colours 0.
+static bool has_negative(struct reading *r)
+{
+    bool found = false;
+    for (int i = 0; i < r->leaf_count && !found; i++) {
+        const struct reading_leaf *leaf = &r->leaves[i];
+        double kept[2][4] = {{0}};
+        if (leaf->attribute || leaf->geometric || leaf->node >= 0 || leaf->type.columns > 1)
+            continue;
+        for (int back = 0; back < 2; back++) {
+            for (int side = 0; side < 2; side++)
+                for (int c = 0; c < leaf->type.rows && leaf->at[side] >= 0; c++) {
+                    double *value = r->sides[side].memory + leaf->at[side] + c;
+                    kept[side][c] = back ? kept[side][c] : *value;
+                    *value = back ? kept[side][c] : 0;
+                }
+            for (int k = 0; k < READ_TURNS && !back; k++) {
+                const double *color = r->samples[k].color;
+                found = found || (reading_evaluate(r, &r->samples[k]) &&
+                                  (color[0] < -1e-6 || color[1] < -1e-6 || color[2] < -1e-6));
+            }
+        }
+    }
+    return found;
+}
+
+int repair_find(struct reading *r)
+{
+    struct search s = {.r = r};
+    struct repair *out = r->repairs;
+    r->also_count = 0;
+    r->steps = repair_steps;
+    r->spent = false;
+    r->needs_highlight = declarations_uses(r->sides[0].text, "pow") || declarations_uses(r->sides[1].text, "pow");
+    memset(out, 0, sizeof r->repairs);
+    for (int k = 0; k < r->nearest_count; k++) {
+        const bool shaded =
+            !reading_restore(r, &r->nearest[k]) && r->light_count > 1; // of one light, a change shows the line
+        if ((shaded || (k < MAX_EARLY && r->nearest[k].wrong)) &&
+            reading_test_forms(r, shaded ? FORMS_SHADED : FORMS_EARLY) && name_form(&r->form)) {
+            out[0] = (struct repair){.mistake = name_form(&r->form)};
+            r->mean = r->nearest[k].mean;
+            return 1;
+        }
+    }
+    int closest = 0, fewest = READ_MANY;
+    for (int k = 0; k < r->nearest_count; k++) {
+        fewest = r->nearest[k].wrong < fewest ? r->nearest[k].wrong : fewest;
+        closest = r->nearest[k].mean < r->nearest[closest].mean ? k : closest;
+    }
+    // First one change of any reading, then one change of the likeliest if the shader is no sum, then several changes of the likeliest.
+    for (int pass = 0; pass < 3; pass++)
+        for (int k = 0; k < r->nearest_count && !r->spent; k++) {
+            struct tried best[MAX_BEAM];
+            int best_count = 0;
+            s.general = pass == 1;
+            if ((pass == 1 && r->nearest[k].wrong && (k != closest || r->nearest[k].wrong > fewest)) ||
+                (pass == 2 && k >= MAX_EARLY && k != closest) || reading_restore(r, &r->nearest[k]) == READ_MANY ||
+                !find_dependence(r, s.depends) || (s.general && !is_stylized(r, s.depends)))
+                continue;
+            for (int side = 0; side < 2; side++)
+                s.nodes[side] = r->sides[side].node_count;
+            const size_t count = (size_t)(s.nodes[0] + s.nodes[1]);
+            if (!(s.first = arena_array(r->arena, count, sizeof *s.first)) ||
+                !(s.varies = arena_alloc_zeroed(r->arena, count)))
+                return 0;
+            find_varying(r, s.nodes, s.first, s.varies);
+            s.negative = s.general && has_negative(r);
+            const int wrong = reading_count_wrong(r, true);
+            int found = pass == 2 ? descend(&s, wrong, 0) : try_each(&s, wrong, 0, best, &best_count);
+            r->mean = r->nearest[k].mean;
+            if (found)
+                return pass == 2 ? found : 1;
+        }
+    return 0;
+}
+
 bool repair_accepts(struct reading *r)
 {
     uint8_t *depends[2];
-    for (int k = 0; k < r->nearest_count; k++) {
-        bool right = true, lit = false;
-        if (reading_restore(r, &r->nearest[k]) || r->nearest[k].wrong || !find_dependence(r, depends) ||
-            (!is_stylized(r, depends) && r->light_count < 5 && r->nearest[k].mean > 1e-7))
-            continue;
-        for (int side = 0; side < 2; side++)
-            for (int i = 0; i < r->sides[side].node_count && right; i++)
-                if (r->dots[side][i].depends) {
-                    bool on_light = depends[side][i] & ON_LIGHT, on_eye = depends[side][i] & ON_EYE;
-                    lit = lit || on_light;
-                    right = !on_light || on_eye || is_shifted(&r->sides[side], i) || is_clamped(r, side, i);
-                }
-        if (right && lit) {
+    for (int k = 0; k < r->nearest_count; k++)
+        if (!reading_restore(r, &r->nearest[k]) && !r->nearest[k].wrong && find_dependence(r, depends) &&
+            (is_stylized(r, depends) || r->light_count >= 5 || r->nearest[k].mean <= 1e-7) &&
+            is_right_in_general(r, depends)) {
             r->form = (struct reading_form){.general = true, .gate = true};
             return true;
         }
-    }
     return false;
 }
 

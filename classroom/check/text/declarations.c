@@ -349,6 +349,28 @@ bool declarations_uses(const struct declarations *d, const char *name)
     return first && first->times > first->declared;
 }
 
+int declarations_read_elements(const struct declarations *vertex, const struct declarations *fragment, const char *name,
+                               int count)
+{
+    const struct declarations *sides[] = {vertex, fragment};
+    size_t length = strcspn(name, "[.");
+    int most = 0;
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i + 2 < sides[s]->word_count; i++) {
+            const struct word *w = &sides[s]->words[i];
+            if (strncmp(w->text, name, length) != 0 || w->text[length] || w->depth == 0 || w->is_member)
+                continue;
+            if (strcmp(w[1].text, "[") != 0 || strchr("0123456789", w[2].text[0]) == NULL)
+                return count;
+            int index = 0;
+            sscanf(w[2].text, "%d", &index);
+            if (index >= count)
+                return count;
+            most = index >= most ? index + 1 : most;
+        }
+    return most ? most : count;
+}
+
 const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name)
 {
     for (int i = 0; i < d->count; i++)

@@ -63,6 +63,10 @@ bool declarations_unpack(struct declarations *d, const char **at, const char *en
 // Returns whether an identifier occurs outside its own declaration.
 bool declarations_uses(const struct declarations *d, const char *name);
 
+// Returns how many elements of an array two stages read, if all indices are constants. Otherwise, returns `count`.
+int declarations_read_elements(const struct declarations *vertex, const struct declarations *fragment, const char *name,
+                               int count);
+
 const struct declaration *declarations_find(const struct declarations *d, enum declared kind, const char *name);
 
 // Returns whether word `i` exists and is equal to `text`.

@@ -280,26 +280,6 @@ static unsigned kind_of(enum uniform_semantic semantic, const char *type)
     }
 }
 
-// Returns how many elements of an array the shaders read, if all indices are constants. Otherwise, returns `count`.
-static int read_elements(const struct shader_interface *r, const char *name, int count)
-{
-    const struct declarations *sides[] = {&r->vertex, &r->fragment};
-    size_t length = strcspn(name, "[.");
-    int most = 0;
-    for (int s = 0; s < 2; s++)
-        for (int i = 0; i + 2 < sides[s]->word_count; i++) {
-            const struct word *w = &sides[s]->words[i];
-            if (strncmp(w->text, name, length) != 0 || w->text[length] || w->depth == 0 || strcmp(w[1].text, "[") != 0)
-                continue;
-            if (strchr("0123456789", w[2].text[0]) == NULL)
-                return count;
-            int index = 0;
-            sscanf(w[2].text, "%d", &index);
-            most = index + 1 > most ? index + 1 : most;
-        }
-    return most && most < count ? most : count;
-}
-
 static void add_light_name(struct shader_interface *r, const struct declarations *d, const struct declaration *item)
 {
     const struct contract_name *n =
@@ -309,7 +289,7 @@ static void add_light_name(struct shader_interface *r, const struct declarations
     struct light_group *group = &r->groups[n->group];
     int count = item->count > 0 ? item->count : 1;
     if (r->contract->any_strengths) // the check does not know which light is intended
-        count = read_elements(r, item->name, count);
+        count = declarations_read_elements(&r->vertex, &r->fragment, item->name, count);
     group->list = group->list || item->count != 0;
     group->count = count > group->count ? count : group->count;
     if (is_used(d, item->name))

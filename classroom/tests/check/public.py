@@ -3,7 +3,7 @@
 caller to FOLDER/OWNER/REPOSITORY/PATH, and prints each verdict beside its label, and counts.
 
 The exit code is 1 if a right shader differs, if a wrong one passes, if one that cannot be judged passes, if a certain name is not a true one, or if
-fewer than 70 % get a verdict. A program that always reports "differs", or reports nothing, therefore fails."""
+fewer than 75 % get a verdict. A program that always reports "differs", or reports nothing, therefore fails."""
 import argparse
 import collections
 import concurrent.futures
@@ -16,7 +16,7 @@ import tempfile
 
 import public_labels
 
-MIN_SHARE = 0.7
+MIN_SHARE = 0.75
 VERDICTS = {"passes", "differs", "refused", "not a number"}
 
 
@@ -80,7 +80,7 @@ The command fails in any of these cases:
 - A correct shader gets the verdict `differs`, or a wrong shader passes.
 - The check gives a verdict on a shader that was labelled as impossible to judge.
 - The check reports, as certain, a mistake that the shader does not contain.
-- The check gives a verdict for fewer than 70 %% of the pairs.
+- The check gives a verdict for fewer than 75 %% of the pairs.
 
 | label | right verdict | wrong verdict | no verdict |
 |---|--:|--:|--:|

@@ -143,6 +143,8 @@ RIGHT = {
     "spot with a cutoff": eye(L + "uniform vec3 SpotDirection; uniform float SpotCutoff;\n", "LightPosition - P", "(dot(-l, normalize(SpotDirection)) > SpotCutoff ? 1.0 : 0.0)"),
     "spot with an exponent": eye(L + "uniform vec3 SpotDirection; uniform float SpotCutoff, SpotExponent;\n", "LightPosition - P",
                                  "(dot(-l, normalize(SpotDirection)) > SpotCutoff ? pow(dot(-l, normalize(SpotDirection)), SpotExponent) : 0.0)"),
+    "spot with an angle": eye("struct Spot { vec3 position, direction; float falloff, cutoff; };\nuniform Spot spot;\n", "spot.position - P",
+                              "(acos(dot(-l, normalize(spot.direction))) < radians(clamp(spot.cutoff, 0.0, 90.0)) ? pow(dot(-l, normalize(spot.direction)), spot.falloff) : 0.0)"),
     "fog": eye(L + "uniform vec3 FogColor; uniform float FogDensity;\n", "LightPosition - P", rest="c = mix(FogColor, c, exp(-FogDensity * -P.z));"),
     "two lights by hand": eye("uniform vec3 LightPosition, SecondPosition;\n", "LightPosition - P", rest="c += 0.4 * Kd * max(dot(n, normalize(SecondPosition - P)), 0.0);"),
     "functions": (EYE_VERT, EYE_HEAD + L + """float lambert(in vec3 n, in vec3 l) { return clamp(dot(n, l), 0.0, 1.0); }
@@ -155,6 +157,9 @@ void main() { vec3 n = normalize(N), l = normalize(LightPosition - P), v = norma
     "rim": eye(L, "LightPosition - P", rest="c += 0.3 * pow(1.0 - max(dot(n, v), 0.0), 3.0);"),
     "wrap": eye(L, "LightPosition - P", rest="c = Ka + Kd * (0.5 * dot(n, l) + 0.5);"),
     "hemisphere": eye("uniform vec3 LightPosition, Sky, Ground;\n", "LightPosition - P", rest="c += mix(Ground, Sky, 0.5 * dot(n, l) + 0.5);"),
+    "rim by a power": eye(L, "LightPosition - P", rest="c += pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 2.0) * Kd;"),
+    "fresnel": eye(L, "LightPosition - P", rest="c = Ka + Kd * d + Ks * s * (0.04 + 0.96 * pow(1.0 - max(dot(normalize(l + v), v), 0.0), 5.0));"),
+    "hemisphere in the code": eye(L, "LightPosition - P", rest="c += Kd * (dot(n, vec3(0.0, 1.0, 0.0)) * 0.5 + 0.5);"),
     "two-sided": eye(L, "LightPosition - P", rest="if (!gl_FrontFacing) { c = vec3(0.0); }"),
     "world phong": world(W, "lightPos - FragPos"),
     "world with strengths": world(W + "uniform float ambientStrenth, specularStrenth, glossiness;\n", "lightPos - FragPos", exponent="glossiness"),
@@ -245,8 +250,42 @@ WRONG = [
     ("world spot", {"reflect-sign", "eye-backwards"}, [("frag", "reflect(-lightDir, norm)", "reflect(lightDir, norm)")]),
     ("direction", {"normal-by-model-view"}, [("vert", "NormalMatrix * vertexNormal", "mat3(ModelViewMatrix) * vertexNormal")]),
     ("two lights by hand", {"normal-not-unit"}, [("frag", "n = normalize(N)", "n = N")]),
+    ("toon", {"normal-not-unit", "normal-never-unit"}, [("frag", "n = normalize(N)", "n = N")]),
+    ("toon", {"no-clamp"}, [("frag", "floor(d * 4.0)", "floor(dot(n, l) * 4.0)")]),
+    ("rim by a power", {"normal-by-model-view"}, [("vert", "NormalMatrix * vertexNormal", "mat3(ModelViewMatrix) * vertexNormal")]),
+    ("web", {"normal-by-model-view", "unit-too-early"}, [("vert", "mat3(u_worldInverseTranspose)", "mat3(u_world)"),
+                                                         ("vert", "u_lightWorldPosition - surface", "normalize(u_lightWorldPosition - surface)"),
+                                                         ("vert", "u_viewWorldPosition - surface", "normalize(u_viewWorldPosition - surface)")]),
     ("sun and lamp", {"reflect-sign", "eye-backwards"}, [("frag", "viewPos - FragPos", "FragPos - viewPos")]),
 ]
+
+# Right shaders that are no sums of an ambient, a diffuse and a specular term: the last statements of the eye-space shader above. They may have no
+# verdict, but never differ.
+STYLES = {
+    "gooch": "vec3 warm = Kd, cool = Ks; c = mix(cool, warm, 0.5 * (1.0 + dot(n, l)));",
+    "half lambert": "float h = dot(n, l) * 0.5 + 0.5; c = Ka + Kd * h * h;",
+    "wrap by an input": "c = Ka + Kd * max(0.0, (dot(n, l) + Shininess) / (1.0 + Shininess));",
+    "wrap that is not clamped": "c = Ka + Kd * (dot(n, l) * Shininess + (1.0 - Shininess));",
+    "soft border": "c = Ka + Kd * smoothstep(-0.2, 0.2, dot(n, l));",
+    "both sides": "c = Ka + Kd * floor(abs(dot(n, l)) * 4.0) / 4.0;",
+    "smooth rim": "c += smoothstep(0.6, 1.0, 1.0 - max(dot(v, n), 0.0)) * vec3(0.5);",
+    "outline": "if (dot(n, v) < 0.3) c = vec3(0.0);",
+    "ramp of branches": "float i = dot(n, l); c = i > 0.95 ? vec3(1.0, 0.5, 0.5) : i > 0.5 ? vec3(0.6, 0.3, 0.3) : vec3(0.2, 0.1, 0.1);",
+    "reinhard": "c = c / (c + vec3(1.0));",
+    "exposure": "c = vec3(1.0) - exp(-c * 1.5);",
+    "minnaert": "c = Ka + Kd * pow(max(d * max(dot(n, v), 0.0), 0.0), 0.7) * d;",
+    "schlick's lobe": "float x = max(dot(n, normalize(l + v)), 0.0); c = Ka + Kd * d + Ks * x / (8.0 - 7.0 * x);",
+    "gaussian lobe": "float x = acos(clamp(dot(n, normalize(l + v)), 0.0, 1.0)) / 0.3; c = Ka + Kd * d + Ks * exp(-x * x);",
+    "cook-torrance": "vec3 h = normalize(l + v); float nh = max(dot(n, h), 0.001), nv = max(dot(n, v), 0.001), vh = max(dot(v, h), 0.001);\n"
+                     "float g = min(1.0, min(2.0 * nh * nv / vh, 2.0 * nh * d / vh)), f = 0.04 + 0.96 * pow(1.0 - vh, 5.0);\n"
+                     "c = Ka + Kd * d + (d > 0.0 ? Ks * g * f * exp((nh * nh - 1.0) / (0.09 * nh * nh)) / (nh * nh * nh * nh * nv) : vec3(0.0));",
+    "light from behind": "c += pow(clamp(dot(v, -normalize(l + n * 0.3)), 0.0, 1.0), 4.0) * Kd;",
+    "scattering": "c += pow(clamp(dot(v, -l), 0.0, 1.0), 4.0) * Kd;",
+    "headlight": "c = Kd * floor(4.0 * max(dot(n, v), 0.0)) / 4.0;",
+    "turned to the eye": "vec3 m = faceforward(n, -v, n); c = Ka + Kd * max(dot(m, l), 0.0);",
+    "posterized": "c = floor(c * 5.0) / 5.0;",
+    "inverted": "c = 1.0 - c;",
+}
 
 FOREIGN = """augenPosition lichtPunkt farbe koerper glanz matriz vista proyeccion normales luz posicion kamera oeil modele brillo sombra couleur lumiere
 observador richtung ecke welt sicht objekt regard punto direccion intensidad fuerza radio anzahl grundlicht streuung spiegelung""".split()

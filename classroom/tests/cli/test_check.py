@@ -563,6 +563,56 @@ class Renamed(CheckTest):
         self.assertIn("lightPos (uniform): eye, because it is stated", " ".join(self.notes(report, "hint")))
         self.bad(1, "check", *words, "--role", "eye", says="NAME=ROLE", leaves=("s.frag", "s.vert"))
 
+    def test_row_vectors(self):
+        """Row vectors with the names of a contract of column vectors: the right shader passes, and the advice keeps the order."""
+        vert, frag = renamed.RIGHT["row vectors"]
+        (self.folder / "s.frag").write_text(frag)
+        for matrix, verdict, ids in (("transpose(inverse(model))", "passes", []), ("model", "differs", ["normal-by-model-view"])):
+            (self.folder / "s.vert").write_text(vert.replace("transpose(inverse(model))", matrix))
+            report = self.report_of("s.frag", "--vertex", "s.vert", code=6 if ids else 0)
+            self.assertEqual((report["verdict"], [m["id"] for m in report["mistakes"]]), (verdict, ids))
+        self.assertIn("normalize(aNormal * transpose(inverse(mat3(model))))", report["mistakes"][0]["write"])
+
+    def verdict_of(self, vert, frag):
+        (self.folder / "s.vert").write_text(vert)
+        (self.folder / "s.frag").write_text(frag)
+        done = self.run_program("check", "s.frag", "--vertex", "s.vert", "--json", "-s", 48)
+        report = json.loads(done.stdout)
+        return (report["verdict"], [m["id"] for m in report["mistakes"]]) if "verdict" in report else ("none", report["error"]["text"])
+
+    def test_styles(self):
+        """Right shaders with toon steps, rims, other lobes and tone curves pass or have no verdict."""
+        counts = collections.Counter()
+        for name, rest in list(renamed.STYLES.items())[::2 if EVERY > 10 else 1]:
+            verdict, detail = self.verdict_of(*renamed.eye(renamed.L, "LightPosition - P", rest=rest))
+            self.assertIn(verdict, ("passes", "none"), (name, detail))
+            counts[verdict] += 1
+        self.assertGreater(counts["passes"], counts["none"])
+
+    def test_moved_vertices(self):
+        """A shader that moves its vertices is judged without the movement: its mistakes are named, but it does not pass."""
+        vert, frag = renamed.RIGHT["eye phong"]
+        for head, point in (("uniform float height; in float much;", "vertexPosition + height * vertexNormal * much"), ("uniform float time;", "vertexPosition + vec3(0.0, time * time, 0.0)")):
+            moved = vert.replace("void main", head + "\nvoid main").replace("vec4(vertexPosition", "vec4(" + point)
+            self.assertIn("move the vertices", self.verdict_of(moved, frag)[1])
+            self.assertEqual(self.verdict_of(moved.replace("NormalMatrix * vertexNormal", "vertexNormal"), frag), ("differs", ["normal-object-space"]))
+
+    def test_integers(self):
+        """Lights with a kind: a branch that was not tried is no reason to pass, but a mistake in the other branch is named."""
+        vert, frag = renamed.RIGHT["world phong"]
+        frag = frag.replace("uniform vec3 lightPos;", "uniform vec3 lightPos;\nuniform int kind;").replace(
+            "toLight = lightPos - FragPos", "toLight = kind == 0 ? vec3(0.0) : kind == 1 ? lightPos - FragPos : vec3(0.0)")
+        self.assertIn("integers are 1", self.verdict_of(vert, frag)[1])
+        self.assertEqual(self.verdict_of(vert, frag.replace("viewPos - FragPos", "FragPos - viewPos")), ("differs", ["eye-backwards"]))
+
+    def test_highlights_times_the_diffuse_terms(self):
+        """The sum of all highlights, multiplied by the sum of the diffuse terms, and without a name of another course in the advice."""
+        vert, frag = renamed.RIGHT["eye array of positions"]
+        wrong = frag.replace("c = Ka;", "c = Ka, e = vec3(0.0), g = Kd;").replace("c += Kd * d", "e += d").replace("c += Ks", "g += Ks").replace(
+            "FragColor = vec4(c, 1.0)", "FragColor = vec4(c + e * g, 1.0)")
+        self.assertEqual(self.verdict_of(vert, wrong), ("differs", ["specular-times-n.l"]))
+        self.assertNotIn("uKs", self.run_program("check", "s.frag", "--vertex", "s.vert").stdout.decode())
+
     def test_recursion(self):
         """A function that calls itself, or is only declared, gets no verdict, also if the check evaluates the texts before a driver reads them."""
         vert, frag = renamed.rename(dict(zip(("vert", "frag"), renamed.RIGHT["prototypes"])), "letters", 1).values()

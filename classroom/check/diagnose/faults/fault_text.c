@@ -226,7 +226,8 @@ static void put_place(struct line *line, const char *place)
             bool wide = name && is_wide(line, places[i].semantic);
             bool extend = name && places[i].semantic == SEMANTIC_POSITION && !wide;
             bool cut = wide && (places[i].semantic == SEMANTIC_NORMAL || places[i].semantic == SEMANTIC_COLOR);
-            put(line, "%s%s%s", extend ? "vec4(" : "", name ? name : places[i].fallback,
+            const char *plain = term && line->interface->contract->any_strengths ? place : places[i].fallback;
+            put(line, "%s%s%s", extend ? "vec4(" : "", name ? name : plain,
                 extend ? ", 1.0)"
                 : cut  ? (places[i].semantic == SEMANTIC_COLOR ? ".rgb" : ".xyz")
                        : "");

@@ -40,6 +40,14 @@ char *strndup(const char *text, size_t size)
     return copy;
 }
 
+char *strcasestr(const char *text, const char *word)
+{
+    size_t size = strlen(word);
+    for (; *text && _strnicmp(text, word, size) != 0; text++)
+        ;
+    return *text || !size ? (char *)(uintptr_t)text : NULL;
+}
+
 char *strsep(char **text, const char *separators)
 {
     char *begin = *text;

@@ -3,14 +3,16 @@
 and the library lambent.dll with lambent.dll.a for linkers. The libraries inside are the same as in the module for the web (web/libraries.py) and in
 the
 static program (packaging/static.py), compiled from Debian's source packages."""
+import os
 import pathlib
 import shutil
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "web"))
+sys.path[:0] = [str(ROOT / "web"), str(ROOT / "scripts")]
 import libraries  # noqa: E402
+import project  # noqa: E402
 
 PREFIX = "x86_64-w64-mingw32-"
 COMPILER = PREFIX + "gcc-posix"
@@ -68,6 +70,7 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build-windows").resolve()
     if missing():
         sys.exit("windows: not installed: " + " ".join(missing()))
+    os.environ["SOURCE_DATE_EPOCH"] = str(project.time()) # the linker and strip store it
     made = build(folder)
     for name in ("lambent.exe", "src/lambent.dll"):
         target = folder / pathlib.Path(name).name

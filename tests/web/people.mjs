@@ -43,7 +43,7 @@ async function firstPicture() {
     await poster.decode();
     Object.assign(one.canvas, { width: 160, height: 100 });
     const rows = [poster, canvas].map((from) => {
-      const k = Math.min(160 / room.clientWidth, 100 / room.clientHeight), scale = from === poster ? Math.min(room.clientWidth / 800, room.clientHeight / 500) * k : (canvas.clientWidth / canvas.width) * k;
+      const k = Math.min(160 / room.clientWidth, 100 / room.clientHeight), scale = from === poster ? Math.min(room.clientWidth / poster.width, room.clientHeight / poster.height) * k : (canvas.clientWidth / canvas.width) * k;
       one.clearRect(0, 0, 160, 100);
       one.drawImage(from, 80 - (scale * from.width) / 2, 50 - (scale * from.height) / 2, scale * from.width, scale * from.height);
       return one.getImageData(0, 0, 160, 100).data;
